@@ -1,0 +1,54 @@
+"""Kinematics: joints, linkages, placements, their constraint rows and what follows from them."""
+
+from kinematics.frames import (
+    angle,
+    axes_frame,
+    cross_matrix,
+    rotation_y,
+    rotation_z,
+    tangent_rotation,
+)
+from kinematics.jacobians import Jacobians, jacobians
+from kinematics.joint import DIRECTIONS, JOINT_TYPES, Joint, State
+from kinematics.linkage import GROUND, Body, Linkage
+from kinematics.mechanism import Mechanism, Poses, drive_values, forward_kinematics
+from kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
+from kinematics.placement import Placement, check_coincidence
+from kinematics.rows import (
+    ConstraintRows,
+    body_references,
+    characteristic_length,
+    constraint_rows,
+)
+
+__all__ = [
+    "DIRECTIONS",
+    "GROUND",
+    "JOINT_TYPES",
+    "Body",
+    "ConstraintRows",
+    "FreeMotion",
+    "Jacobians",
+    "Joint",
+    "Linkage",
+    "Mechanism",
+    "Mobility",
+    "Placement",
+    "Poses",
+    "SelfStress",
+    "State",
+    "angle",
+    "axes_frame",
+    "body_references",
+    "characteristic_length",
+    "check_coincidence",
+    "constraint_rows",
+    "cross_matrix",
+    "drive_values",
+    "forward_kinematics",
+    "jacobians",
+    "mobility",
+    "rotation_y",
+    "rotation_z",
+    "tangent_rotation",
+]

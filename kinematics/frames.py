@@ -1,0 +1,134 @@
+"""Vectors, frames and poses; every function takes leading batch axes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+
+
+def cross_matrix(vector: ArrayLike) -> Array:
+    """Matrix [v]× with [v]× w = v × w, (..., 3) to (..., 3, 3)."""
+    v = np.asarray(vector)
+    matrix = np.zeros((*v.shape, 3), dtype=v.dtype if v.dtype.kind in "fc" else float)
+    matrix[..., 0, 1], matrix[..., 0, 2] = -v[..., 2], v[..., 1]
+    matrix[..., 1, 0], matrix[..., 1, 2] = v[..., 2], -v[..., 0]
+    matrix[..., 2, 0], matrix[..., 2, 1] = -v[..., 1], v[..., 0]
+    return matrix
+
+
+def angle(y: ArrayLike, x: ArrayLike) -> Array:
+    """Angle of the point (x, y), rad; for complex arguments the analytic continuation.
+
+    The imaginary part carries first derivatives, so that a complex step through inverse
+    kinematics is exact (Squire and Trapp 1998).
+    """
+    y, x = np.broadcast_arrays(y, x)
+    real = np.arctan2(y.real, x.real)
+    if not (np.iscomplexobj(x) or np.iscomplexobj(y)):
+        return np.asarray(real)
+    square = x.real**2 + y.real**2
+    return np.asarray(real + 1j * (x.real * y.imag - y.real * x.imag) / square)
+
+
+def rotation_z(turn: ArrayLike) -> Array:
+    """Rotation about z by `turn`, rad, (...) to (..., 3, 3)."""
+    t = np.asarray(turn)
+    zero, one = np.zeros_like(t), np.ones_like(t)
+    c, s = np.cos(t), np.sin(t)
+    return np.stack(
+        [
+            np.stack([c, -s, zero], -1),
+            np.stack([s, c, zero], -1),
+            np.stack([zero, zero, one], -1),
+        ],
+        -2,
+    )
+
+
+def rotation_y(turn: ArrayLike) -> Array:
+    """Rotation about y by `turn`, rad, (...) to (..., 3, 3)."""
+    t = np.asarray(turn)
+    zero, one = np.zeros_like(t), np.ones_like(t)
+    c, s = np.cos(t), np.sin(t)
+    return np.stack(
+        [
+            np.stack([c, zero, s], -1),
+            np.stack([zero, one, zero], -1),
+            np.stack([-s, zero, c], -1),
+        ],
+        -2,
+    )
+
+
+def axes_frame(axis: ArrayLike, second_axis: ArrayLike | None = None, part: str = "joint") -> Array:
+    """Joint axes as columns x, y, z.
+
+    z is `axis`; x is `second_axis` made perpendicular to it, or global x so made, or global y
+    where the axis is along x; y = z × x.
+
+    Parameters
+    ----------
+    axis : (..., 3)
+        Any length but zero.
+    second_axis : (..., 3), optional
+    part : str
+        Named in an error.
+
+    Returns
+    -------
+    frames : (..., 3, 3)
+
+    Raises
+    ------
+    ModelError
+        An axis of zero length, or a second axis along the first.
+    """
+    axis = np.asarray(axis)
+    axis = axis if axis.dtype.kind in "fc" else axis.astype(float)
+    length = np.sqrt((axis * axis).sum(-1, keepdims=True))
+    if np.any(np.abs(length) < 1e-300):
+        raise ModelError(part, "has an axis of zero length.", "Give the axis a direction.")
+    z = axis / length
+    if second_axis is None:
+        along_x = np.abs(z[..., :1]) > 1 - 1e-12
+        second = np.where(along_x, np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
+    else:
+        second = np.asarray(second_axis)
+    x = second - (second * z).sum(-1, keepdims=True) * z
+    length = np.sqrt((x * x).sum(-1, keepdims=True))
+    size = np.sqrt((np.abs(second) ** 2).sum(-1, keepdims=True))
+    if np.any(np.abs(length) <= 1e-9 * size):
+        raise ModelError(
+            part,
+            "has a second axis of zero length or along its axis.",
+            "Give a second axis that is not parallel to the axis.",
+        )
+    x = x / length
+    x, z = np.broadcast_arrays(x, z)
+    return np.stack([x, np.cross(z, x), z], axis=-1)
+
+
+def tangent_rotation(normal: ArrayLike, roll: ArrayLike) -> Array:
+    """Rotation R = Rz(α) Ry(β) Rz(γ) whose z axis is `normal` (Azulay 2014, section 2).
+
+    Parameters
+    ----------
+    normal : (..., 3)
+        Unit vector; α and β are its azimuth and its angle from z. At β = 0, α is zero.
+    roll : (...)
+        The Euler angle γ, rad, the roll about the normal.
+
+    Returns
+    -------
+    rotation : (..., 3, 3)
+    """
+    n = np.asarray(normal, dtype=float)
+    alpha = np.arctan2(n[..., 1], n[..., 0])
+    beta = np.arctan2(np.hypot(n[..., 0], n[..., 1]), n[..., 2])
+    return np.asarray(rotation_z(alpha) @ rotation_y(beta) @ rotation_z(roll))

@@ -1,0 +1,172 @@
+"""Joints: six directions, each free, locked, elastic or driven."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from math import isfinite
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError
+
+DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
+
+#: Locked directions by joint type, in joint axes: z is the axis, y = z × x.
+JOINT_TYPES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "fixed": DIRECTIONS,
+        "revolute": ("x", "y", "z", "rx", "ry"),
+        "prismatic": ("x", "y", "rx", "ry", "rz"),
+        "cylindrical": ("x", "y", "rx", "ry"),
+        "universal": ("x", "y", "z", "ry"),
+        "spherical": ("x", "y", "z"),
+        "planar": ("z", "rx", "ry"),
+        "bushing": (),
+        "support": (),
+    }
+)
+
+
+class State(IntEnum):
+    """What a joint direction does in statics, where driven directions are held."""
+
+    FREE = 0
+    LOCKED = 1
+    ELASTIC = 2
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint between two coincident nodes.
+
+    Parameters
+    ----------
+    name : str
+        Unique within its linkage.
+    type : str
+        A key of `JOINT_TYPES`; "support" locks just the directions of `locks`.
+    between : (str, str)
+        The two nodes; relative motion is that of the second against the first.
+    stiffness : mapping of direction to float
+        Directions made elastic, N/m or N·m/rad.
+    damping : mapping of direction to float
+        Viscous damping, N·s/m or N·m·s/rad.
+    driven : tuple of directions
+        Actuated directions: free for kinematics; held in statics, or elastic where
+        `stiffness` names them.
+    limits : mapping of direction to (low, high)
+        Range of the joint coordinate, m or rad.
+    matrix : (6, 6) nested tuples or None
+        A bushing's full symmetric stiffness in joint axes.
+    locks : tuple of directions
+        Locked directions in addition to those of the type.
+
+    Raises
+    ------
+    ModelError
+        An unknown type or direction, a negative stiffness, an asymmetric matrix.
+    """
+
+    name: str
+    type: str
+    between: tuple[str, str]
+    stiffness: Mapping[str, float] = field(default_factory=dict)
+    damping: Mapping[str, float] = field(default_factory=dict)
+    driven: tuple[str, ...] = ()
+    limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    matrix: tuple[tuple[float, ...], ...] | None = None
+    locks: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        part = f"joint {self.name}"
+        if self.type not in JOINT_TYPES:
+            raise ModelError(
+                part, f'unknown type "{self.type}".', "Choose one of: " + ", ".join(JOINT_TYPES)
+            )
+        if self.between[0] == self.between[1]:
+            raise ModelError(
+                part,
+                f'joins node "{self.between[0]}" to itself.',
+                "Give the joint two nodes at the same place, one of each side.",
+            )
+        for what, named in (
+            ("stiffness", self.stiffness),
+            ("damping", self.damping),
+            ("driven", self.driven),
+            ("limits", self.limits),
+            ("locks", self.locks),
+        ):
+            for direction in named:
+                if direction not in DIRECTIONS:
+                    raise ModelError(
+                        part,
+                        f'{what} names the unknown direction "{direction}".',
+                        "Directions are " + ", ".join(DIRECTIONS) + ".",
+                    )
+        for what, values in (("stiffness", self.stiffness), ("damping", self.damping)):
+            for direction, value in values.items():
+                if not isfinite(value) or value < 0 or (what == "stiffness" and value == 0):
+                    raise ModelError(
+                        part,
+                        f"{what} in {direction} is {value!r}.",
+                        "Give a positive finite number; leave the direction out to make it "
+                        "locked or free as the type says.",
+                    )
+        if self.matrix is not None:
+            _check_matrix(part, np.asarray(self.matrix, dtype=float))
+            if self.type != "bushing":
+                raise ModelError(
+                    part,
+                    f"a {self.type} joint cannot have a matrix.",
+                    'Use type = "bushing", or name elastic directions in stiffness.',
+                )
+            if self.stiffness:
+                raise ModelError(part, "has both matrix and stiffness.", "Keep one of the two.")
+        if self.type == "bushing" and self.matrix is None and not self.stiffness:
+            raise ModelError(
+                part, "a bushing without matrix or stiffness.", "Give it one of the two."
+            )
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        """State of each of the six directions in statics (driven directions are held)."""
+        locked = {*JOINT_TYPES[self.type], *self.locks, *self.driven} - set(self.stiffness)
+        elastic = set(self.stiffness) if self.matrix is None else set(DIRECTIONS)
+        return tuple(
+            State.ELASTIC if d in elastic else State.LOCKED if d in locked else State.FREE
+            for d in DIRECTIONS
+        )
+
+    @property
+    def stiffness_matrix(self) -> NDArray[np.float64]:
+        """Stiffness of the elastic directions in joint axes, (6, 6); zero elsewhere."""
+        if self.matrix is not None:
+            return np.asarray(self.matrix, dtype=float)
+        return np.diag([float(self.stiffness.get(d, 0.0)) for d in DIRECTIONS])
+
+
+def _check_matrix(part: str, matrix: NDArray[np.float64]) -> None:
+    if matrix.shape != (6, 6) or not np.all(np.isfinite(matrix)):
+        raise ModelError(part, "matrix is not 6 x 6 finite numbers.", "Give six rows of six.")
+    gap = np.abs(matrix - matrix.T)
+    if gap.max() > 1e-9 * np.abs(matrix).max():
+        i, j = np.unravel_index(int(gap.argmax()), gap.shape)
+        raise ModelError(
+            part,
+            f"matrix is not symmetric: entry ({DIRECTIONS[i]}, {DIRECTIONS[j]}) is "
+            f"{matrix[i, j]:g}, its mirror {matrix[j, i]:g}.",
+            "A stiffness matrix is symmetric; check the order x y z rx ry rz.",
+        )
+    # translations in N/m and rotations in N m/rad differ by a length squared: scale before judging
+    scale = np.sqrt(np.abs(np.diag(matrix)))
+    scale[scale == 0] = 1.0
+    if np.linalg.eigvalsh(matrix / np.outer(scale, scale)).min() < -1e-9:
+        raise ModelError(
+            part,
+            "matrix has a negative eigenvalue: it would give energy away.",
+            "Check signs and the order x y z rx ry rz.",
+        )

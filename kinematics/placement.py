@@ -1,0 +1,125 @@
+"""Placements: where a linkage stands, for a batch of poses."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics.linkage import Linkage
+from strutwork.errors import ModelError, UnreachableError
+
+#: Nodes of a joint must coincide to this many metres.
+COINCIDENCE = 1e-9
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Node positions and joint frames of a linkage at a batch of poses.
+
+    Parameters
+    ----------
+    positions : (..., n, 3)
+        Node positions, m, in the order of `Linkage.nodes`.
+    frames : (..., j, 3, 3)
+        Joint axes as columns x, y, z, in the order of `Linkage.joints`.
+    values : (..., m)
+        Joint coordinates, m or rad, in the order of `names`.
+    names : tuple of (joint, direction)
+        What each entry of `values` measures.
+    status : (...) of int
+        0 where the pose is good, else 1 + index into `reasons`.
+    reasons : tuple of str
+        Why a pose is not good.
+    """
+
+    positions: NDArray[Any]
+    frames: NDArray[Any]
+    values: NDArray[Any]
+    names: tuple[tuple[str, str], ...] = ()
+    status: NDArray[np.int8] | None = None
+    reasons: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.status is None:
+            object.__setattr__(self, "status", np.zeros(self.positions.shape[:-2], dtype=np.int8))
+
+    def __repr__(self) -> str:
+        good = int(np.count_nonzero(self.reachable))
+        return f"<Placement: {self.reachable.size} poses, {good} reachable, positions in m>"
+
+    @property
+    def batch(self) -> tuple[int, ...]:
+        """Shape of the batch of poses."""
+        return tuple(self.positions.shape[:-2])
+
+    @property
+    def reachable(self) -> NDArray[np.bool_]:
+        """True where the pose is good, (...)."""
+        return np.asarray(np.asarray(self.status) == 0)
+
+    def reason(self, index: int | tuple[int, ...]) -> str:
+        """Why the pose at `index` is not good; empty where it is."""
+        code = int(np.asarray(self.status)[index])
+        return self.reasons[code - 1] if code else ""
+
+    def require_reachable(self) -> Placement:
+        """Return the placement itself when every pose is good.
+
+        Raises
+        ------
+        UnreachableError
+            Names the first pose that is not, with the reason.
+        """
+        bad = np.argwhere(~self.reachable)
+        if len(bad):
+            first = tuple(int(i) for i in bad[0])
+            raise UnreachableError(
+                f"pose {first[0] if len(first) == 1 else first}",
+                f"cannot be taken: {self.reason(first)} "
+                f"({len(bad)} of {self.reachable.size} poses are like it).",
+                "Move the pose into the workspace, or use `reachable` to leave such poses out.",
+            )
+        return self
+
+    def __getitem__(self, index: Any) -> Placement:
+        """The poses selected by `index` on the batch axes."""
+        return replace(
+            self,
+            positions=self.positions[index],
+            frames=self.frames[index],
+            values=self.values[index],
+            status=np.asarray(self.status)[index],
+        )
+
+
+def check_coincidence(linkage: Linkage, placement: Placement) -> None:
+    """Check that the two nodes of every joint stand at the same place.
+
+    Raises
+    ------
+    ModelError
+        Names the joint, its nodes, their distance and the pose.
+    """
+    if not linkage.joints:
+        return
+    first = [linkage.node_index[j.between[0]] for j in linkage.joints]
+    second = [linkage.node_index[j.between[1]] for j in linkage.joints]
+    positions = placement.positions
+    gap = np.linalg.norm(positions[..., second, :] - positions[..., first, :], axis=-1)
+    gap = np.where(placement.reachable[..., None], gap, 0.0)
+    # a machine of 100 m cannot meet 1e-9 m in double precision: allow its rounding
+    allowed = COINCIDENCE + 1e-14 * np.abs(positions).max(initial=0.0)
+    if gap.size and gap.max() > allowed:
+        *pose, j = (int(i) for i in np.unravel_index(int(gap.argmax()), gap.shape))
+        joint = linkage.joints[j]
+        where = f" at pose {pose[0] if len(pose) == 1 else tuple(pose)}" if pose else ""
+        raise ModelError(
+            f"joint {joint.name}",
+            f'{joint.type} joint between "{joint.between[0]}" and "{joint.between[1]}": the two '
+            f"nodes are {gap.max():.3g} m apart{where}.",
+            f"A joint's nodes must coincide (tolerance {COINCIDENCE:g} m). Correct the "
+            "coordinates, or put a rigid body between the nodes.",
+        )

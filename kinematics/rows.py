@@ -1,0 +1,148 @@
+"""Constraint rows: the one object from which everything about a machine follows.
+
+Every direction of a joint that is not free is one row: it relates the twists of the two nodes
+the joint joins. Mobility, Jacobians, the saddle-point system of the matrix structural analysis
+and its multipliers, all read the rows made here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics.joint import DIRECTIONS
+from kinematics.linkage import Linkage
+from kinematics.placement import Placement
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class ConstraintRows:
+    """Rows e·(q₂ − q₁), one for each selected joint direction.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    placement : Placement
+    joint : (r,)
+        Index of the joint that owns each row.
+    direction : (r,)
+        Index into `DIRECTIONS`.
+    axes : (..., r, 6)
+        The direction e in global axes, translation then rotation: (a, 0) or (0, a).
+    """
+
+    linkage: Linkage
+    placement: Placement
+    joint: NDArray[np.intp]
+    direction: NDArray[np.intp]
+    axes: Array
+
+    def __repr__(self) -> str:
+        return f"<ConstraintRows: {len(self.joint)} rows, batch {self.placement.batch}>"
+
+    def __len__(self) -> int:
+        return len(self.joint)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Name of each row, `joint:direction`."""
+        return tuple(
+            f"{self.linkage.joints[j].name}:{DIRECTIONS[d]}"
+            for j, d in zip(self.joint, self.direction, strict=True)
+        )
+
+    @property
+    def nodes(self) -> NDArray[np.intp]:
+        """Indices of the first and second node of each row, (r, 2)."""
+        index = self.linkage.node_index
+        pairs = [[index[n] for n in self.linkage.joints[j].between] for j in self.joint]
+        return np.asarray(pairs, dtype=np.intp).reshape(-1, 2)
+
+    def on_bodies(self, references: Array | None = None) -> Array:
+        """Rows on the twists of the moving bodies, each about its reference point.
+
+        Parameters
+        ----------
+        references : (..., b, 3), optional
+            Default: `body_references`.
+
+        Returns
+        -------
+        rows : (..., r, 6 b)
+        """
+        linkage, positions = self.linkage, self.placement.positions
+        if references is None:
+            references = body_references(linkage, self.placement)
+        bodies = len(linkage.body_names)
+        rows = np.zeros((*self.axes.shape[:-1], 6 * bodies), dtype=self.axes.dtype)
+        owner = linkage.body_of_node
+        for r, pair in enumerate(self.nodes):
+            for node, sign in zip(pair, (-1.0, 1.0), strict=True):
+                body = owner[node]
+                if body < 0:
+                    continue
+                e = self.axes[..., r, :]
+                arm = positions[..., node, :] - references[..., body, :]
+                rows[..., r, 6 * body : 6 * body + 3] += sign * e[..., :3]
+                rows[..., r, 6 * body + 3 : 6 * body + 6] += sign * (
+                    np.cross(arm, e[..., :3]) + e[..., 3:]
+                )
+        return rows
+
+
+def constraint_rows(
+    linkage: Linkage, placement: Placement, select: NDArray[np.bool_] | None = None
+) -> ConstraintRows:
+    """Rows of the selected joint directions at a batch of poses.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    placement : Placement
+    select : (j, 6) of bool, optional
+        Which joint directions make a row. Default: all that are not free in statics.
+
+    Returns
+    -------
+    ConstraintRows
+    """
+    if select is None:
+        select = linkage.elastic_or_locked()
+    joint, direction = np.nonzero(select)
+    frames = placement.frames
+    axes = np.zeros((*placement.batch, len(joint), 6), dtype=frames.dtype)
+    for r, (j, d) in enumerate(zip(joint, direction, strict=True)):
+        axes[..., r, 3 * (d // 3) : 3 * (d // 3) + 3] = frames[..., j, :, d % 3]
+    return ConstraintRows(linkage, placement, joint, direction, axes)
+
+
+def body_references(linkage: Linkage, placement: Placement) -> Array:
+    """Reference point of every moving body: the tool on its body, else the body's first node.
+
+    Returns
+    -------
+    points : (..., b, 3)
+    """
+    owner = linkage.body_of_node
+    first = [int(np.flatnonzero(owner == b)[0]) for b in range(len(linkage.body_names))]
+    if linkage.tool is not None:
+        tool = linkage.node_index[linkage.tool]
+        if owner[tool] >= 0:
+            first[owner[tool]] = tool
+    return placement.positions[..., first, :]
+
+
+def characteristic_length(placement: Placement) -> float:
+    """Length that makes rotations comparable with translations, m: the machine's half extent."""
+    points = placement.positions.real
+    good = points[placement.reachable]
+    if good.size == 0:
+        return 1.0
+    span = (good.max(axis=-2) - good.min(axis=-2)).max(axis=-1)
+    size = float(np.median(span)) / 2
+    return size if size > 0 else 1.0

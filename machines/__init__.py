@@ -1,0 +1,32 @@
+"""Machines of the literature: dimensions, kinematics, structures and published values."""
+
+from machines.alizade_3prps import Alizade3PRPS
+from machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
+from machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
+from machines.eclipse_3pprs import Eclipse3PPRS
+from machines.glozman_3prrs import Glozman3PRRS
+from machines.limits import Limit, check_limits, joint_limits
+from machines.proposed_3pprs import Proposed3PPRS
+from machines.published import Paper, PublishedTable, PublishedValue
+from machines.three_legs import ThreeLegs
+
+__all__ = [
+    "CATALOGUE",
+    "Alizade3PRPS",
+    "CatalogueEntry",
+    "Eclipse3PPRS",
+    "Glozman3PRRS",
+    "Limit",
+    "Machine",
+    "Paper",
+    "Proposed3PPRS",
+    "PublishedTable",
+    "PublishedValue",
+    "ThreeLegs",
+    "check_limits",
+    "get",
+    "hemisphere_normals",
+    "hemisphere_poses",
+    "joint_limits",
+    "roll_angles",
+]

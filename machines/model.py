@@ -1,0 +1,92 @@
+"""A structure read from a model file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from kinematics import Placement
+from msa import LoadCase, PlacedStructure, Structure
+from strutwork.errors import ModelError
+
+
+class ModelWarning(UserWarning):
+    """Something in a model file that is probably a mistake and yet can be computed."""
+
+
+@dataclass(frozen=True)
+class Damping:
+    """Damping of a whole structure; one of the three is not None.
+
+    Parameters
+    ----------
+    modal_ratio : float or None
+        Viscous ratio ζ of every mode.
+    loss_factor : float or None
+        Structural loss factor η; at resonance η = 2 ζ.
+    rayleigh : (float, float) or None
+        α in 1/s and β in s of C = α M + β K.
+    """
+
+    modal_ratio: float | None = None
+    loss_factor: float | None = None
+    rayleigh: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class Model:
+    """A structure in one configuration, with its load cases.
+
+    Parameters
+    ----------
+    title : str
+    structure : Structure
+        Its linkage has, beside the nodes and joints of the file, one ground node and one joint
+        for every supported node.
+    placement : Placement
+        One pose, no batch axes.
+    cases : tuple of LoadCase
+        In the order in which the file names them; gravity first.
+    nodes : tuple of str
+        The nodes of the file.
+    joints : tuple of str
+        The joints of the file.
+    supports : mapping of node to joint name
+        The joint that holds each supported node to the ground.
+    damping : Damping or None
+    """
+
+    title: str
+    structure: Structure
+    placement: Placement
+    cases: tuple[LoadCase, ...]
+    nodes: tuple[str, ...]
+    joints: tuple[str, ...]
+    supports: Mapping[str, str]
+    damping: Damping | None = None
+
+    def __repr__(self) -> str:
+        return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"
+
+    @property
+    def tool(self) -> str | None:
+        """Node of the tool centre point."""
+        return self.structure.linkage.tool
+
+    def require_tool(self) -> str:
+        """Node of the tool centre point.
+
+        Raises
+        ------
+        ModelError
+            The file has no [tool].
+        """
+        if self.tool is None:
+            raise ModelError("tool", "is missing.", 'Add a table [tool] with tcp = "NODE".')
+        return self.tool
+
+    @cached_property
+    def placed(self) -> PlacedStructure:
+        """The structure at its placement."""
+        return self.structure.at(self.placement)

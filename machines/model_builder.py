@@ -1,0 +1,271 @@
+"""From the tables of a model file to a structure, its placement and its load cases."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+
+from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from machines.model import Damping, Model
+from machines.model_cases import load_cases
+from machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
+from machines.model_schema import ModelTable
+from msa import Beam, Structure
+from strutwork.errors import ModelError
+
+#: Bounds that keep a file from asking for more memory than any machine has.
+MAX_MESH_NODES = 20_000
+MAX_JOINTS = 1_000
+
+
+def build_model(tables: ModelTable) -> Model:
+    """Build the structure that the tables describe.
+
+    Rigid bodies and beams that share nodes are one body of the linkage. A supported node is
+    joined to a ground node of its own, at the same place, by a joint in global axes.
+
+    Parameters
+    ----------
+    tables : ModelTable
+
+    Returns
+    -------
+    Model
+
+    Raises
+    ------
+    ModelError
+        Names the part that is wrong.
+    """
+    _check_size(tables)
+    _check_names(tables)
+    _check_nodes(tables)
+    joints = tuple(joint_of(table) for table in tables.joints)
+    supports = _supports(tables)
+    nodes = tuple(tables.nodes)
+    grounds = tuple(joint.between[0] for joint in supports.values())
+    beams = beams_of(tables)
+    bodies, rigid = _bodies(tables, beams)
+    if grounds:
+        bodies = (*bodies, Body(GROUND, grounds))
+    linkage = Linkage(
+        nodes=(*nodes, *grounds),
+        bodies=bodies,
+        joints=(*joints, *supports.values()),
+        tool=None if tables.tool is None else tables.tool.tcp,
+    )
+    structure = Structure(linkage, beams, springs_of(tables), rigid, masses_of(tables))
+    positions = [tables.nodes[n] for n in (*nodes, *supports)]
+    frames = [
+        *(axes_frame(t.axis, t.second_axis, f"joint {t.name}") for t in tables.joints),
+        *(np.eye(3) for _ in supports),
+    ]
+    placement = Placement(
+        np.array(positions, dtype=float).reshape(-1, 3),
+        np.array(frames, dtype=float).reshape(-1, 3, 3),
+        np.zeros(0),
+    )
+    model = Model(
+        title=tables.title,
+        structure=structure,
+        placement=placement,
+        cases=load_cases(tables, joints, supports),
+        nodes=nodes,
+        joints=tuple(joint.name for joint in joints),
+        supports={node: joint.name for node, joint in supports.items()},
+        damping=_damping(tables),
+    )
+    # coincidence of joint nodes, lengths and orientations of beams: now, not at the first solve
+    _ = model.placed
+    return model
+
+
+def _check_size(tables: ModelTable) -> None:
+    mesh = len(tables.nodes) + sum(beam.elements - 1 for beam in tables.beams)
+    if mesh > MAX_MESH_NODES:
+        raise ModelError(
+            "model",
+            f"has {mesh} nodes, those inside divided beams counted; at most {MAX_MESH_NODES} are "
+            "taken.",
+            "Divide beams into fewer elements.",
+        )
+    count = len(tables.joints) + len(tables.supports)
+    if count > MAX_JOINTS:
+        raise ModelError(
+            "model",
+            f"has {count} joints and supports; at most {MAX_JOINTS} are taken.",
+            "Split it.",
+        )
+
+
+def _check_names(tables: ModelTable) -> None:
+    """Names of one table are unique, and none collides with a name made here."""
+    for kind, names in (
+        ("beam", [t.name for t in tables.beams]),
+        ("body", [t.name for t in tables.bodies]),
+        ("joint", [t.name for t in tables.joints]),
+        ("spring", [t.name for t in tables.springs if t.name is not None]),
+    ):
+        repeated = [name for name, count in Counter(names).items() if count > 1]
+        if repeated:
+            raise ModelError(
+                f"{kind} {repeated[0]}", "is defined twice.", f"Give every {kind} its own name."
+            )
+    supports = {support_name(t.node) for t in tables.supports}
+    for joint in tables.joints:
+        if joint.name in supports:
+            raise ModelError(
+                f"joint {joint.name}", "has the name of a support's joint.", "Rename the joint."
+            )
+    inner = {f"{b.name}/{i}" for b in tables.beams for i in range(1, b.elements)}
+    made = inner | {ground_name(t.node) for t in tables.supports}
+    for node in tables.nodes:
+        if node in made:
+            raise ModelError(
+                f"node {node}",
+                "has the name of a node inside a divided beam or on the ground.",
+                "Rename the node.",
+            )
+
+
+def _check_nodes(tables: ModelTable) -> None:
+    """Every node that is named exists, and every node that exists is held by something."""
+    connecting: list[tuple[str, Sequence[str]]] = [
+        *((f"beam {t.name}", (t.from_, t.to)) for t in tables.beams),
+        *((f"body {t.name}", t.nodes) for t in tables.bodies),
+        *((f"joint {t.name}", t.between) for t in tables.joints),
+        *(
+            (f"springs[{i}]", (*(t.between or ()), *((t.node,) if t.node else ())))
+            for i, t in enumerate(tables.springs)
+        ),
+        *((f"support of node {t.node}", (t.node,)) for t in tables.supports),
+    ]
+    others: list[tuple[str, Sequence[str]]] = [
+        *((f"masses[{i}]", (t.node,)) for i, t in enumerate(tables.masses)),
+        *((f"loads[{i}]", (t.node,)) for i, t in enumerate(tables.loads)),
+        *((f"settlements[{i}]", (t.node,)) for i, t in enumerate(tables.settlements)),
+        *(() if tables.tool is None else (("tool", (tables.tool.tcp,)),)),
+    ]
+    for part, nodes in (*connecting, *others):
+        for node in nodes:
+            if node not in tables.nodes:
+                raise unknown(part, "node", node, tables.nodes)
+    held = {node for _, nodes in connecting for node in nodes}
+    for node in tables.nodes:
+        if node not in held:
+            raise ModelError(
+                f"node {node}",
+                "is disconnected: no beam, body, joint, spring or support has it.",
+                "Connect it, or remove it.",
+            )
+
+
+def _bodies(tables: ModelTable, beams: Sequence[Beam]) -> tuple[tuple[Body, ...], tuple[Body, ...]]:
+    """Bodies of the linkage, and the rigid groups inside those that bend."""
+    owner: dict[str, str] = {}
+    for table in tables.bodies:
+        if len(set(table.nodes)) < 2:
+            raise ModelError(
+                f"body {table.name}",
+                f"has {len(set(table.nodes))} node{'s' if not table.nodes else ''}.",
+                "Give it two nodes at least; a single node needs no body.",
+            )
+        for node in table.nodes:
+            if node in owner:
+                where = f'"{owner[node]}" and "{table.name}"'
+                twice = owner[node] == table.name
+                raise ModelError(
+                    f"node {node}",
+                    f'stands twice in body "{table.name}".'
+                    if twice
+                    else f"is in two rigid bodies, {where}.",
+                    "Name it once." if twice else "Merge the bodies into one.",
+                )
+            owner[node] = table.name
+    groups = [
+        *((t.name, t.nodes) for t in tables.bodies),
+        *((b.name, b.nodes) for b in beams),
+    ]
+    piece = {node: node for node in tables.nodes}
+
+    def root(node: str) -> str:
+        while piece[node] != node:
+            piece[node] = piece[piece[node]]
+            node = piece[node]
+        return node
+
+    for _, members in groups:
+        for node in members[1:]:
+            piece[root(node)] = root(members[0])
+    parts: dict[str, list[str]] = {}
+    for name, members in groups:
+        parts.setdefault(root(members[0]), []).append(name)
+    nodes: dict[str, list[str]] = {}
+    for node in tables.nodes:
+        nodes.setdefault(root(node), []).append(node)
+    taken = {GROUND}
+    bodies = []
+    for key, names in parts.items():
+        name = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more"
+        while name in taken:
+            name += "'"
+        taken.add(name)
+        bodies.append(Body(name, tuple(nodes[key])))
+    bending = {root(beam.nodes[0]) for beam in beams}
+    rigid = tuple(Body(t.name, t.nodes) for t in tables.bodies if root(t.nodes[0]) in bending)
+    return tuple(bodies), rigid
+
+
+def support_name(node: str) -> str:
+    """Name of the joint that supports a node."""
+    return f"support {node}"
+
+
+def ground_name(node: str) -> str:
+    """Name of the ground node under a supported node."""
+    return f"{node} (ground)"
+
+
+def _supports(tables: ModelTable) -> dict[str, Joint]:
+    """The joint that holds each supported node, several tables of one node merged."""
+    fixed: dict[str, list[str]] = {}
+    for table in tables.supports:
+        if not table.fixed:
+            raise ModelError(
+                f"support of node {table.node}", "fixes no direction.", 'Name some, or say "all".'
+            )
+        for direction in table.fixed:
+            if direction in fixed.setdefault(table.node, []):
+                raise ModelError(
+                    f"support of node {table.node}",
+                    f"fixes {direction} twice: supports in conflict.",
+                    "Fix each direction of a node once.",
+                )
+            fixed[table.node].append(direction)
+    return {
+        node: Joint(
+            support_name(node),
+            "support",
+            (ground_name(node), node),
+            locks=tuple(d for d in DIRECTIONS if d in held),
+        )
+        for node, held in fixed.items()
+    }
+
+
+def _damping(tables: ModelTable) -> Damping | None:
+    table = tables.damping
+    if table is None:
+        return None
+    given = [name for name in type(table).model_fields if getattr(table, name) is not None]
+    if len(given) != 1:
+        found = " and ".join(given) if given else "nothing"
+        raise ModelError(
+            "damping",
+            f"has {found}.",
+            "Give exactly one of modal_ratio, loss_factor and rayleigh.",
+        )
+    rayleigh = None if table.rayleigh is None else (table.rayleigh.alpha, table.rayleigh.beta)
+    return Damping(table.modal_ratio, table.loss_factor, rayleigh)

@@ -1,0 +1,118 @@
+"""Messages for what is wrong in a model file."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING, Any, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from machines.model_schema import ModelTable
+from strutwork.errors import ModelError, UnitError
+from strutwork.units import shown
+
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
+
+_LISTED = 10
+
+
+def model_error(error: ValidationError, data: dict[str, Any], source: str) -> ModelError:
+    """Turn what pydantic found into one error that names the fields.
+
+    Parameters
+    ----------
+    error : ValidationError
+    data : dict
+        The content that was validated; gives the names of list entries.
+    source : str
+        The file, named when there are several problems.
+
+    Returns
+    -------
+    ModelError
+        A UnitError when only quantities are wrong.
+    """
+    found = [
+        _problem(details, data) for details in error.errors(include_url=False, include_input=True)
+    ]
+    if len(found) == 1:
+        kind, field, problem, remedy = found[0]
+        return kind(field, problem, remedy)
+    lines = [f"  {field}: {problem} {remedy}" for _, field, problem, remedy in found[:_LISTED]]
+    if len(found) > _LISTED:
+        lines.append(f"  and {len(found) - _LISTED} more")
+    kind = UnitError if all(item[0] is UnitError for item in found) else ModelError
+    return kind(source, f"has {len(found)} problems:\n" + "\n".join(lines))
+
+
+def _problem(details: ErrorDetails, data: dict[str, Any]) -> tuple[type[ModelError], str, str, str]:
+    kind, context, found = details["type"], details.get("ctx", {}), details["input"]
+    loc = tuple(details["loc"])
+    field = _path(loc, data)
+    problem, remedy = f"{shown(found)} is wrong.", f"{details['msg']}."
+    match kind:
+        case "unit" | "range":
+            problem, remedy = context["problem"], context["remedy"]
+        case "missing":
+            problem, remedy = "is missing.", "Add it."
+        case "extra_forbidden":
+            problem, remedy = "is not a known key.", _nearest(loc)
+        case "tuple_type" | "list_type":
+            problem = f"is {shown(found)} where a list is expected."
+            remedy = "Write it in brackets [ ]."
+            if len(loc) == 1:
+                remedy = f"Write [[{loc[0]}]] with two brackets."
+        case "dict_type" | "model_type" | "model_attributes_type":
+            problem = f"is {shown(found)} where a table is expected."
+            remedy = "Write key = value within it."
+            if len(loc) == 1:
+                remedy = f"Write [{loc[0]}] with one bracket."
+        case "too_long" | "too_short":
+            problem, remedy = f"{details['msg']}.", "Give as many entries as expected."
+        case "literal_error" | "union_tag_invalid":
+            choices = context.get("expected") or context.get("expected_tags")
+            wrong = found if kind == "literal_error" else context["tag"]
+            problem, remedy = f"{shown(wrong)} is not known.", f"Choose one of: {choices}."
+        case "union_tag_not_found":
+            field, problem = f"{field}.shape", "is missing."
+            remedy = "Name the shape of the section."
+    return (UnitError if kind == "unit" else ModelError), field, problem, remedy
+
+
+def _path(loc: tuple[int | str, ...], data: dict[str, Any]) -> str:
+    """Dotted path of a field; entries of lists go by their name where they have one."""
+    path = ""
+    at: Any = data
+    for step in loc:
+        if isinstance(step, int):
+            at = at[step] if isinstance(at, list) and step < len(at) else None
+            name = at.get("name") if isinstance(at, dict) else None
+            path += f".{name}" if isinstance(name, str) and name else f"[{step}]"
+            continue
+        # pydantic puts the word [key] and the shape of a section into its path
+        is_shape = isinstance(at, dict) and at.get("shape") == step and step not in at
+        if step == "[key]" or is_shape:
+            continue
+        path += f".{step}" if path else step
+        at = at.get(step) if isinstance(at, dict) else None
+    return path
+
+
+def _nearest(loc: tuple[int | str, ...]) -> str:
+    """Remedy for an unknown key: the nearest key that its table knows."""
+    top = ModelTable.model_fields
+    known = list(top) if len(loc) == 1 else sorted(_keys(top[str(loc[0])].annotation))
+    close = difflib.get_close_matches(str(loc[-1]), known, 1)
+    if close:
+        return f'Did you mean "{close[0]}"?'
+    return "Remove it, or check its spelling in docs/model-file.md."
+
+
+def _keys(annotation: Any) -> set[str]:
+    """Keys of every table within a type."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        fields = annotation.model_fields
+        found = {field.alias or name for name, field in fields.items()}
+        return found.union(*(_keys(field.annotation) for field in fields.values()))
+    return set().union(*(_keys(part) for part in get_args(annotation)))

@@ -1,0 +1,94 @@
+"""Reading a model file: from a path to a structure in one configuration."""
+
+from __future__ import annotations
+
+import stat
+import tomllib
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from machines.model import Model
+from machines.model_builder import build_model
+from machines.model_errors import model_error
+from machines.model_schema import ModelTable
+from strutwork.errors import ModelError
+
+#: A larger file is no description of a structure that a person wrote, bytes.
+MAX_BYTES = 10_000_000
+
+
+def read_model(path: str | Path) -> Model:
+    """Read a model file.
+
+    Parameters
+    ----------
+    path : str or Path
+        A TOML file in UTF-8, 10 MB at most; its tables are those of docs/model-file.md.
+
+    Returns
+    -------
+    Model
+        The structure, its placement (one pose, no batch axes) and its load cases.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, or its content is wrong; names the field or the part.
+    UnitError
+        A quantity of another dimension than its field.
+
+    Warns
+    -----
+    ModelWarning
+        poissons_ratio and shear_modulus of a material that contradict one another.
+    """
+    return parse_model(_text(Path(path)), str(path))
+
+
+def parse_model(text: str, source: str = "model") -> Model:
+    """Read a model from the text of a model file; `source` is named in messages."""
+    try:
+        data = tomllib.loads(text)
+    except RecursionError:
+        raise ModelError(source, "is nested too deeply.", "Write plain tables.") from None
+    # tomllib reports an integer of thousands of digits as a plain ValueError
+    except ValueError as error:
+        raise ModelError(
+            source, f"is not TOML: {error}.", "Correct the line, or see docs/model-file.md."
+        ) from None
+    try:
+        tables = ModelTable.model_validate(data)
+    except ValidationError as error:
+        raise model_error(error, data, source) from None
+    return build_model(tables)
+
+
+def _text(path: Path) -> str:
+    try:
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            what = "a directory" if stat.S_ISDIR(status.st_mode) else "not an ordinary file"
+            raise ModelError(str(path), f"is {what}.", "Name a model file.")
+        if status.st_size > MAX_BYTES:
+            raise ModelError(
+                str(path),
+                f"has {status.st_size / 1e6:.0f} MB, more than the {MAX_BYTES / 1e6:.0f} MB a "
+                "model file may have.",
+                "Check that it is a model file.",
+            )
+        content = path.read_bytes()
+    except FileNotFoundError:
+        raise ModelError(str(path), "does not exist.", "Check the path.") from None
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        raise ModelError(str(path), f"cannot be read ({reason}).", "Check the path.") from None
+    try:
+        # some editors put a byte-order mark first, which TOML does not know
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise ModelError(
+            str(path),
+            f"is not UTF-8: byte {error.start} is 0x{content[error.start]:02x}.",
+            "Save it as UTF-8 text.",
+        ) from None

@@ -1,0 +1,73 @@
+"""Points seen from the axis of a circular guide."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import angle
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Radial:
+    """Joint centres on the platform in the cylindrical coordinates of the guide.
+
+    Parameters
+    ----------
+    points : (..., 3, 3)
+        One for each leg, m.
+    radius, angle, height : (..., 3)
+        m, rad, m.
+    outward, tangent : (..., 3, 3)
+        Unit vectors; the third axis is the global z.
+    on_axis : (..., 3) of bool
+        Where the point lies on the guide's axis and its angle means nothing.
+    """
+
+    points: Array
+    radius: Array
+    angle: Array
+    height: Array
+    outward: Array
+    tangent: Array
+    on_axis: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, points: Array) -> Radial:
+        """Cylindrical coordinates of points, (..., 3, 3)."""
+        x, y, z = points[..., 0], points[..., 1], points[..., 2]
+        square = x * x + y * y
+        on_axis = np.asarray(square.real < 1e-18)
+        radius = np.sqrt(np.where(on_axis, 1.0, square))
+        zero = np.zeros_like(x)
+        cosine = np.where(on_axis, 1.0, x) / radius
+        sine = np.where(on_axis, 0.0, y) / radius
+        outward = np.stack([cosine, sine, zero], axis=-1)
+        tangent = np.stack([-sine, cosine, zero], axis=-1)
+        turn = angle(np.where(on_axis, 0.0, y), np.where(on_axis, 1.0, x))
+        return cls(points, np.where(on_axis, 0.0, radius), turn, z, outward, tangent, on_axis)
+
+    @property
+    def up(self) -> Array:
+        """The global z axis, shaped like `outward`."""
+        return np.broadcast_to(np.array([0.0, 0.0, 1.0]), self.outward.shape)
+
+    @property
+    def guide_frame(self) -> Array:
+        """Axes outward, tangent, up as columns, (..., 3, 3, 3)."""
+        return np.stack([self.outward, self.tangent, self.up], axis=-1)
+
+    @property
+    def hinge_frame(self) -> Array:
+        """Axes outward, down, tangent: a positive turn about z lifts a link that points inward."""
+        return np.stack([self.outward, -self.up, self.tangent], axis=-1)
+
+    def at(self, radius: Array | float, height: Array | float) -> Array:
+        """Points in the legs' planes at a radius and height, (..., 3, 3)."""
+        r, h = np.broadcast_arrays(radius, height)
+        return np.asarray(r[..., None] * self.outward + h[..., None] * self.up)

@@ -1,0 +1,51 @@
+"""Matrix structural analysis: beams, joints and springs; the saddle-point system; the tool."""
+
+from msa.assembly import System, Topology, system_of
+from msa.beam import Beam
+from msa.budget import ComplianceBudget, compliance_budget
+from msa.loads import LineLoad, LoadCase
+from msa.materials import Material
+from msa.sections import Section, box, rectangle, rod, tube
+from msa.solve import METHODS, StaticSolution, solve
+from msa.springs import PointMass, Spring
+from msa.structure import Element, PlacedStructure, Structure, rigid_map
+from msa.tool import (
+    StiffnessEllipsoid,
+    axis_stiffness_blocked,
+    axis_stiffness_free,
+    stiffness_ellipsoid,
+    tool_compliance,
+    tool_stiffness,
+)
+
+__all__ = [
+    "METHODS",
+    "Beam",
+    "ComplianceBudget",
+    "Element",
+    "LineLoad",
+    "LoadCase",
+    "Material",
+    "PlacedStructure",
+    "PointMass",
+    "Section",
+    "Spring",
+    "StaticSolution",
+    "StiffnessEllipsoid",
+    "Structure",
+    "System",
+    "Topology",
+    "axis_stiffness_blocked",
+    "axis_stiffness_free",
+    "box",
+    "compliance_budget",
+    "rectangle",
+    "rigid_map",
+    "rod",
+    "solve",
+    "stiffness_ellipsoid",
+    "system_of",
+    "tool_compliance",
+    "tool_stiffness",
+    "tube",
+]

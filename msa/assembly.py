@@ -1,0 +1,399 @@
+"""Assembly: stiffness, constraint rows and loads of a placed structure on its clusters.
+
+The unknowns are the six displacements of every rigid cluster at its reference node; rigid
+bodies are thereby eliminated exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from kinematics import DIRECTIONS, State, constraint_rows
+from msa.beam import fixed_end_loads
+from msa.forest import Forest, spanning_forest
+from msa.loads import LoadCase
+from msa.structure import PlacedStructure, Structure, rigid_map
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Topology:
+    """What a structure's assembly needs and no coordinate changes."""
+
+    structure: Structure
+
+    @cached_property
+    def forest(self) -> Forest:
+        """Spanning forest of the joints."""
+        return spanning_forest(self.structure)
+
+    @cached_property
+    def size(self) -> int:
+        """Number of unknowns before joints."""
+        return 6 * self.structure.vertex_count
+
+    @cached_property
+    def locked(self) -> NDArray[np.bool_]:
+        """Joint directions that are constraint rows, (j, 6)."""
+        return np.asarray(self.structure.linkage.states() == State.LOCKED)
+
+    @cached_property
+    def elastic_joints(self) -> tuple[int, ...]:
+        """Joints with at least one elastic direction."""
+        states = self.structure.linkage.states()
+        return tuple(int(j) for j in np.flatnonzero((states == State.ELASTIC).any(axis=1)))
+
+
+@dataclass(frozen=True)
+class System:
+    """Stiffness and constraint rows of a structure at a flat batch of p poses.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        With one batch axis.
+    topology : Topology
+    """
+
+    placed: PlacedStructure
+    topology: Topology
+
+    @cached_property
+    def _joint_nodes(self) -> NDArray[np.intp]:
+        index = self.placed.structure.linkage.node_index
+        pairs = [[index[n] for n in j.between] for j in self.placed.structure.linkage.joints]
+        return np.asarray(pairs, dtype=np.intp).reshape(-1, 2)
+
+    def contributions(self) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
+        """Parts that store energy: name, mesh nodes (k,), stiffness (p, 6k, 6k)."""
+        placed, structure = self.placed, self.placed.structure
+        if structure.beams:
+            stiffness = placed.segment_stiffness
+            for s, (beam, a, b) in enumerate(structure.segments):
+                yield f"beam {structure.beams[beam].name}", np.array([a, b]), stiffness[:, s]
+        index = structure.linkage.node_index
+        for spring in structure.springs:
+            k = np.diag(spring.diagonal)
+            nodes = np.array([index[n] for n in spring.nodes])
+            if len(nodes) == 2:
+                k = np.block([[k, -k], [-k, k]])
+            yield f"spring {spring.name}", nodes, np.broadcast_to(k, (self.poses, *k.shape))
+        for j in self.topology.elastic_joints:
+            joint = structure.linkage.joints[j]
+            k = self._joint_global(j, joint.stiffness_matrix)
+            yield (
+                f"joint {joint.name}",
+                self._joint_nodes[j],
+                np.concatenate([np.concatenate([k, -k], -1), np.concatenate([-k, k], -1)], axis=-2),
+            )
+        for element in structure.elements:
+            nodes = np.array([structure.mesh_index[n] for n in element.nodes])
+            yield f"element {element.name}", nodes, element.stiffness(placed)
+
+    def _joint_global(self, joint: int, matrix: Array) -> Array:
+        turn = self.joint_frames[:, joint]
+        return np.asarray(turn @ matrix @ np.swapaxes(turn, -1, -2))
+
+    @cached_property
+    def joint_frames(self) -> Array:
+        """Joint axes as six-by-six block rotations, (p, j, 6, 6)."""
+        frames = self.placed.placement.frames
+        result = np.zeros((*frames.shape[:2], 6, 6))
+        result[..., :3, :3] = frames
+        result[..., 3:, 3:] = frames
+        return result
+
+    @property
+    def poses(self) -> int:
+        """Number of poses p."""
+        return self.placed.batch[0]
+
+    def dofs(self, nodes: NDArray[np.intp]) -> tuple[NDArray[np.intp], NDArray[np.bool_]]:
+        """Unknowns of the clusters of mesh nodes, (6k,), and which of them move."""
+        vertex = self.placed.structure.vertex_of_node[nodes]
+        dofs = (6 * vertex[:, None] + np.arange(6)).ravel()
+        return dofs, np.repeat(vertex >= 0, 6)
+
+    def carried(self, nodes: NDArray[np.intp], stiffness: Array) -> Array:
+        """Stiffness at nodes (p, 6k, 6k) moved to the reference nodes of their clusters."""
+        arms = self.placed.arms[:, nodes]
+        if not np.any(arms):
+            return stiffness
+        k = len(nodes)
+        maps = rigid_map(arms)
+        blocks = stiffness.reshape(-1, k, 6, k, 6)
+        moved = np.einsum("paji,pajbk,pbkl->paibl", maps, blocks, maps, optimize=True)
+        return np.asarray(moved).reshape(-1, 6 * k, 6 * k)
+
+    @cached_property
+    def stiffness(self) -> Array:
+        """Dense stiffness, (p, n, n)."""
+        n = self.topology.size
+        matrix = np.zeros((self.poses, n, n))
+        for _, nodes, part in self.contributions():
+            dofs, moves = self.dofs(nodes)
+            block = self.carried(nodes, part)[:, moves][:, :, moves]
+            dofs = dofs[moves]
+            if len(set(dofs)) == len(dofs):
+                matrix[:, dofs[:, None], dofs] += block
+            else:
+                # both ends in one cluster: add block by block
+                for i in range(0, len(dofs), 6):
+                    for j in range(0, len(dofs), 6):
+                        matrix[:, dofs[i : i + 6, None], dofs[j : j + 6]] += block[
+                            :, i : i + 6, j : j + 6
+                        ]
+        return matrix
+
+    @cached_property
+    def sparse_stiffness(self) -> sp.csc_array:
+        """Sparse stiffness of a batch of one."""
+        rows, columns, values = [], [], []
+        for _, nodes, part in self.contributions():
+            dofs, moves = self.dofs(nodes)
+            block = self.carried(nodes, part)[0][moves][:, moves]
+            dofs = dofs[moves]
+            rows.append(np.repeat(dofs, len(dofs)))
+            columns.append(np.tile(dofs, len(dofs)))
+            values.append(block.ravel())
+        n = self.topology.size
+        if not rows:
+            return sp.csc_array((n, n))
+        triplets = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
+        return sp.coo_array(triplets, shape=(n, n)).tocsc()
+
+    @cached_property
+    def row_owner(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Joint and direction of every constraint row, (r,) each."""
+        joint, direction = np.nonzero(self.topology.locked)
+        return joint, direction
+
+    @cached_property
+    def row_blocks(self) -> tuple[NDArray[np.intp], Array]:
+        """Constraint rows in blocks: cluster (r, 2), −1 for ground, and values (p, r, 2, 6)."""
+        structure = self.placed.structure
+        rows = constraint_rows(structure.linkage, self.placed.placement, self.topology.locked)
+        nodes = rows.nodes
+        vertex = structure.vertex_of_node[nodes]
+        maps = rigid_map(self.placed.arms[:, nodes])
+        values = np.einsum("pri,prkij->prkj", rows.axes, maps)
+        values[:, :, 0] *= -1.0
+        return vertex, values
+
+    @cached_property
+    def rows(self) -> Array:
+        """Constraint rows A on the unknowns, (p, r, n): A u = g."""
+        vertex, values = self.row_blocks
+        matrix = np.zeros((self.poses, len(vertex), self.topology.size))
+        for r, pair in enumerate(vertex):
+            for k, v in enumerate(pair):
+                if v >= 0:
+                    matrix[:, r, 6 * v : 6 * v + 6] += values[:, r, k]
+        return matrix
+
+    @cached_property
+    def row_labels(self) -> tuple[str, ...]:
+        """Name of each constraint row, `joint:direction`."""
+        joints = self.placed.structure.linkage.joints
+        return tuple(
+            f"{joints[j].name}:{DIRECTIONS[d]}" for j, d in zip(*self.row_owner, strict=True)
+        )
+
+    def expand(self, unknowns: Array) -> Array:
+        """Displacements of the mesh nodes (p, n, 6, m) from the unknowns (p, 6v, m)."""
+        vertex = self.placed.structure.vertex_of_node
+        shape = (self.poses, -1, 6, unknowns.shape[-1])
+        blocks = unknowns.reshape(shape)
+        padded = (
+            np.concatenate([blocks, np.zeros_like(blocks[:, :1])], axis=1)
+            if blocks.size
+            else (np.zeros((self.poses, 1, 6, unknowns.shape[-1])))
+        )
+        return np.asarray(rigid_map(self.placed.arms) @ padded[:, vertex])
+
+    def gather(self, nodal: Array) -> Array:
+        """Loads on the unknowns (p, 6v, m) from loads at the mesh nodes (p, n, 6, m)."""
+        vertex = self.placed.structure.vertex_of_node
+        moved = np.swapaxes(rigid_map(self.placed.arms), -1, -2) @ nodal
+        result = np.zeros((self.poses, self.placed.structure.vertex_count + 1, *nodal.shape[2:]))
+        for node, v in enumerate(vertex):
+            result[:, v] += moved[:, node]
+        return result[:, :-1].reshape(self.poses, -1, nodal.shape[-1])
+
+    def tool_load(self) -> Array:
+        """Six unit wrenches at the tool on the unknowns, (p, n, 6).
+
+        Raises
+        ------
+        ModelError
+            The linkage has no tool.
+        """
+        structure = self.placed.structure
+        if structure.linkage.tool is None:
+            raise ModelError("structure", "has no tool.", "Name the tool centre point's node.")
+        node = structure.mesh_index[structure.linkage.tool]
+        vertex = structure.vertex_of_node[node]
+        load = np.zeros((self.poses, self.topology.size, 6))
+        if vertex >= 0:
+            carried = rigid_map(self.placed.arms[:, node])
+            load[:, 6 * vertex : 6 * vertex + 6] = np.swapaxes(carried, -1, -2)
+        return load
+
+    def nodal_loads(self, cases: Sequence[LoadCase]) -> Array:
+        """Loads at the mesh nodes, (p, n, 6, m), line loads and gravity by fixed-end forces.
+
+        Raises
+        ------
+        ModelError
+            An unknown node or beam, or gravity without densities.
+        """
+        structure = self.placed.structure
+        loads = np.zeros((self.poses, len(structure.mesh_nodes), 6, len(cases)))
+        for m, case in enumerate(cases):
+            for node, wrench in case.wrenches:
+                if node not in structure.linkage.node_index:
+                    raise ModelError(
+                        f"load case {case.name}",
+                        f'names the unknown node "{node}".',
+                        "Define the node.",
+                    )
+                loads[:, structure.mesh_index[node], :, m] += wrench
+            for mass in structure.masses if case.gravity is not None else ():
+                weight = mass.mass * np.asarray(case.gravity)
+                node_index = structure.mesh_index[mass.node]
+                loads[:, node_index, :3, m] += weight
+                loads[:, node_index, 3:, m] += np.cross(mass.offset, weight)
+            per_length = self._line_loads(case)
+            if per_length is not None:
+                self._add_segment_loads(loads[..., m], self.segment_loads(per_length))
+        return loads
+
+    def _line_loads(self, case: LoadCase) -> Array | None:
+        """Load per length at both ends of every beam, global axes, (b, 2, 3)."""
+        structure = self.placed.structure
+        if not structure.beams or not (case.line_loads or case.gravity is not None):
+            return None
+        index = {beam.name: i for i, beam in enumerate(structure.beams)}
+        result = np.zeros((len(structure.beams), 2, 3))
+        for line in case.line_loads:
+            if line.beam not in index:
+                raise ModelError(
+                    f"load case {case.name}",
+                    f'names the unknown beam "{line.beam}".',
+                    "Define the beam.",
+                )
+            result[index[line.beam]] += (line.first, line.second)
+        if case.gravity is not None:
+            for i, beam in enumerate(structure.beams):
+                if beam.material.density is None:
+                    raise ModelError(
+                        f"material {beam.material.name}",
+                        f'has no density, and beam "{beam.name}" needs it for gravity.',
+                        "Give the material a density.",
+                    )
+                result[i] += beam.material.density * beam.section.area * np.asarray(case.gravity)
+        return result
+
+    def line_loads(self, case: LoadCase) -> Array | None:
+        """Equivalent end loads of every beam element in local axes, (p, s, 12); None if none."""
+        per_length = self._line_loads(case)
+        return None if per_length is None else self.segment_loads(per_length)
+
+    def segment_loads(self, per_length: Array) -> Array:
+        """Consistent loads of every beam element in local axes, (p, s, 12)."""
+        structure = self.placed.structure
+        length, axes = self.placed.beam_geometry
+        beam = structure.segments[:, 0]
+        pieces = np.array([b.elements for b in structure.beams], dtype=float)
+        order = np.concatenate([np.arange(b.elements) for b in structure.beams])
+        at = [order / pieces[beam], (order + 1) / pieces[beam]]
+        change = per_length[beam, 1] - per_length[beam, 0]
+        ends = [
+            np.einsum("psij,sj->psi", axes[:, beam], per_length[beam, 0] + x[:, None] * change)
+            for x in at
+        ]
+        properties = np.array([b.properties for b in structure.beams]).T[:, beam]
+        return fixed_end_loads((length / pieces)[:, beam], properties, ends[0], ends[1])
+
+    def _add_segment_loads(self, loads: Array, local: Array) -> None:
+        structure = self.placed.structure
+        _, axes = self.placed.beam_geometry
+        beam = structure.segments[:, 0]
+        blocks = local.reshape(*local.shape[:2], 4, 3)
+        turned = np.einsum("psij,pski->pskj", axes[:, beam], blocks).reshape(local.shape)
+        offsets = self.placed.segment_offsets
+        for k in (0, 1):
+            part = turned[..., 6 * k : 6 * k + 6]
+            at_node = np.einsum("sji,psj->psi", rigid_map(offsets[:, k]), part)
+            for s, node in enumerate(structure.segments[:, 1 + k]):
+                loads[:, node] += at_node[:, s]
+
+    def gaps(self, cases: Sequence[LoadCase]) -> tuple[Array, Array]:
+        """Misfits: on the constraint rows (p, r, m), and of elastic directions (j, 6, m).
+
+        Raises
+        ------
+        ModelError
+            An unknown joint, or a misfit in a free direction.
+        """
+        linkage = self.placed.structure.linkage
+        states = linkage.states()
+        every = np.zeros((len(linkage.joints), 6, len(cases)))
+        for m, case in enumerate(cases):
+            for (name, direction), value in case.gaps.items():
+                if name not in linkage.joint_index:
+                    raise ModelError(
+                        f"load case {case.name}",
+                        f'names the unknown joint "{name}".',
+                        "Define the joint.",
+                    )
+                j, d = linkage.joint_index[name], DIRECTIONS.index(direction)
+                if states[j, d] == State.FREE:
+                    raise ModelError(
+                        f"joint {name}",
+                        f"has a misfit in {direction}, which is free.",
+                        "Name a locked or elastic direction.",
+                    )
+                every[j, d, m] += value
+        owners, directions = self.row_owner
+        on_rows = every[owners, directions]
+        elastic = np.where((states == State.ELASTIC)[..., None], every, 0.0)
+        return np.broadcast_to(on_rows, (self.poses, *on_rows.shape)), elastic
+
+    def elastic_gap_loads(self, gaps: Array) -> Array:
+        """Loads at the mesh nodes from misfits of elastic directions, (p, n, 6, m)."""
+        structure = self.placed.structure
+        loads = np.zeros((self.poses, len(structure.mesh_nodes), 6, gaps.shape[-1]))
+        for j in self.topology.elastic_joints:
+            if not np.any(gaps[j]):
+                continue
+            force = self.joint_frames[:, j] @ (
+                structure.linkage.joints[j].stiffness_matrix @ gaps[j]
+            )
+            first, second = self._joint_nodes[j]
+            loads[:, first] -= force
+            loads[:, second] += force
+        return loads
+
+
+def system_of(placed: PlacedStructure) -> System:
+    """The system of a placed structure, its batch made flat."""
+    flat = placed.placement
+    if len(flat.batch) != 1:
+        count = int(np.prod(flat.batch, dtype=int))
+        positions = flat.positions.reshape(count, *flat.positions.shape[-2:])
+        frames = flat.frames.reshape(count, *flat.frames.shape[-3:])
+        values = flat.values.reshape(count, flat.values.shape[-1])
+        status = np.asarray(flat.status).reshape(count)
+        flat = type(flat)(positions, frames, values, flat.names, status, flat.reasons)
+        placed = PlacedStructure(placed.structure, flat)
+    return System(placed, Topology(placed.structure))

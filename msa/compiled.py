@@ -1,0 +1,95 @@
+"""Tool compliance of many poses through the compiled kernel, on one or more threads."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from msa.assembly import System
+from msa.program import Program, compile_program
+from msa.structure import PlacedStructure, Structure
+
+Array = NDArray[Any]
+
+#: Poses handed to a thread at once.
+PIECE = 8192
+
+#: A pose whose residual exceeds this share of the load is solved again with diagnosis.
+RESIDUAL_LIMIT = 1e-8
+
+#: A pose whose smallest pivot is below this share of its diagonal entry likewise.
+PIVOT_LIMIT = 1e-10
+
+
+@cache
+def available() -> bool:
+    """Whether the compiled kernel can be used: numba is installed."""
+    try:
+        import msa.kernel  # noqa: F401, PLC0415 - numba is slow to import and may be absent
+    except ImportError:
+        return False
+    return True
+
+
+def program_of(system: System) -> Program | None:
+    """The program of the system's structure, made once and kept with the structure."""
+    structure: Structure = system.placed.structure
+    # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
+    kept = structure.__dict__
+    if "_program" not in kept:
+        kept["_program"] = compile_program(system.topology)
+    program: Program | None = kept["_program"]
+    return program
+
+
+def compiled_compliance(
+    system: System, program: Program, workers: int = 1
+) -> tuple[Array, NDArray[np.bool_]]:
+    """Tool compliance at every pose of a system.
+
+    Parameters
+    ----------
+    system : System
+        With p poses.
+    program : Program
+        From `program_of`.
+    workers : int
+        Threads; each takes pieces of the batch.
+
+    Returns
+    -------
+    compliance : (p, 6, 6)
+    doubtful : (p,)
+        True where a pivot or the residual is not good: solve these another way.
+    """
+    from msa.kernel import run_program  # noqa: PLC0415 - as in `available`
+
+    poses = system.poses
+    compliance = np.empty((poses, 6, 6))
+    quality = np.empty((poses, 2))
+
+    def piece(start: int) -> None:
+        stop = min(start + PIECE, poses)
+        part = PlacedStructure(system.placed.structure, system.placed.placement[start:stop])
+        run_program(
+            program,
+            np.ascontiguousarray(part.positions, dtype=float),
+            np.ascontiguousarray(part.placement.frames, dtype=float),
+            compliance[start:stop],
+            quality[start:stop],
+        )
+
+    starts = range(0, poses, PIECE)
+    if workers > 1 and len(starts) > 1:
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(piece, starts))
+    else:
+        for start in starts:
+            piece(start)
+    good = (quality[:, 0] > PIVOT_LIMIT) & (quality[:, 1] <= RESIDUAL_LIMIT)
+    good &= np.isfinite(compliance).all(axis=(1, 2))
+    return compliance, ~good

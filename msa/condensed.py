@@ -1,0 +1,106 @@
+"""Leg-wise condensation: legs do not know each other, so each is eliminated on its own.
+
+Of the joint coordinates, those that the tool or a loop-closing row touches are kept; without
+them the others fall apart into legs. Each leg is condensed to the kept coordinates, and only
+those are solved together.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.csgraph import connected_components
+
+from msa.assembly import System
+from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
+from msa.diagnosis import check_held, mechanism_error
+from msa.null_space import (
+    closing_rows,
+    constrained_minimum,
+    joint_coordinates,
+    multipliers,
+    symmetric_product,
+)
+from msa.saddle_point import Unknowns, checked
+
+Array = NDArray[Any]
+
+
+def legs_of(stiffness: Array, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
+    """Groups of coordinates that fall apart when the kept ones are removed."""
+    inner = np.flatnonzero(~kept)
+    if not len(inner):
+        return []
+    coupled = np.any(stiffness[:, inner[:, None], inner] != 0, axis=0)
+    count, label = connected_components(coupled, directed=False)
+    return [inner[label == leg] for leg in range(count)]
+
+
+def solve_condensed(system: System, load: Array, gaps: Array) -> Unknowns:
+    """Condense every leg to the kept coordinates, solve those, and go back.
+
+    Parameters, returns and errors as `solve_saddle_point`.
+    """
+    rows = orthonormal_rows(system)
+    check_consistent(system, rows, gaps)
+    free = free_unknowns(system)
+    check_held(system, free, load)
+    d = scales(system)[:, None]
+    basis, particular = joint_coordinates(system, gaps)
+    closing = closing_rows(system)
+    a = system.rows[:, closing]
+    held = np.swapaxes(free / d, -1, -2)
+    extra = np.concatenate([a @ basis, held @ basis], axis=1)
+    target = np.concatenate([gaps[:, closing] - a @ particular, -held @ particular], axis=1)
+    stiffness = symmetric_product(basis, system.stiffness)
+    force = np.swapaxes(basis, -1, -2) @ (load - system.stiffness @ particular)
+    kept = np.any(extra != 0, axis=(0, 1)) | _at_tool(system, basis)
+    legs = legs_of(stiffness, kept)
+    reduced, reduced_force = stiffness[:, kept][:, :, kept], force[:, kept]
+    solved = []
+    for leg in legs:
+        coupling = stiffness[:, leg][:, :, kept]
+        right = np.concatenate([coupling, force[:, leg]], axis=-1)
+        inner = _scaled_solve(system, stiffness[:, leg[:, None], leg], right)
+        split = coupling.shape[-1]
+        solved.append((inner[..., :split], inner[..., split:]))
+        reduced = reduced - np.swapaxes(coupling, -1, -2) @ inner[..., :split]
+        reduced_force = reduced_force - np.swapaxes(coupling, -1, -2) @ inner[..., split:]
+    coordinates = np.zeros_like(force)
+    if kept.any():
+        reduced = (reduced + np.swapaxes(reduced, -1, -2)) / 2.0
+        coordinates[:, kept] = constrained_minimum(
+            system, reduced, extra[:, :, kept], reduced_force, target
+        )
+    for leg, (coupled, alone) in zip(legs, solved, strict=True):
+        coordinates[:, leg] = alone - coupled @ coordinates[:, kept]
+    displacements = particular + basis @ coordinates
+    return checked(system, displacements, multipliers(system, displacements, load), load)
+
+
+def _at_tool(system: System, basis: Array) -> NDArray[np.bool_]:
+    """Coordinates that move the tool's cluster; without a tool none."""
+    structure = system.placed.structure
+    if structure.linkage.tool is None:
+        return np.zeros(basis.shape[-1], dtype=bool)
+    vertex = structure.vertex_of_node[structure.linkage.node_index[structure.linkage.tool]]
+    if vertex < 0:
+        return np.zeros(basis.shape[-1], dtype=bool)
+    return np.asarray(np.any(basis[:, 6 * vertex : 6 * vertex + 6] != 0, axis=(0, 1)))
+
+
+def _scaled_solve(system: System, matrix: Array, right: Array) -> Array:
+    diagonal = np.einsum("pii->pi", matrix)
+    if np.any(diagonal <= 0):
+        raise mechanism_error(system, int(np.argwhere((diagonal <= 0).any(axis=1))[0][0]))
+    scale = 1.0 / np.sqrt(diagonal)[..., None]
+    k = matrix * scale * np.swapaxes(scale, -1, -2)
+    try:
+        np.linalg.cholesky(k)
+        solution = np.linalg.solve(k, right * scale)
+        solution += np.linalg.solve(k, right * scale - k @ solution)
+    except np.linalg.LinAlgError as error:
+        raise mechanism_error(system, int(np.linalg.eigvalsh(k)[:, 0].argmin())) from error
+    return np.asarray(solution * scale)

@@ -1,0 +1,180 @@
+"""Independent constraint rows, and motions that cost no energy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import body_references, characteristic_length, constraint_rows
+from kinematics.mobility import RANK_TOLERANCE
+from msa.assembly import System
+from msa.structure import rigid_map
+from strutwork.errors import InconsistentConstraintsError
+
+Array = NDArray[Any]
+
+#: Misfits of redundant rows may disagree by this share of the largest.
+CONSISTENCY = 1e-9
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Constraint rows made orthonormal, in scaled unknowns.
+
+    With D the scales of the unknowns and `a` the rows of A D made of unit size, a = U S Vᵀ.
+
+    Parameters
+    ----------
+    basis : (p, r, n)
+        Vᵀ; zero where the rank of a pose is smaller.
+    values : (p, r)
+        S⁻¹; zero where the rank is smaller.
+    left : (p, r, r)
+        U.
+    size : (p, r)
+        Size of the rows of A D before scaling.
+    rank : (p,)
+    """
+
+    basis: Array
+    values: Array
+    left: Array
+    size: Array
+    rank: NDArray[np.intp]
+
+    def right_side(self, gaps: Array) -> Array:
+        """Right-hand side of the orthonormal rows, (p, r, m), from misfits (p, r, m)."""
+        scaled = gaps / self.size[..., None]
+        return np.asarray(self.values[..., None] * (np.swapaxes(self.left, -1, -2) @ scaled))
+
+    def multipliers(self, reduced: Array) -> Array:
+        """Multipliers of the rows of A, the least ones in balance with `reduced`, (p, r, m)."""
+        return np.asarray(self.left @ (self.values[..., None] * reduced)) / self.size[..., None]
+
+
+def scales(system: System) -> Array:
+    """Scales D of the unknowns, (n,): one for translations, 1/length for rotations."""
+    length = characteristic_length(system.placed.placement)
+    block = np.repeat([1.0, 1.0 / length], 3)
+    return np.tile(block, system.topology.size // 6)
+
+
+def orthonormal_rows(system: System) -> Rows:
+    """Find the rank of the constraint rows and an orthonormal basis of them, per pose.
+
+    Rank is decided on rows of unit size, at `kinematics.mobility.RANK_TOLERANCE`.
+    """
+    scaled = system.rows * scales(system)
+    size = np.linalg.norm(scaled, axis=-1)
+    size = np.where(size == 0, 1.0, size)
+    scaled = scaled / size[..., None]
+    poses, r, n = scaled.shape
+    if r == 0:
+        return Rows(
+            scaled,
+            np.zeros((poses, 0)),
+            np.zeros((poses, 0, 0)),
+            size,
+            np.zeros(poses, dtype=np.intp),
+        )
+    left, values, right = np.linalg.svd(scaled, full_matrices=False)
+    if left.shape[-1] < r:
+        pad = r - left.shape[-1]
+        left = np.concatenate([left, np.zeros((poses, r, pad))], axis=-1)
+        values = np.concatenate([values, np.zeros((poses, pad))], axis=-1)
+        right = np.concatenate([right, np.zeros((poses, pad, n))], axis=-2)
+    keep = values > RANK_TOLERANCE * values[:, :1]
+    inverse = np.divide(1.0, values, out=np.zeros_like(values), where=keep)
+    return Rows(right * keep[..., None], inverse, left, size, keep.sum(axis=-1))
+
+
+def check_consistent(system: System, rows: Rows, gaps: Array) -> None:
+    """Check that misfits of redundant rows do not contradict one another.
+
+    Raises
+    ------
+    InconsistentConstraintsError
+        Names the joints of the rigid loop that cannot close.
+    """
+    if not np.any(gaps):
+        return
+    scaled = gaps / rows.size[..., None]
+    met = rows.left @ ((rows.values > 0)[..., None] * (np.swapaxes(rows.left, -1, -2) @ scaled))
+    miss = np.abs(met - scaled).max(axis=-1)
+    if miss.max(initial=0.0) <= CONSISTENCY * np.abs(scaled).max():
+        return
+    pose = int(miss.max(axis=-1).argmax())
+    worst = np.flatnonzero(miss[pose] > 0.01 * miss[pose].max())
+    labels = [system.row_labels[i] for i in worst]
+    raise InconsistentConstraintsError(
+        f"joints {', '.join(dict.fromkeys(label.split(':')[0] for label in labels))}",
+        f"the misfits of {', '.join(labels)} cannot all be met: these joints close a rigid loop, "
+        "and forcing it would take an infinite force.",
+        "Give one of the joints or bodies in the loop its real stiffness, or drop the misfit.",
+    )
+
+
+def free_unknowns(system: System) -> Array:
+    """Motions that cost no energy and break no constraint, (p, n, k), orthonormal in D⁻¹u.
+
+    Found on the rigidified linkage: as only rigid motion of an element costs no energy, such
+    a motion moves every body as one and no locked, elastic or sprung direction. k is the
+    largest number over the poses; missing ones are zero columns.
+    """
+    structure, placement = system.placed.structure, system.placed.placement
+    linkage = structure.linkage
+    bodies = len(linkage.body_names)
+    if bodies == 0:
+        return np.zeros((system.poses, 0, 0))
+    length = characteristic_length(placement)
+    references = body_references(linkage, placement)
+    rows = [constraint_rows(linkage, placement).on_bodies(references)]
+    owner, index = linkage.body_of_node, linkage.node_index
+    for spring in structure.springs:
+        row = np.zeros((system.poses, 6, 6 * bodies))
+        for node, sign in zip(reversed(spring.nodes), (1.0, -1.0), strict=False):
+            i = index[node]
+            b = owner[i]
+            if b >= 0:
+                arm = placement.positions[:, i] - references[:, b]
+                row[:, :, 6 * b : 6 * b + 6] += sign * rigid_map(arm)
+        rows.append(row[:, spring.diagonal > 0])
+    matrix = np.concatenate(rows, axis=1)
+    matrix.reshape(*matrix.shape[:2], -1, 6)[..., 3:] /= length
+    size = np.linalg.norm(matrix, axis=-1, keepdims=True)
+    matrix = matrix / np.where(size == 0, 1.0, size)
+    if matrix.shape[1] < matrix.shape[2]:
+        gap = matrix.shape[2] - matrix.shape[1]
+        matrix = np.concatenate([matrix, np.zeros((system.poses, gap, matrix.shape[2]))], axis=1)
+    _, values, right = np.linalg.svd(matrix, full_matrices=False)
+    free = values <= RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
+    k = int(free.sum(axis=-1).max(initial=0))
+    if k == 0:
+        return np.zeros((system.poses, system.topology.size, 0))
+    twists = np.swapaxes(right[:, -k:] * free[:, -k:, None], -1, -2)
+    twists = twists.reshape(system.poses, bodies, 6, k).copy()
+    twists[:, :, 3:] /= length
+    result = np.zeros((system.poses, structure.vertex_count, 6, k))
+    mesh_owner = _mesh_owner(system)
+    for v, node in enumerate(structure.reference_nodes):
+        b = mesh_owner[node]
+        arm = system.placed.positions[:, node] - references[:, b]
+        result[:, v] = rigid_map(arm) @ twists[:, b]
+    scaled = result.reshape(system.poses, -1, k) / scales(system)[:, None]
+    left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
+    return np.asarray(left * (sizes > 1e-12 * np.maximum(sizes[:, :1], 1e-30))[:, None, :])
+
+
+def _mesh_owner(system: System) -> NDArray[np.intp]:
+    """Body of every mesh node; nodes inside a beam belong to its body."""
+    structure = system.placed.structure
+    linkage = structure.linkage
+    owner = np.full(len(structure.mesh_nodes), -1, dtype=np.intp)
+    owner[: len(linkage.nodes)] = linkage.body_of_node
+    for beam, first, second in structure.segments:
+        start = owner[linkage.node_index[structure.beams[beam].nodes[0]]]
+        owner[[first, second]] = start
+    return owner

@@ -1,0 +1,88 @@
+"""What to say of a structure that cannot be solved."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import mobility
+from msa.assembly import System
+from msa.constraints import scales
+from strutwork.errors import MechanismError, NumericalError, StrutworkError
+
+Array = NDArray[Any]
+
+#: A load excites a free motion when its work exceeds this share of its size.
+WORK_TOLERANCE = 1e-9
+
+
+def check_held(system: System, free: Array, load: Array) -> None:
+    """Check that no load does work in a motion that nothing resists.
+
+    Parameters
+    ----------
+    system : System
+    free : (p, n, k)
+        From `free_unknowns`.
+    load : (p, n, m)
+
+    Raises
+    ------
+    MechanismError
+        Names the joints and directions that move, and the pose.
+    """
+    if free.shape[-1] == 0:
+        return
+    scaled = load * scales(system)[:, None]
+    work = np.abs(np.swapaxes(free, -1, -2) @ scaled)
+    size = np.linalg.norm(scaled, axis=1)[:, None, :]
+    excited = work > WORK_TOLERANCE * np.maximum(size, 1e-300)
+    if np.any(excited):
+        raise mechanism_error(system, int(np.argwhere(excited.any(axis=(1, 2)))[0][0]))
+
+
+def mechanism_error(system: System, pose: int) -> StrutworkError:
+    """The error for a structure that moves freely under its load at `pose`."""
+    placed = system.placed
+    linkage = placed.structure.linkage
+    found = mobility(linkage, placed.placement[pose])
+    where = f" at pose {pose}" if system.poses > 1 else ""
+    if not found.motions:
+        return NumericalError(
+            "structure",
+            f"is too close to a mechanism to be solved{where}.",
+            "Look for stiffnesses that differ by more than ten orders of magnitude, or for a "
+            "pose next to a singular one.",
+        )
+    names = dict.fromkeys(
+        f"{joint} in {direction}" for motion in found.motions for joint, direction in motion.joints
+    )
+    part = "joints " + ", ".join(names) if names else "structure"
+    motions = "; ".join(motion.description for motion in found.motions[:4])
+    return MechanismError(
+        part,
+        f"the structure is a mechanism under its load{where}: {motions}.",
+        "Lock, drive or spring one of these directions, or add a support.",
+    )
+
+
+def check_residual(residual: Array, size: Array, what: str, limit: float = 1e-8) -> None:
+    """Withhold a solution whose residual is not small beside `size`.
+
+    Raises
+    ------
+    NumericalError
+        States the residual, its limit and the pose.
+    """
+    share = residual / np.maximum(size, 1e-300)
+    bad = ~(share <= limit)
+    if np.any(bad):
+        pose = int(np.argwhere(bad)[0][0])
+        raise NumericalError(
+            what,
+            f"the residual is {share.ravel()[pose]:.2g} of the load at pose {pose}, above "
+            f"{limit:g}: the solution is withheld.",
+            "The structure is nearly a mechanism there, or its stiffnesses differ too much.",
+        )

@@ -1,0 +1,212 @@
+"""The compiled kernel: assembly, elimination and tool compliance of many poses at a time.
+
+It runs a `Program` on `LANES` poses in step, so that every scalar operation of the elimination
+is one over a row of lanes that the processor does at once. Nothing in it knows a topology.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from msa.kernel_assembly import LANES, assemble, axes_and_pivots
+from msa.program import Program
+
+Array = NDArray[Any]
+
+#: A pivot below this share of its diagonal entry belongs to a motion that nothing resists.
+VANISHED = 1e-12
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _eliminate(p, matrix, factor, inverse, scaled, smallest):  # type: ignore[no-untyped-def]
+    """L D Lᵀ of K in place; pivots' inverses (c, w), zero where the pivot has vanished."""
+    factor[:] = 0.0
+    for k in range(p.fill.shape[0]):
+        factor[p.fill[k]] = matrix[k]
+    smallest[:] = 1.0
+    for c in range(p.diagonal.shape[0]):
+        diagonal = p.fill[p.diagonal[c]]
+        whole = p.diagonal[c]
+        for w in range(LANES):
+            share = factor[diagonal, w] / matrix[whole, w]
+            present = share > VANISHED
+            inverse[c, w] = 1.0 / factor[diagonal, w] if present else 0.0
+            smallest[w] = min(smallest[w], share) if present else smallest[w]
+        start, stop = p.column_start[c], p.column_start[c + 1]
+        u = p.update_start[c]
+        for a in range(start, stop):
+            slot = p.column_slot[a]
+            for w in range(LANES):
+                scaled[w] = factor[slot, w] * inverse[c, w]
+            for _ in range(a - start + 1):
+                target, other = p.update[u, 0], p.update[u, 2]
+                u += 1
+                for w in range(LANES):
+                    factor[target, w] -= scaled[w] * factor[other, w]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _tool_loads(p, point, axis, pivot, load):  # type: ignore[no-untyped-def]
+    """Unit wrenches at the tool on the coordinates, (c, 6, w); zero but for the last ones."""
+    load[:] = 0.0
+    for t in range(p.tool_touches.shape[0]):
+        c = p.tool_touches[t]
+        for w in range(LANES):
+            ax, ay, az = axis[c, 0, w], axis[c, 1, w], axis[c, 2, w]
+            if p.turns[c] == 1:
+                px = point[p.tool_node, 0, w] - pivot[c, 0, w]
+                py = point[p.tool_node, 1, w] - pivot[c, 1, w]
+                pz = point[p.tool_node, 2, w] - pivot[c, 2, w]
+                load[c, 0, w] = ay * pz - az * py
+                load[c, 1, w] = az * px - ax * pz
+                load[c, 2, w] = ax * py - ay * px
+                load[c, 3, w], load[c, 4, w], load[c, 5, w] = ax, ay, az
+            else:
+                load[c, 0, w], load[c, 1, w], load[c, 2, w] = ax, ay, az
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _solve_one(p, factor, inverse, load, x, force):  # type: ignore[no-untyped-def]
+    """Solve K x = f, (c, w), for one wrench in which all six parts take part."""
+    count = p.diagonal.shape[0]
+    for c in range(count):
+        for w in range(LANES):
+            force[c, w] = (
+                load[c, 0, w]
+                + 0.8 * load[c, 1, w]
+                - 0.6 * load[c, 2, w]
+                + 0.1 * load[c, 3, w]
+                - 0.08 * load[c, 4, w]
+                + 0.06 * load[c, 5, w]
+            )
+            x[c, w] = force[c, w]
+    for c in range(count):
+        for a in range(p.column_start[c], p.column_start[c + 1]):
+            row, slot = p.column_row[a], p.column_slot[a]
+            for w in range(LANES):
+                x[row, w] -= factor[slot, w] * inverse[c, w] * x[c, w]
+    for c in range(count - 1, -1, -1):
+        for w in range(LANES):
+            x[c, w] *= inverse[c, w]
+        for a in range(p.column_start[c], p.column_start[c + 1]):
+            row, slot = p.column_row[a], p.column_slot[a]
+            for w in range(LANES):
+                x[c, w] -= factor[slot, w] * inverse[c, w] * x[row, w]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
+    """Largest residual of K x = f as a share of f, (w); r holds f on entry."""
+    count = p.diagonal.shape[0]
+    size = np.zeros(LANES)
+    for c in range(count):
+        for w in range(LANES):
+            size[w] = max(size[w], abs(r[c, w]) / np.sqrt(matrix[p.diagonal[c], w]))
+    for k in range(p.entry_row.shape[0]):
+        i, j = p.entry_row[k], p.entry_column[k]
+        for w in range(LANES):
+            r[i, w] -= matrix[k, w] * x[j, w]
+        if i != j:
+            for w in range(LANES):
+                r[j, w] -= matrix[k, w] * x[i, w]
+    share[:] = 0.0
+    for c in range(count):
+        for w in range(LANES):
+            one = abs(r[c, w]) / np.sqrt(matrix[p.diagonal[c], w]) / size[w]
+            # a comparison with NaN is false: let it through instead of hiding it
+            share[w] = one if not one <= share[w] else share[w]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _compliance(p, factor, inverse, load, result):  # type: ignore[no-untyped-def]
+    """C = Yᵀ D⁻¹ Y with L Y = loads; only the tool's coordinates take part, (6, 6, w)."""
+    if p.tool_touches.shape[0] > 0:
+        for c in range(p.tool_touches[0], p.diagonal.shape[0]):
+            for a in range(p.column_start[c], p.column_start[c + 1]):
+                row, slot = p.column_row[a], p.column_slot[a]
+                for k in range(6):
+                    for w in range(LANES):
+                        load[row, k, w] -= factor[slot, w] * inverse[c, w] * load[c, k, w]
+    result[:] = 0.0
+    for t in range(p.tool_touches.shape[0]):
+        c = p.tool_touches[t]
+        for i in range(6):
+            for j in range(i + 1):
+                for w in range(LANES):
+                    result[i, j, w] += load[c, i, w] * load[c, j, w] * inverse[c, w]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore[no-untyped-def]
+    """Tool compliance of the poses start to stop.
+
+    Parameters
+    ----------
+    p : Program
+    positions : (q, n, 3)
+        Mesh nodes, m.
+    frames : (q, j, 3, 3)
+    start, stop : int
+    compliance : (q, 6, 6)
+        Filled.
+    quality : (q, 2)
+        Filled: smallest pivot as a share of its diagonal entry, and residual share.
+    """
+    nodes, joints = positions.shape[1], frames.shape[1]
+    count = p.diagonal.shape[0]
+    most = 1
+    for item in range(p.touch_start.shape[0] - 1):
+        most = max(most, p.touch_start[item + 1] - p.touch_start[item])
+    point = np.empty((nodes, 3, LANES))
+    frame = np.empty((joints, 3, 3, LANES))
+    axis, pivot = np.empty((count, 3, LANES)), np.empty((count, 3, LANES))
+    work = (
+        np.empty((2, 3, LANES)),
+        np.empty((3, 3, LANES)),
+        np.empty(LANES),
+        np.empty((most, 6, LANES)),
+        np.empty((6, LANES)),
+    )
+    matrix = np.empty((p.fill.shape[0], LANES))
+    factor = np.empty((p.slots, LANES))
+    inverse, x, r = (
+        np.empty((count, LANES)),
+        np.empty((count, LANES)),
+        np.empty((count, LANES)),
+    )
+    load = np.empty((count, 6, LANES))
+    result = np.empty((6, 6, LANES))
+    scaled, smallest, share = np.empty(LANES), np.empty(LANES), np.empty(LANES)
+    for base in range(start, stop, LANES):
+        for w in range(LANES):
+            pose = min(base + w, stop - 1)
+            for n in range(nodes):
+                for k in range(3):
+                    point[n, k, w] = positions[pose, n, k]
+            for j in range(joints):
+                for k in range(3):
+                    for d in range(3):
+                        frame[j, k, d, w] = frames[pose, j, k, d]
+        axes_and_pivots(p, point, frame, axis, pivot)
+        assemble(p, point, frame, axis, pivot, matrix, work)
+        _eliminate(p, matrix, factor, inverse, scaled, smallest)
+        _tool_loads(p, point, axis, pivot, load)
+        _solve_one(p, factor, inverse, load, x, r)
+        _residual(p, matrix, x, r, share)
+        _compliance(p, factor, inverse, load, result)
+        for w in range(min(LANES, stop - base)):
+            quality[base + w, 0], quality[base + w, 1] = smallest[w], share[w]
+            for i in range(6):
+                for j in range(i + 1):
+                    compliance[base + w, i, j] = compliance[base + w, j, i] = result[i, j, w]
+
+
+def run_program(
+    program: Program, positions: Array, frames: Array, compliance: Array, quality: Array
+) -> None:
+    """Typed door to the compiled `run` over all poses of the arrays."""
+    run(program, positions, frames, 0, len(positions), compliance, quality)

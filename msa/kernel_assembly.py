@@ -1,0 +1,219 @@
+"""Compiled assembly: stiffness on the joint coordinates of many poses in step."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+#: Poses in step: every scalar operation is one over a row of lanes that the processor does at
+#: once. 64 lanes of a hundred-dof frame still fit a second-level cache.
+LANES = 64
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def axes_and_pivots(p, point, frame, axis, pivot):  # type: ignore[no-untyped-def]
+    """Direction and pivot of every coordinate: axis, pivot (c, 3, w)."""
+    for c in range(p.axis_joint.shape[0]):
+        j, d, node = p.axis_joint[c], p.axis_direction[c], p.pivot_node[c]
+        for k in range(3):
+            for w in range(LANES):
+                pivot[c, k, w] = point[node, k, w]
+            if j < 0:
+                for w in range(LANES):
+                    axis[c, k, w] = 1.0 if k == d else 0.0
+            else:
+                for w in range(LANES):
+                    axis[c, k, w] = p.axis_sign[c] * frame[j, k, d, w]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _element_axes(p, item, point, frame, ends, local, length):  # type: ignore[no-untyped-def]
+    """Ends (2, 3, w), local axes as rows (3, 3, w) and length (w) of a beam element."""
+    beam = p.item_beam[item]
+    for e in range(2):
+        node = p.item_nodes[item, e]
+        for k in range(3):
+            for w in range(LANES):
+                ends[e, k, w] = point[node, k, w] + p.item_offsets[item, e, k]
+    for w in range(LANES):
+        dx = ends[1, 0, w] - ends[0, 0, w]
+        dy = ends[1, 1, w] - ends[0, 1, w]
+        dz = ends[1, 2, w] - ends[0, 2, w]
+        size = np.sqrt(dx * dx + dy * dy + dz * dz)
+        length[w] = size
+        local[0, 0, w], local[0, 1, w], local[0, 2, w] = dx / size, dy / size, dz / size
+    joint = p.orientation_joint[beam]
+    ox, oy, oz = p.orientation[beam, 0], p.orientation[beam, 1], p.orientation[beam, 2]
+    given = not np.isnan(ox)
+    for w in range(LANES):
+        x, y, z = local[0, 0, w], local[0, 1, w], local[0, 2, w]
+        if joint >= 0:
+            ux, uy, uz = frame[joint, 0, 2, w], frame[joint, 1, 2, w], frame[joint, 2, 2, w]
+        elif given:
+            ux, uy, uz = ox, oy, oz
+        else:
+            along = x * x + y * y < 1e-12
+            ux, uy, uz = 0.0, (1.0 if along else 0.0), (0.0 if along else 1.0)
+        part = ux * x + uy * y + uz * z
+        whole = ux * ux + uy * uy + uz * uz
+        ux, uy, uz = ux - part * x, uy - part * y, uz - part * z
+        square = ux * ux + uy * uy + uz * uz
+        # an orientation along its beam must not pass: NaN makes the pose doubtful
+        size = np.sqrt(square) if square > 1e-18 * whole else np.nan
+        ux, uy, uz = ux / size, uy / size, uz / size
+        local[2, 0, w], local[2, 1, w], local[2, 2, w] = ux, uy, uz
+        local[1, 0, w] = uy * z - uz * y
+        local[1, 1, w] = uz * x - ux * z
+        local[1, 2, w] = ux * y - uy * x
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _strains(p, t, axis, pivot, ends, local, length, strain):  # type: ignore[no-untyped-def]
+    """The six deformations of a beam element per unit of one coordinate, (6, w).
+
+    Elongation, twist, and in each plane the two end rotations against the chord.
+    """
+    c = p.touch_coordinate[t]
+    first, second = float(p.touch_ends[t, 0]), float(p.touch_ends[t, 1])
+    turns = p.turns[c] == 1
+    for w in range(LANES):
+        ax, ay, az = axis[c, 0, w], axis[c, 1, w], axis[c, 2, w]
+        if turns:
+            px = second * (ends[1, 0, w] - pivot[c, 0, w]) - first * (
+                ends[0, 0, w] - pivot[c, 0, w]
+            )
+            py = second * (ends[1, 1, w] - pivot[c, 1, w]) - first * (
+                ends[0, 1, w] - pivot[c, 1, w]
+            )
+            pz = second * (ends[1, 2, w] - pivot[c, 2, w]) - first * (
+                ends[0, 2, w] - pivot[c, 2, w]
+            )
+            dx = ay * pz - az * py
+            dy = az * px - ax * pz
+            dz = ax * py - ay * px
+        else:
+            dx, dy, dz = (second - first) * ax, (second - first) * ay, (second - first) * az
+        chord_y = (local[1, 0, w] * dx + local[1, 1, w] * dy + local[1, 2, w] * dz) / length[w]
+        chord_z = (local[2, 0, w] * dx + local[2, 1, w] * dy + local[2, 2, w] * dz) / length[w]
+        strain[0, w] = local[0, 0, w] * dx + local[0, 1, w] * dy + local[0, 2, w] * dz
+        tx = ty = tz = 0.0
+        if turns:
+            tx = local[0, 0, w] * ax + local[0, 1, w] * ay + local[0, 2, w] * az
+            ty = local[1, 0, w] * ax + local[1, 1, w] * ay + local[1, 2, w] * az
+            tz = local[2, 0, w] * ax + local[2, 1, w] * ay + local[2, 2, w] * az
+        strain[1, w] = (second - first) * tx
+        strain[2, w] = first * tz - chord_y
+        strain[3, w] = second * tz - chord_y
+        strain[4, w] = first * ty + chord_z
+        strain[5, w] = second * ty + chord_z
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _stretches(p, link, t, point, frame, axis, pivot, strain):  # type: ignore[no-untyped-def]
+    """Motion of a link's second node against its first per unit of one coordinate, (6, w)."""
+    c = p.touch_coordinate[t]
+    joint = p.link_joint[link]
+    strain[:] = 0.0
+    for e in range(2):
+        node = p.link_nodes[link, e]
+        if node < 0 or p.touch_ends[t, e] == 0:
+            continue
+        sign = 1.0 if e == 1 else -1.0
+        for w in range(LANES):
+            ax, ay, az = axis[c, 0, w], axis[c, 1, w], axis[c, 2, w]
+            if p.turns[c] == 1:
+                px = point[node, 0, w] - pivot[c, 0, w]
+                py = point[node, 1, w] - pivot[c, 1, w]
+                pz = point[node, 2, w] - pivot[c, 2, w]
+                strain[0, w] += sign * (ay * pz - az * py)
+                strain[1, w] += sign * (az * px - ax * pz)
+                strain[2, w] += sign * (ax * py - ay * px)
+                strain[3, w] += sign * ax
+                strain[4, w] += sign * ay
+                strain[5, w] += sign * az
+            else:
+                strain[0, w] += sign * ax
+                strain[1, w] += sign * ay
+                strain[2, w] += sign * az
+    if joint < 0:
+        return
+    for half in range(0, 6, 3):
+        for w in range(LANES):
+            x, y, z = strain[half, w], strain[half + 1, w], strain[half + 2, w]
+            for d in range(3):
+                strain[half + d, w] = (
+                    frame[joint, 0, d, w] * x
+                    + frame[joint, 1, d, w] * y
+                    + frame[joint, 2, d, w] * z
+                )
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def _add_links(p, point, frame, axis, pivot, matrix, strain, stress):  # type: ignore[no-untyped-def]
+    """Add springs and elastic joints that carry nothing to K."""
+    beams = p.item_nodes.shape[0]
+    for link in range(p.link_nodes.shape[0]):
+        start, stop = p.touch_start[beams + link], p.touch_start[beams + link + 1]
+        for t in range(start, stop):
+            _stretches(p, link, t, point, frame, axis, pivot, strain[t - start])
+        q = p.pair_start[beams + link]
+        for i in range(stop - start):
+            for a in range(6):
+                stress[a] = 0.0
+                for b in range(6):
+                    if p.link_stiffness[link, a, b] != 0.0:
+                        for w in range(LANES):
+                            stress[a, w] += p.link_stiffness[link, a, b] * strain[i, b, w]
+            for j in range(i + 1):
+                slot = p.pair_slot[q]
+                q += 1
+                for a in range(6):
+                    for w in range(LANES):
+                        matrix[slot, w] += stress[a, w] * strain[j, a, w]
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+def assemble(p, point, frame, axis, pivot, matrix, work):  # type: ignore[no-untyped-def]
+    """Stiffness K on the joint coordinates, by slots, (k, w)."""
+    ends, local, length, strain, stress = work
+    matrix[:] = 0.0
+    for item in range(p.item_nodes.shape[0]):
+        _element_axes(p, item, point, frame, ends, local, length)
+        b = p.item_beam[item]
+        start, stop = p.touch_start[item], p.touch_start[item + 1]
+        for t in range(start, stop):
+            _strains(p, t, axis, pivot, ends, local, length, strain[t - start])
+        ea, gj = p.properties[b, 0], p.properties[b, 1]
+        ey, ez = p.properties[b, 2], p.properties[b, 3]
+        sy, sz = p.properties[b, 4], p.properties[b, 5]
+        q = p.pair_start[item]
+        for i in range(stop - start):
+            e = strain[i]
+            for w in range(LANES):
+                inverse = 1.0 / length[w]
+                square = inverse * inverse
+                fz, fy = sz * square, sy * square
+                kz, ky = ez * inverse / (1.0 + fz), ey * inverse / (1.0 + fy)
+                stress[0, w] = ea * inverse * e[0, w]
+                stress[1, w] = gj * inverse * e[1, w]
+                stress[2, w] = kz * ((4.0 + fz) * e[2, w] + (2.0 - fz) * e[3, w])
+                stress[3, w] = kz * ((2.0 - fz) * e[2, w] + (4.0 + fz) * e[3, w])
+                stress[4, w] = ky * ((4.0 + fy) * e[4, w] + (2.0 - fy) * e[5, w])
+                stress[5, w] = ky * ((2.0 - fy) * e[4, w] + (4.0 + fy) * e[5, w])
+            for j in range(i + 1):
+                slot = p.pair_slot[q]
+                q += 1
+                f = strain[j]
+                for w in range(LANES):
+                    matrix[slot, w] += (
+                        stress[0, w] * f[0, w]
+                        + stress[1, w] * f[1, w]
+                        + stress[2, w] * f[2, w]
+                        + stress[3, w] * f[3, w]
+                        + stress[4, w] * f[4, w]
+                        + stress[5, w] * f[5, w]
+                    )
+    _add_links(p, point, frame, axis, pivot, matrix, strain, stress)
+    for s in range(p.spring_slot.shape[0]):
+        for w in range(LANES):
+            matrix[p.spring_slot[s], w] += p.spring_value[s]

@@ -1,0 +1,49 @@
+"""Load cases."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+Vector = tuple[float, float, float]
+Wrench = tuple[float, float, float, float, float, float]
+
+
+@dataclass(frozen=True)
+class LineLoad:
+    """A load per length in global axes, over a whole beam, N/m.
+
+    Parameters
+    ----------
+    beam : str
+    first, second : (3,)
+        Values at the beam's first and second end; they vary linearly between.
+    """
+
+    beam: str
+    first: Vector
+    second: Vector
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """Loads that act together.
+
+    Parameters
+    ----------
+    name : str
+    wrenches : tuple of (node, (6,))
+        Force and moment at nodes, global axes, N and N·m.
+    line_loads : tuple of LineLoad
+    gravity : (3,) or None
+        Acceleration, m/s²; acts on beams and masses.
+    gaps : mapping of (joint name, direction) to float
+        Misfits of joints and settlements of supports: the displacement of the second side
+        relative to the first, in joint axes, that closes the joint, m or rad.
+    """
+
+    name: str
+    wrenches: tuple[tuple[str, Wrench], ...] = ()
+    line_loads: tuple[LineLoad, ...] = ()
+    gravity: Vector | None = None
+    gaps: Mapping[tuple[str, str], float] = field(default_factory=dict)

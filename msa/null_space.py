@@ -1,0 +1,170 @@
+"""Solution on the null space of the constraint rows.
+
+Joint coordinates along the spanning forest satisfy the locked directions of the joints that
+carry, without any rank decision; rows that close loops are then removed by an orthonormal
+basis of their null space. What remains is symmetric and positive definite.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import State
+from kinematics.mobility import RANK_TOLERANCE
+from msa.assembly import System
+from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
+from msa.diagnosis import check_held, mechanism_error
+from msa.saddle_point import Unknowns, checked
+from msa.structure import rigid_map
+
+Array = NDArray[Any]
+
+
+def joint_coordinates(system: System, gaps: Array) -> tuple[Array, Array]:
+    """Basis N of the motions that the carrying joints leave, and a motion that meets their gaps.
+
+    Parameters
+    ----------
+    system : System
+    gaps : (p, r, m)
+
+    Returns
+    -------
+    basis : (p, n, c)
+        Displacements of the clusters per unit joint coordinate.
+    particular : (p, n, m)
+        Displacements that close the carrying joints' misfits.
+    """
+    structure = system.placed.structure
+    forest = system.topology.forest
+    linkage = structure.linkage
+    states = linkage.states()
+    row_of = {(int(j), int(d)): r for r, (j, d) in enumerate(zip(*system.row_owner, strict=True))}
+    positions = system.placed.positions
+    m = gaps.shape[-1]
+    basis = np.zeros((system.poses, structure.vertex_count, 6, forest.count))
+    particular = np.zeros((system.poses, structure.vertex_count, 6, m))
+    for step in forest.steps:
+        v = step.vertex
+        if step.joint < 0:
+            basis[:, v, range(6), range(step.start, step.start + 6)] = 1.0
+            continue
+        here = positions[:, structure.reference_nodes[v]]
+        if step.parent >= 0:
+            arm = here - positions[:, structure.reference_nodes[step.parent]]
+            carried = rigid_map(arm)
+            basis[:, v] = carried @ basis[:, step.parent]
+            particular[:, v] = carried @ particular[:, step.parent]
+        joint = linkage.joints[step.joint]
+        # both nodes of the joint stand at one place; the cluster's own side is exact for it
+        node = linkage.node_index[joint.between[1 if step.sign > 0 else 0]]
+        swing = (
+            step.sign * rigid_map(here - positions[:, node]) @ system.joint_frames[:, step.joint]
+        )
+        columns = range(step.start, step.start + len(step.free))
+        basis[:, v][..., columns] += swing[..., list(step.free)]
+        locked = [d for d in range(6) if states[step.joint, d] == State.LOCKED]
+        rows = [row_of[step.joint, d] for d in locked]
+        particular[:, v] += swing[..., locked] @ gaps[:, rows]
+    n = system.topology.size
+    return basis.reshape(system.poses, n, -1), particular.reshape(system.poses, n, m)
+
+
+def closing_rows(system: System) -> NDArray[np.intp]:
+    """Indices of the constraint rows whose joints close a loop."""
+    joint, _ = system.row_owner
+    return np.flatnonzero(np.isin(joint, system.topology.forest.closing))
+
+
+def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
+    """Solve on the null space of the constraint rows; multipliers from the equilibrium.
+
+    Parameters, returns and errors as `solve_saddle_point`.
+    """
+    rows = orthonormal_rows(system)
+    check_consistent(system, rows, gaps)
+    free = free_unknowns(system)
+    check_held(system, free, load)
+    d = scales(system)[:, None]
+    basis, particular = joint_coordinates(system, gaps)
+    closing = closing_rows(system)
+    stiffness = system.stiffness
+    a = system.rows[:, closing]
+    reduced = symmetric_product(basis, stiffness)
+    extra = np.concatenate([a @ basis, np.swapaxes(free / d, -1, -2) @ basis], axis=1)
+    target = np.concatenate(
+        [gaps[:, closing] - a @ particular, -np.swapaxes(free / d, -1, -2) @ particular], axis=1
+    )
+    force = np.swapaxes(basis, -1, -2) @ (load - stiffness @ particular)
+    coordinates = constrained_minimum(system, reduced, extra, force, target)
+    displacements = particular + basis @ coordinates
+    return checked(system, displacements, multipliers(system, displacements, load), load)
+
+
+def symmetric_product(basis: Array, matrix: Array) -> Array:
+    """Bᵀ M B, made exactly symmetric."""
+    product = np.swapaxes(basis, -1, -2) @ matrix @ basis
+    return np.asarray((product + np.swapaxes(product, -1, -2)) / 2.0)
+
+
+def constrained_minimum(
+    system: System, stiffness: Array, rows: Array, force: Array, target: Array
+) -> Array:
+    """Coordinates s of least energy ½ sᵀKs − sᵀf with rows·s = target.
+
+    Redundant rows are found by rank per pose.
+
+    Raises
+    ------
+    MechanismError, NumericalError
+        The stiffness is not positive definite on the null space of the rows.
+    """
+    diagonal = np.einsum("pii->pi", stiffness)
+    typical = np.where(diagonal > 0, diagonal, np.nan)
+    typical = (
+        np.nan_to_num(np.nanmedian(typical, axis=1, keepdims=True), nan=1.0)
+        if (diagonal.size and np.any(diagonal > 0))
+        else np.ones((len(stiffness), 1))
+    )
+    scale = 1.0 / np.sqrt(np.where(diagonal > 1e-12 * typical, diagonal, typical))
+    k = stiffness * scale[:, :, None] * scale[:, None, :]
+    f = force * scale[..., None]
+    if rows.shape[1] == 0:
+        return np.asarray(scale[..., None] * _definite_solve(system, k, f))
+    c = rows * scale[:, None, :]
+    size = np.linalg.norm(c, axis=-1, keepdims=True)
+    size = np.where(size == 0, 1.0, size)
+    _, values, right = np.linalg.svd(c / size)
+    count = values.shape[-1]
+    keep = np.zeros(right.shape[:2], dtype=bool)
+    keep[:, :count] = values > RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
+    start = np.linalg.pinv(c / size, rcond=RANK_TOLERANCE) @ (target / size)
+    null = np.swapaxes(right, -1, -2) * ~keep[:, None, :]
+    inner = symmetric_product(null, k)
+    inner[:, range(inner.shape[1]), range(inner.shape[1])] += keep
+    turned = np.swapaxes(null, -1, -2) @ (f - k @ start)
+    solution = start + null @ _definite_solve(system, inner, turned)
+    return np.asarray(scale[..., None] * solution)
+
+
+def _definite_solve(system: System, matrix: Array, right: Array) -> Array:
+    try:
+        # Cholesky proves that the matrix is positive definite
+        np.linalg.cholesky(matrix)
+        solution = np.linalg.solve(matrix, right)
+        solution += np.linalg.solve(matrix, right - matrix @ solution)
+    except np.linalg.LinAlgError as error:
+        values = np.linalg.eigvalsh(matrix)[:, 0]
+        raise mechanism_error(system, int(values.argmin())) from error
+    return np.asarray(solution)
+
+
+def multipliers(system: System, displacements: Array, load: Array) -> Array:
+    """Multipliers that balance the structure: the least solution of Aᵀ λ = F − K u."""
+    rows = orthonormal_rows(system)
+    d = scales(system)[:, None]
+    unbalanced = (load - system.stiffness @ displacements) * d
+    return rows.multipliers(rows.basis @ unbalanced)

@@ -1,0 +1,143 @@
+"""The saddle-point system of the matrix structural analysis, as written.
+
+    [ K  Aᵀ ] [ u ]   [ F ]
+    [ A  0  ] [ λ ] = [ g ]
+
+(Deblaise, Hernot, Maurine 2006; Azulay 2014, eq. 37.) K is assembled without joints, A holds
+one row for every locked direction, and −λ is the force of the joint on its second node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from msa.assembly import System
+from msa.constraints import (
+    Rows,
+    check_consistent,
+    free_unknowns,
+    orthonormal_rows,
+    scales,
+)
+from msa.diagnosis import check_held, check_residual, mechanism_error
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Unknowns:
+    """Solution of a system.
+
+    Parameters
+    ----------
+    displacements : (p, n, m)
+        Of the rigid clusters at their reference nodes, m and rad.
+    multipliers : (p, r, m)
+        Of the constraint rows, N and N·m; where rows are redundant, the least in balance.
+    residual : (p,)
+        Largest residual of the equilibrium, as a share of the load.
+    """
+
+    displacements: Array
+    multipliers: Array
+    residual: Array
+
+
+def solve_saddle_point(system: System, load: Array, gaps: Array) -> Unknowns:
+    """Solve the whole system with its multipliers, redundant rows found by rank.
+
+    Parameters
+    ----------
+    system : System
+    load : (p, n, m)
+        F on the unknowns, N and N·m.
+    gaps : (p, r, m)
+        g, the misfits of the constraint rows, m and rad.
+
+    Returns
+    -------
+    Unknowns
+        Motions that nothing resists and no load excites are left out of the displacements.
+
+    Raises
+    ------
+    MechanismError
+        A load does work in a motion that nothing resists.
+    InconsistentConstraintsError
+        Misfits of redundant rows contradict one another.
+    NumericalError
+        The residual is not small.
+    """
+    rows = orthonormal_rows(system)
+    check_consistent(system, rows, gaps)
+    free = free_unknowns(system)
+    check_held(system, free, load)
+    d = scales(system)[:, None]
+    stiffness = system.stiffness * (d * d.T)
+    size = np.abs(stiffness).max(axis=(1, 2), initial=0.0)
+    size = np.where(size == 0, 1.0, size)[:, None, None]
+    extra = np.concatenate([rows.basis, np.swapaxes(free, -1, -2)], axis=1)
+    matrix, right = bordered(stiffness / size, extra, load * d / size, rows, gaps)
+    solution = refined_solve(system, matrix, right)
+    n, r = system.topology.size, rows.basis.shape[1]
+    displacements = solution[:, :n] * d
+    multipliers = rows.multipliers(solution[:, n : n + r] * size)
+    return checked(system, displacements, multipliers, load)
+
+
+def bordered(
+    stiffness: Array, extra: Array, load: Array, rows: Rows, gaps: Array
+) -> tuple[Array, Array]:
+    """Matrix and right-hand side of the bordered system; absent rows get a one instead."""
+    poses, n, _ = stiffness.shape
+    count = extra.shape[1]
+    matrix = np.zeros((poses, n + count, n + count))
+    matrix[:, :n, :n] = stiffness
+    matrix[:, n:, :n] = extra
+    matrix[:, :n, n:] = np.swapaxes(extra, -1, -2)
+    absent = ~np.any(extra, axis=-1)
+    matrix[:, range(n, n + count), range(n, n + count)] = np.where(absent, -1.0, 0.0)
+    right = np.zeros((poses, n + count, load.shape[-1]))
+    right[:, :n] = load
+    right[:, n : n + gaps.shape[1]] = rows.right_side(gaps)
+    return matrix, right
+
+
+def refined_solve(system: System, matrix: Array, right: Array) -> Array:
+    """Solve a stack of systems with one step of iterative refinement.
+
+    Raises
+    ------
+    MechanismError, NumericalError
+        A singular matrix.
+    """
+    try:
+        solution = np.linalg.solve(matrix, right)
+        solution += np.linalg.solve(matrix, right - matrix @ solution)
+    except np.linalg.LinAlgError as error:
+        raise mechanism_error(system, _singular_pose(matrix)) from error
+    return solution
+
+
+def checked(system: System, displacements: Array, multipliers: Array, load: Array) -> Unknowns:
+    """The solution with its residual, K u + Aᵀ λ − F, checked against the forces in balance."""
+    d = scales(system)[:, None]
+    inner = system.stiffness @ displacements
+    held = np.swapaxes(system.rows, -1, -2) @ multipliers
+    residual = np.abs((inner + held - load) * d).max(axis=(1, 2), initial=0.0)
+    size = np.maximum.reduce(
+        [np.abs(part * d).max(axis=(1, 2), initial=0.0) for part in (inner, held, load)]
+    )
+    check_residual(residual, size, "static solution")
+    return Unknowns(displacements, multipliers, residual / np.where(size == 0, 1.0, size))
+
+
+def _singular_pose(matrix: Array) -> int:
+    for pose, one in enumerate(matrix):
+        if np.linalg.matrix_rank(one) < len(one):
+            return pose
+    return 0

@@ -1,0 +1,381 @@
+"""Structures: a linkage whose bodies may be flexible."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import GROUND, Body, Linkage, Placement, check_coincidence
+from msa.beam import Beam, beam_axes, local_stiffness, to_global
+from msa.springs import PointMass, Spring
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+
+#: Batches up to this size have their beams' geometry checked as soon as they are placed.
+CHECKED_AT_ONCE = 256
+
+
+class Element(Protocol):
+    """Anything that stands in a structure: nodes and a stiffness between them.
+
+    Only a rigid motion of its nodes may cost no energy.
+    """
+
+    @property
+    def name(self) -> str:
+        """Unique among the parts."""
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """The k nodes it connects; all on one body of the linkage."""
+
+    def stiffness(self, at: PlacedStructure) -> Array:
+        """Stiffness in global axes at a batch of poses, (..., 6 k, 6 k)."""
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A linkage with what makes it flexible and heavy.
+
+    A body of the linkage is rigid unless a beam or element lies in it; a flexible body may
+    hold rigid groups.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    beams : tuple of Beam
+    springs : tuple of Spring
+    rigid : tuple of Body
+        Rigid groups inside flexible bodies.
+    masses : tuple of PointMass
+    elements : tuple of Element
+        Elements of other kinds.
+
+    Raises
+    ------
+    ModelError
+        An unknown node, a name used twice, or a body that its beams do not hold together.
+    """
+
+    linkage: Linkage
+    beams: tuple[Beam, ...] = ()
+    springs: tuple[Spring, ...] = ()
+    rigid: tuple[Body, ...] = ()
+    masses: tuple[PointMass, ...] = ()
+    elements: tuple[Element, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        known = self.linkage.node_index
+        parts = [
+            *((f"beam {b.name}", b.nodes) for b in self.beams),
+            *((f"spring {s.name}", s.nodes) for s in self.springs),
+            *((f"body {r.name}", r.nodes) for r in self.rigid),
+            *((f"mass at node {m.node}", (m.node,)) for m in self.masses),
+            *((f"element {e.name}", e.nodes) for e in self.elements),
+        ]
+        for part, nodes in parts:
+            for node in nodes:
+                if node not in known:
+                    raise ModelError(part, f'names the unknown node "{node}".', "Define the node.")
+        owner = self.linkage.body_of_node
+        for part, nodes in parts:
+            if part.startswith(("beam", "body", "element")):
+                bodies = {int(owner[known[node]]) for node in nodes}
+                if len(bodies) > 1:
+                    raise ModelError(
+                        part,
+                        "its nodes belong to different bodies of the linkage.",
+                        "Put the nodes in one body, or join the bodies by a joint.",
+                    )
+        seen: set[str] = set()
+        for name in [*(b.name for b in self.beams), *(s.name for s in self.springs)]:
+            if name in seen:
+                raise ModelError(
+                    f"part {name}", "is defined twice.", "Give beams and springs unique names."
+                )
+            seen.add(name)
+        self._check_held()
+
+    def _check_held(self) -> None:
+        """A flexible body must be one piece, else the rigidified linkage is another machine."""
+        vertex = self.vertex_of_node[: len(self.linkage.nodes)]
+        piece = list(range(self.vertex_count))
+
+        def root(v: int) -> int:
+            while piece[v] != v:
+                v = piece[v]
+            return v
+
+        known = self.linkage.node_index
+        for nodes in self._flexible_parts:
+            tied = [int(vertex[known[n]]) for n in nodes]
+            tied = [v for v in tied if v >= 0]
+            for other in tied[1:]:
+                piece[root(other)] = root(tied[0])
+        for b, body in enumerate(self.linkage.body_names):
+            members = np.flatnonzero(self.linkage.body_of_node == b)
+            roots = {root(int(vertex[m])) for m in members}
+            if len(roots) > 1:
+                loose = [self.linkage.nodes[m] for m in members]
+                raise ModelError(
+                    f"body {body}",
+                    f"its nodes {', '.join(loose)} are not held together by its beams.",
+                    "Add the missing beam or rigid group.",
+                )
+
+    def __repr__(self) -> str:
+        return (
+            f"<Structure: {len(self.linkage.nodes)} nodes, {len(self.beams)} beams, "
+            f"{len(self.linkage.joints)} joints, {6 * self.vertex_count} dof before joints>"
+        )
+
+    @property
+    def _flexible_parts(self) -> list[tuple[str, ...]]:
+        return [*(b.nodes for b in self.beams), *(e.nodes for e in self.elements)]
+
+    @cached_property
+    def flexible_bodies(self) -> frozenset[int]:
+        """Indices of bodies that hold a beam or an element; -1 stands for ground."""
+        owner, index = self.linkage.body_of_node, self.linkage.node_index
+        return frozenset(int(owner[index[nodes[0]]]) for nodes in self._flexible_parts)
+
+    @cached_property
+    def mesh_nodes(self) -> tuple[str, ...]:
+        """Nodes of the linkage, then those inside divided beams (beam/1, beam/2 and so on)."""
+        inner = (f"{b.name}/{i}" for b in self.beams for i in range(1, b.elements))
+        return (*self.linkage.nodes, *inner)
+
+    @cached_property
+    def mesh_index(self) -> dict[str, int]:
+        """Row of each mesh node."""
+        return {name: i for i, name in enumerate(self.mesh_nodes)}
+
+    @cached_property
+    def segments(self) -> NDArray[np.intp]:
+        """Beam, first and second mesh node of every beam element, (s, 3)."""
+        rows: list[list[int]] = []
+        for i, beam in enumerate(self.beams):
+            chain = [
+                beam.nodes[0],
+                *(f"{beam.name}/{k}" for k in range(1, beam.elements)),
+                beam.nodes[1],
+            ]
+            index = [self.mesh_index[n] for n in chain]
+            rows.extend([i, a, b] for a, b in pairwise(index))
+        return np.asarray(rows, dtype=np.intp).reshape(-1, 3)
+
+    @cached_property
+    def vertex_of_node(self) -> NDArray[np.intp]:
+        """Rigid cluster of every mesh node, -1 for ground, (n,).
+
+        Nodes of one cluster share six degrees of freedom: the exact elimination of rigid
+        bodies.
+        """
+        linkage = self.linkage
+        owner = linkage.body_of_node
+        grounded = [b for b in linkage.bodies if b.name == GROUND]
+        label: dict[int, int] = {}
+        count = 0
+        groups: list[list[int]] = [
+            [linkage.node_index[n] for n in body.nodes] for body in self.rigid
+        ]
+        groups += [
+            [int(i) for i in np.flatnonzero(owner == b)]
+            for b in range(len(linkage.body_names))
+            if b not in self.flexible_bodies
+        ]
+        for body in grounded:
+            for node in body.nodes:
+                label[linkage.node_index[node]] = -1
+        for group in groups:
+            if any(label.get(i) == -1 for i in group):
+                label.update(dict.fromkeys(group, -1))
+                continue
+            if any(i in label for i in group):
+                names = ", ".join(linkage.nodes[i] for i in group if i in label)
+                raise ModelError(
+                    f"node {names}", "is in two rigid bodies.", "Merge the bodies into one."
+                )
+            label.update(dict.fromkeys(group, count))
+            count += 1
+        for i in range(len(self.mesh_nodes)):
+            if i not in label:
+                label[i] = count
+                count += 1
+        return np.asarray([label[i] for i in range(len(self.mesh_nodes))], dtype=np.intp)
+
+    @cached_property
+    def vertex_count(self) -> int:
+        """Number of moving rigid clusters."""
+        return int(self.vertex_of_node.max(initial=-1)) + 1
+
+    @cached_property
+    def reference_nodes(self) -> NDArray[np.intp]:
+        """Mesh node that stands for each cluster: the tool in its own, else the first, (v,)."""
+        vertex = self.vertex_of_node
+        first = np.array(
+            [np.flatnonzero(vertex == v)[0] for v in range(self.vertex_count)], dtype=np.intp
+        )
+        if self.linkage.tool is not None:
+            tool = self.linkage.node_index[self.linkage.tool]
+            if vertex[tool] >= 0:
+                first[vertex[tool]] = tool
+        return first
+
+    def at(self, placement: Placement) -> PlacedStructure:
+        """The structure at a batch of poses.
+
+        Raises
+        ------
+        ModelError
+            Joint nodes that do not coincide; a beam of zero length, an orientation along its
+            beam, a spring that resists rigid rotation (in a large batch these come when the
+            poses are solved).
+        UnreachableError
+            A pose that cannot be taken.
+        """
+        placement.require_reachable()
+        check_coincidence(self.linkage, placement)
+        placed = PlacedStructure(self, placement)
+        if np.prod(placement.batch, dtype=int) <= CHECKED_AT_ONCE:
+            placed.check()
+        return placed
+
+
+@dataclass(frozen=True)
+class PlacedStructure:
+    """A structure at a batch of poses; made by `Structure.at`."""
+
+    structure: Structure
+    placement: Placement
+
+    def __repr__(self) -> str:
+        return f"<PlacedStructure: {self.structure!r}, batch {self.batch}>"
+
+    @property
+    def batch(self) -> tuple[int, ...]:
+        """Shape of the batch of poses."""
+        return self.placement.batch
+
+    def __getitem__(self, index: Any) -> PlacedStructure:
+        return PlacedStructure(self.structure, self.placement[index])
+
+    @cached_property
+    def beam_ends(self) -> tuple[Array, Array]:
+        """Ends of the whole beams, offsets included, (..., b, 3) each, m."""
+        s = self.structure
+        index = s.linkage.node_index
+        positions = self.placement.positions
+        ends = []
+        for k in (0, 1):
+            rows = [index[b.nodes[k]] for b in s.beams]
+            shift = np.array([b.offsets[k] for b in s.beams]).reshape(-1, 3)
+            ends.append(positions[..., rows, :] + shift)
+        return ends[0], ends[1]
+
+    @cached_property
+    def beam_geometry(self) -> tuple[Array, Array]:
+        """Length (..., b) in m and local axes as rows (..., b, 3, 3) of the whole beams."""
+        s = self.structure
+        start, end = self.beam_ends
+        up = np.full(start.shape, np.nan)
+        for i, beam in enumerate(s.beams):
+            if isinstance(beam.orientation, str):
+                up[..., i, :] = self.frame(beam.orientation, f"beam {beam.name}")[..., :, 2]
+            elif beam.orientation is not None:
+                up[..., i, :] = beam.orientation
+        return beam_axes(start, end, up, [b.name for b in s.beams])
+
+    def frame(self, joint: str, part: str = "structure") -> Array:
+        """Axes of a joint as columns, (..., 3, 3)."""
+        index = self.structure.linkage.joint_index
+        if joint not in index:
+            raise ModelError(part, f'names the unknown joint "{joint}".', "Name a joint.")
+        return self.placement.frames[..., index[joint], :, :]
+
+    @cached_property
+    def positions(self) -> Array:
+        """Positions of the mesh nodes, (..., n, 3), m."""
+        inner = []
+        start, end = self.beam_ends
+        for i, beam in enumerate(self.structure.beams):
+            for k in range(1, beam.elements):
+                share = k / beam.elements
+                inner.append((1 - share) * start[..., i, :] + share * end[..., i, :])
+        if not inner:
+            return self.placement.positions
+        return np.concatenate([self.placement.positions, np.stack(inner, axis=-2)], axis=-2)
+
+    @cached_property
+    def arms(self) -> Array:
+        """From each cluster's reference node to its nodes, (..., n, 3), m; zero for ground."""
+        s = self.structure
+        vertex = s.vertex_of_node
+        reference = np.where(vertex >= 0, s.reference_nodes[vertex], np.arange(len(vertex)))
+        return self.positions - self.positions[..., reference, :]
+
+    @cached_property
+    def segment_stiffness(self) -> Array:
+        """Stiffness of every beam element at its two mesh nodes, global axes, (..., s, 12, 12)."""
+        s = self.structure
+        length, axes = self.beam_geometry
+        beam = s.segments[:, 0]
+        pieces = np.array([b.elements for b in s.beams], dtype=float)
+        properties = np.array([b.properties for b in s.beams]).reshape(-1, 6).T
+        local = local_stiffness((length / pieces)[..., beam], properties[:, beam])
+        stiffness = to_global(axes[..., beam, :, :], local)
+        offsets = self.segment_offsets
+        if not np.any(offsets):
+            return stiffness
+        carry = np.zeros((*offsets.shape[:-2], 12, 12))
+        for k in (0, 1):
+            carry[..., 6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = rigid_map(offsets[..., k, :])
+        return np.asarray(np.swapaxes(carry, -1, -2) @ stiffness @ carry)
+
+    @cached_property
+    def segment_offsets(self) -> Array:
+        """From the mesh nodes of each beam element to its ends, (s, 2, 3), m."""
+        s = self.structure
+        result = np.zeros((len(s.segments), 2, 3))
+        for i, beam in enumerate(s.beams):
+            rows = np.flatnonzero(s.segments[:, 0] == i)
+            result[rows[0], 0] = beam.offsets[0]
+            result[rows[-1], 1] = beam.offsets[1]
+        return result
+
+    def check(self) -> None:
+        """Evaluate the geometry once so that its errors come early."""
+        if self.structure.beams:
+            _ = self.beam_geometry
+        index = self.structure.linkage.node_index
+        for spring in self.structure.springs:
+            if len(spring.nodes) == 1:
+                continue
+            first, second = (index[n] for n in spring.nodes)
+            arm = self.placement.positions[..., second, :] - self.placement.positions[..., first, :]
+            # work of the spring in a rigid rotation about each axis
+            resisted = spring.diagonal[:3, None] * rigid_map(arm)[..., :3, 3:]
+            if np.abs(resisted).max(initial=0.0) > 1e-9 * spring.diagonal.max():
+                raise ModelError(
+                    f"spring {spring.name}",
+                    f"its nodes are {np.linalg.norm(arm, axis=-1).max():.3g} m apart across its "
+                    "direction: it would resist a rigid rotation of both.",
+                    "Put its nodes at one place or along its direction, or use a joint.",
+                )
+
+
+def rigid_map(arm: Array) -> Array:
+    """Twist at the end of a rigid arm from the twist at its start, (..., 3) to (..., 6, 6)."""
+    result = np.zeros((*arm.shape[:-1], 6, 6))
+    result[..., range(6), range(6)] = 1.0
+    x, y, z = arm[..., 0], arm[..., 1], arm[..., 2]
+    result[..., 0, 4], result[..., 0, 5] = z, -y
+    result[..., 1, 3], result[..., 1, 5] = -z, x
+    result[..., 2, 3], result[..., 2, 4] = y, -x
+    return result

@@ -1,0 +1,1 @@
+"""Reports: figures, tables, the self-contained HTML page, and the command line."""

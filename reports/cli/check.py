@@ -1,0 +1,43 @@
+"""`strutwork check`: mobility, redundancy and mass of a model file."""
+
+from __future__ import annotations
+
+from machines.model_file import read_model
+from reports.cli.output import console, print_json, show, table
+from reports.model_check import ModelCheck, check_model
+
+
+def run(file: str, json: bool) -> None:
+    """Check a model file and print what was found."""
+    found = check_model(read_model(file))
+    if json:
+        print_json(found.to_dict())
+    else:
+        _print(found)
+
+
+def _print(found: ModelCheck) -> None:
+    out, counts = console(), found.mobility
+    rows: list[tuple[str, object]] = [
+        ("degrees of freedom of the flexible structure", found.degrees_of_freedom),
+        ("mobility of the rigid linkage, drives free", counts.mobility),
+        ("mobility with the drives held", counts.mobility_locked),
+        ("redundant constraints, drives held", counts.redundant),
+        ("Grübler's count, drives free", counts.gruebler),
+    ]
+    if found.mass is not None:
+        rows.append(("mass, kg", found.mass.total))
+        if found.mass.center is not None:
+            center = ", ".join(show(round(1e3 * v, 6)) for v in found.mass.center)
+            rows.append(("centre of mass, mm", center))
+    out.print(table(found.model.title or "Model", ["", ""], rows))
+    for title, motions in (
+        ("Motions left with the drives held", counts.motions),
+        ("Motions with the drives free", counts.driven_motions),
+    ):
+        if motions:
+            numbered = [(i, motion.description) for i, motion in enumerate(motions, 1)]
+            out.print(table(title, ["", "motion"], numbered, names=2))
+    if counts.self_stress:
+        numbered = [(i, ", ".join(s.joints)) for i, s in enumerate(counts.self_stress, 1)]
+        out.print(table("States of self-stress", ["", "joints that take part"], numbered, names=2))

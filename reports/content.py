@@ -1,0 +1,187 @@
+"""What a chapter says: typed blocks that the page's template turns into HTML."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
+
+Spec = Mapping[str, Any]
+Tone = Literal["plain", "good", "fair", "poor", "quiet"]
+
+
+@dataclass(frozen=True)
+class Text:
+    """A paragraph."""
+
+    text: str
+    kind: ClassVar[str] = "text"
+
+
+@dataclass(frozen=True)
+class Note:
+    """A paragraph set apart: what a reader must know to read the numbers beside it."""
+
+    text: str
+    kind: ClassVar[str] = "note"
+
+
+@dataclass(frozen=True)
+class Fact:
+    """A headline number.
+
+    Parameters
+    ----------
+    label : str
+    value : str
+        Already rounded.
+    unit : str
+    detail : str
+        Second line, smaller.
+    """
+
+    label: str
+    value: str
+    unit: str = ""
+    detail: str = ""
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Headline numbers side by side."""
+
+    items: tuple[Fact, ...]
+    kind: ClassVar[str] = "facts"
+
+
+@dataclass(frozen=True)
+class Column:
+    """Heading of a table's column; numbers stand to the right."""
+
+    title: str
+    unit: str = ""
+    numeric: bool = True
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell with a tone: its colour never says more than its words."""
+
+    text: str
+    tone: Tone = "plain"
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table.
+
+    Parameters
+    ----------
+    caption : str
+    columns : sequence of Column
+    rows : sequence of sequences of str or Cell
+        The first cell of a row is its heading.
+    data : str
+        Data file beside the report that holds the numbers unrounded; empty: none.
+    """
+
+    caption: str
+    columns: Sequence[Column]
+    rows: Sequence[Sequence[str | Cell]]
+    data: str = ""
+    kind: ClassVar[str] = "table"
+
+    @property
+    def cells(self) -> list[list[Cell]]:
+        """The rows with every cell as a `Cell`."""
+        return [[c if isinstance(c, Cell) else Cell(c) for c in row] for row in self.rows]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A plot one can hover and zoom.
+
+    Parameters
+    ----------
+    key : str
+        Unique on the page; letters, digits and hyphens.
+    caption : str
+    spec : mapping
+        A plotly figure as plain data: `data` and `layout`.
+    alt : str
+        What the plot shows, in words, for readers who do not see it.
+    data : str
+        Data file beside the report that holds the plotted numbers.
+    height : int
+        px; 0 for a square.
+    """
+
+    key: str
+    caption: str
+    spec: Spec
+    alt: str
+    data: str = ""
+    height: int = 420
+    kind: ClassVar[str] = "figure"
+
+
+@dataclass(frozen=True)
+class Row:
+    """Figures side by side where the window is wide enough.
+
+    Parameters
+    ----------
+    figures : tuple of Figure
+    width : int
+        Narrowest width of a figure before it moves to the next line, px.
+    """
+
+    figures: tuple[Figure, ...]
+    width: int = 300
+    kind: ClassVar[str] = "row"
+
+
+@dataclass(frozen=True)
+class Links:
+    """Files beside the report, each with what it holds."""
+
+    items: tuple[tuple[str, str], ...]
+    kind: ClassVar[str] = "links"
+
+
+Block = Text | Note | Facts | Table | Figure | Row | Links
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter of the report.
+
+    Parameters
+    ----------
+    key : str
+        Unique on the page, the target of links.
+    title : str
+    blocks : tuple of Block
+    """
+
+    key: str
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Page:
+    """A whole report.
+
+    Parameters
+    ----------
+    title : str
+    subtitle : str
+    chapters : tuple of Chapter
+    footer : str
+    """
+
+    title: str
+    subtitle: str
+    chapters: tuple[Chapter, ...]
+    footer: str

@@ -1,0 +1,161 @@
+"""What a structure can do before any load: its freedoms, redundant constraints and mass."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import DIRECTIONS, FreeMotion, Mobility, SelfStress, mobility
+from kinematics.mobility import RANK_TOLERANCE
+from machines.model import Model, ModelWarning
+from msa import PlacedStructure, system_of
+from msa.constraints import scales
+
+
+@dataclass(frozen=True)
+class MassProperties:
+    """Total mass and its centre.
+
+    Parameters
+    ----------
+    total : float
+        kg.
+    center : (3,) or None
+        m, global axes; None where there is no mass.
+    """
+
+    total: float
+    center: tuple[float, float, float] | None
+
+
+@dataclass(frozen=True)
+class ModelCheck:
+    """What `check_model` found.
+
+    Parameters
+    ----------
+    model : Model
+    degrees_of_freedom : int
+        Independent displacements of the flexible structure: unknowns less the rank of the
+        locked directions.
+    mobility : Mobility
+        Of the rigidified linkage.
+    mass : MassProperties or None
+        None where a density is missing.
+    """
+
+    model: Model
+    degrees_of_freedom: int
+    mobility: Mobility
+    mass: MassProperties | None
+
+    def __repr__(self) -> str:
+        return f"<ModelCheck: {self.degrees_of_freedom} dof, {self.mobility!r}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers and strings in SI, by the names of the model file."""
+        found = self.mobility
+        return {
+            "degrees_of_freedom": self.degrees_of_freedom,
+            "mobility": found.mobility,
+            "mobility_locked": found.mobility_locked,
+            "redundant_constraints": found.redundant,
+            "mechanisms": self._motions(found.motions),
+            "driven_motions": self._motions(found.driven_motions),
+            "self_stress_states": [
+                {"joints": list(state.joints), "forces": _by_joint(state)}
+                for state in found.self_stress
+            ],
+            "mass": None
+            if self.mass is None
+            else {"total": self.mass.total, "center": self.mass.center},
+        }
+
+    def _motions(self, motions: Sequence[FreeMotion]) -> list[dict[str, Any]]:
+        index = self.model.structure.linkage.node_index
+        return [
+            {
+                "description": motion.description,
+                "motion": {n: motion.nodes[index[n]].tolist() for n in self.model.nodes},
+            }
+            for motion in motions
+        ]
+
+
+def check_model(model: Model) -> ModelCheck:
+    """Count and name freedoms and redundant constraints, and add up the mass.
+
+    Parameters
+    ----------
+    model : Model
+
+    Returns
+    -------
+    ModelCheck
+
+    Warns
+    -----
+    ModelWarning
+        A density is missing, so that there is no mass.
+    """
+    return ModelCheck(
+        model,
+        degrees_of_freedom(model.placed),
+        mobility(model.structure.linkage, model.placement),
+        mass_properties(model.placed),
+    )
+
+
+def degrees_of_freedom(placed: PlacedStructure) -> int:
+    """Unknowns of the structure less the rank of its locked directions; single pose."""
+    system = system_of(placed)
+    rows: NDArray[np.float64] = system.rows[0] * scales(system)
+    # only the clusters that joints touch decide the rank
+    rows = rows[:, np.any(rows, axis=0)]
+    size = np.linalg.norm(rows, axis=1, keepdims=True)
+    if rows.size == 0:
+        return system.topology.size
+    values = np.linalg.svd(rows / np.where(size == 0, 1.0, size), compute_uv=False)
+    return system.topology.size - int(np.count_nonzero(values > RANK_TOLERANCE * values[0]))
+
+
+def mass_properties(placed: PlacedStructure) -> MassProperties | None:
+    """Mass of beams and point masses; None, with a warning, where a density is missing."""
+    structure = placed.structure
+    without = {b.material.name for b in structure.beams if b.material.density is None}
+    if without:
+        warnings.warn(
+            f"material {', '.join(sorted(without))}: has no density, so the mass is not known.",
+            ModelWarning,
+            stacklevel=2,
+        )
+        return None
+    total, moment = 0.0, np.zeros(3)
+    if structure.beams:
+        start, end = placed.beam_ends
+        length, _ = placed.beam_geometry
+        for i, beam in enumerate(structure.beams):
+            mass = float((beam.material.density or 0.0) * beam.section.area * length[i])
+            total += mass
+            moment += mass * (start[i] + end[i]) / 2.0
+    for point in structure.masses:
+        at = placed.placement.positions[structure.linkage.node_index[point.node]]
+        total += point.mass
+        moment += point.mass * (at + np.asarray(point.offset))
+    if total == 0.0:
+        return MassProperties(0.0, None)
+    x, y, z = (float(v) for v in moment / total)
+    return MassProperties(total, (x, y, z))
+
+
+def _by_joint(state: SelfStress) -> dict[str, list[float]]:
+    """Forces of a state of self-stress in joint axes, (6,) for each joint."""
+    return {
+        joint: [state.forces.get((joint, direction), 0.0) for direction in DIRECTIONS]
+        for joint in state.joints
+    }

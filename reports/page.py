@@ -1,0 +1,78 @@
+"""The page: content in, one self-contained HTML text out."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+from plotly.offline import get_plotlyjs
+
+from reports.content import Page
+
+
+def render(page: Page) -> str:
+    """A page as one HTML text that needs no other file and no network.
+
+    Text is escaped by the template; scripts, style and plot data are written into the page.
+
+    Parameters
+    ----------
+    page : Page
+
+    Returns
+    -------
+    str
+    """
+    return _environment().get_template("report.html").render(
+        page=page,
+        style=_asset("style.css"),
+        script=_asset("report.js"),
+        plotly=Markup(_closed(get_plotlyjs())),  # noqa: S704 - the library's own text
+    )
+
+
+def embedded(value: Any) -> Markup:
+    """JSON that may stand inside a script element whatever strings it holds.
+
+    Raises
+    ------
+    ValueError
+        A number that is not finite: JSON has none.
+    """
+    text = json.dumps(value, allow_nan=False, separators=(",", ":"))
+    for character in "<>&":
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return Markup(text)  # noqa: S704 - no character of markup is left in it
+
+
+def plain(text: str) -> str:
+    """A name as plotly shows it literally: plotly reads a subset of HTML in its texts."""
+    return escape(text, quote=False)
+
+
+@cache
+def _environment() -> Environment:
+    environment = Environment(
+        loader=PackageLoader("reports", "templates"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["embedded"] = embedded
+    return environment
+
+
+def _asset(name: str) -> Markup:
+    text = files("reports").joinpath("templates", name).read_text(encoding="utf-8")
+    return Markup(_closed(text))  # noqa: S704 - our own file
+
+
+def _closed(script: str) -> str:
+    """A script's text that cannot end its element early."""
+    return script.replace("</script", "<\\/script")

@@ -1,0 +1,40 @@
+"use strict";
+(async () => {
+  const config = {
+    responsive: true,
+    displaylogo: false,
+    displayModeBar: "hover",
+    modeBarButtonsToRemove: ["select2d", "lasso2d", "tableRotation", "resetCameraLastSave3d"],
+    toImageButtonOptions: { format: "png", scale: 2 },
+  };
+  // printers do not draw WebGL: a picture of each 3-D view stands in for it on paper
+  const photograph = async (drawing) => {
+    const url = await Plotly.toImage(drawing, { format: "png", width: 1000, height: 700 });
+    let picture = drawing.parentElement.querySelector(".print");
+    if (!picture) {
+      picture = document.createElement("img");
+      picture.className = "print";
+      picture.alt = drawing.getAttribute("aria-label");
+      drawing.after(picture);
+    }
+    picture.src = url;
+  };
+  const failures = [];
+  for (const figure of document.querySelectorAll("figure.plot")) {
+    const drawing = figure.querySelector(".drawing");
+    try {
+      const spec = JSON.parse(figure.querySelector("script").textContent);
+      await Plotly.newPlot(drawing, spec.data, spec.layout, config);
+      if (spec.layout.scene) {
+        drawing.classList.add("solid");
+        await photograph(drawing);
+        drawing.on("plotly_relayout", () => photograph(drawing));
+      }
+    } catch (error) {
+      drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
+      failures.push(figure.id);
+      console.error(`figure ${figure.id}:`, error);
+    }
+  }
+  document.documentElement.dataset.plots = failures.length ? `failed: ${failures}` : "drawn";
+})();

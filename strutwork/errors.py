@@ -1,0 +1,55 @@
+"""The error family: every message names the part, says what is wrong and what to do."""
+
+from __future__ import annotations
+
+
+class StrutworkError(Exception):
+    """Base of all errors raised on purpose.
+
+    Parameters
+    ----------
+    part : str
+        The joint, node, field or file that the message is about.
+    problem : str
+        What is wrong with it, with the value found.
+    remedy : str
+        What the reader can do about it.
+    """
+
+    def __init__(self, part: str, problem: str, remedy: str = "") -> None:
+        self.part = part
+        self.problem = problem
+        self.remedy = remedy
+        super().__init__(part, problem, remedy)
+
+    def __str__(self) -> str:
+        text = f"{self.part}: {self.problem}" if self.part else self.problem
+        return f"{text}\n{self.remedy}" if self.remedy else text
+
+
+class ModelError(StrutworkError):
+    """The description of the structure or the study is wrong."""
+
+
+class UnitError(ModelError):
+    """A quantity has a unit of another dimension than its field."""
+
+
+class MechanismError(StrutworkError):
+    """The structure moves freely under the load; the message names the joints that let it."""
+
+
+class InconsistentConstraintsError(StrutworkError):
+    """Locked directions contradict one another: no displacement satisfies all of them."""
+
+
+class UnreachableError(StrutworkError):
+    """A pose outside the reach of the machine."""
+
+
+class SingularPoseError(StrutworkError):
+    """A pose at which the machine loses or gains a degree of freedom."""
+
+
+class NumericalError(StrutworkError):
+    """A result failed its own check (residual, symmetry, finiteness) and was withheld."""

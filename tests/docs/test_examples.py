@@ -1,0 +1,108 @@
+"""Every example of the README and the docs runs and prints what the page says.
+
+The Python blocks of a page are one program; a text block after one is what it prints. In a
+console block the lines after `$ strutwork …` are what the command prints on standard output.
+`...` stands for anything. A block after `<!-- slow -->` runs with the slow tests.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import doctest
+import io
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.docs.markdown import Block, blocks
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
+COMMAND = Path(sys.executable).with_name("strutwork")
+
+
+def matches(wanted: str, got: str) -> bool:
+    flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+    return doctest.OutputChecker().check_output(wanted, got, flags)
+
+
+def programs() -> list[Path]:
+    return [page for page in PAGES if any(b.language == "python" for b in blocks(page))]
+
+
+def consoles() -> list[Block]:
+    found = [block for page in PAGES for block in blocks(page)]
+    return [block for block in found if block.language == "console"]
+
+
+@pytest.fixture
+def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An empty folder in which the examples are at hand, as a reader of the checkout has them."""
+    (tmp_path / "examples").symlink_to(ROOT / "examples", target_is_directory=True)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.usefixtures("workplace")
+@pytest.mark.parametrize("page", programs(), ids=lambda page: page.name)
+def test_python_blocks_run_and_print_what_the_page_says(page: Path) -> None:
+    names: dict[str, object] = {"__name__": "__main__"}
+    printed = ""
+    for block in blocks(page):
+        if block.language == "python":
+            assert printed == "", f"{block}: the page does not show what was printed before"
+            output = io.StringIO()
+            source = "\n" * (block.line - 1) + block.text
+            with contextlib.redirect_stdout(output):
+                exec(compile(source, str(page), "exec"), names)  # noqa: S102 - our own pages
+            printed = output.getvalue()
+        elif block.language == "text" and printed:
+            assert matches(block.text, printed), f"{block} says\n{block.text}but got\n{printed}"
+            printed = ""
+    assert printed == "", "the page does not show what its last block printed"
+
+
+@pytest.mark.parametrize(
+    "block",
+    [pytest.param(b, marks=pytest.mark.slow if b.slow else (), id=str(b)) for b in consoles()],
+)
+def test_commands_run_and_print_what_the_page_says(block: Block, workplace: Path) -> None:
+    steps = re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block.text, re.MULTILINE)
+    assert steps, f"{block}: a console block starts with a prompt"
+    for command, wanted in steps:
+        program, *arguments = shlex.split(command)
+        assert program == "strutwork", f"{block}: only the program strutwork is tried"
+        run = subprocess.run(
+            [COMMAND, *arguments],
+            cwd=workplace,
+            env={**os.environ, "COLUMNS": "100", "NO_COLOR": "1"},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=300,
+            check=False,
+        )
+        assert run.returncode == 0, f"{block}: {command}\n{run.stderr}"
+        if wanted.strip():
+            assert matches(wanted, run.stdout), f"{block} says\n{wanted}but got\n{run.stdout}"
+
+
+def test_pages_link_to_what_exists() -> None:
+    fenced = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+    links = [
+        (page, target)
+        for page in PAGES
+        for target in re.findall(
+            r"\]\(([^)#\s]+)[^)]*\)", fenced.sub("", page.read_text(encoding="utf-8"))
+        )
+        if "://" not in target
+    ]
+    broken = [
+        f"{page.name}: {target}" for page, target in links if not (page.parent / target).exists()
+    ]
+    assert broken == []

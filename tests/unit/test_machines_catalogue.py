@@ -1,0 +1,54 @@
+"""Names of machines, and the published numbers beside them."""
+
+from __future__ import annotations
+
+import pytest
+
+from kinematics import Mechanism
+from machines import CATALOGUE, get
+from machines.published_azulay import TABLE_2, TABLE_4, TABLES
+from strutwork.errors import ModelError
+
+
+def test_every_entry_makes_its_machine() -> None:
+    assert list(CATALOGUE) == [
+        "proposed-3pprs",
+        "eclipse-3pprs",
+        "alizade-3prps",
+        "glozman-3prrs",
+    ]
+    for name, entry in CATALOGUE.items():
+        machine = entry.factory()
+        assert get(name) is entry
+        assert isinstance(machine, Mechanism)
+        assert machine.place(machine.home()).reachable
+        assert entry.paper.key == "azulay-2014"
+
+
+def test_the_factory_takes_other_dimensions() -> None:
+    machine = get("proposed-3pprs").factory(link_length=0.236)
+    placement = machine.place(machine.home())
+    assert placement.values[1] == pytest.approx(0.018 + (0.236**2 - 0.126**2) ** 0.5)
+
+
+def test_an_unknown_machine_is_answered_with_the_names() -> None:
+    with pytest.raises(ModelError, match=r"machine hexapod(.|\n)*proposed-3pprs, eclipse-3pprs"):
+        get("hexapod")
+
+
+def test_tables_are_complete_and_their_values_are_unique() -> None:
+    sizes = {key.rsplit("-", 1)[1]: len(table.values) for key, table in TABLES.items()}
+    assert sizes == {"1": 9, "2": 18, "3": 35, "4": 24, "5": 12}
+    for table in TABLES.values():
+        names = [(value.row, value.quantity) for value in table]
+        assert len(set(names)) == len(names)
+        for row, _ in names:
+            assert row.split(" L=")[0] in CATALOGUE
+
+
+def test_numbers_are_found_by_row_and_quantity() -> None:
+    # Table 4 and Table 2 as printed
+    assert TABLE_4.value("eclipse-3pprs", "Kzz mean") == 7.360
+    assert TABLE_2.value("proposed-3pprs L=196 mm", "Kzz variance") == 1.18
+    with pytest.raises(ModelError, match=r'no "Kzz median" of "eclipse-3pprs"(.|\n)*Kzz mean'):
+        TABLE_4.value("eclipse-3pprs", "Kzz median")

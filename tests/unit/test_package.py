@@ -1,0 +1,91 @@
+"""What holds for the distribution as a whole."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+import re
+import tomllib
+from importlib import metadata
+from pathlib import Path
+
+import pytest
+
+import strutwork
+from strutwork import errors
+
+ROOT = Path(__file__).parents[2]
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+ROOMS = PROJECT["tool"]["mypy"]["packages"]
+LONGEST_FILE = 400
+
+
+def sources() -> list[Path]:
+    return [path for room in ROOMS for path in sorted((ROOT / room).rglob("*.py"))]
+
+
+def floors() -> dict[str, str]:
+    requirement = re.compile(r"^([A-Za-z0-9_-]+)>=([0-9.]+)$")
+    found = [requirement.match(line) for line in PROJECT["project"]["dependencies"]]
+    assert all(found), "every dependency is written as name>=version"
+    return {match[1]: match[2] for match in found if match}
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_each_package_says_that_it_is_typed(room: str) -> None:
+    assert (ROOT / room / "__init__.py").is_file()
+    assert (ROOT / room / "py.typed").is_file()
+
+
+def test_every_list_of_packages_is_the_same() -> None:
+    tool = PROJECT["tool"]
+    installed = [
+        name for name in tool["setuptools"]["packages"]["find"]["include"] if name in ROOMS
+    ]
+    assert installed == ROOMS
+    assert tool["importlinter"]["root_packages"] == ROOMS
+    assert set(ROOMS) <= set(tool["ruff"]["lint"]["isort"]["known-first-party"])
+    forbidden = [f"error:::{room}" for room in ROOMS]
+    assert forbidden == tool["pytest"]["ini_options"]["filterwarnings"]
+
+
+def test_version_is_written_once() -> None:
+    assert strutwork.__version__ == PROJECT["project"]["version"]
+    assert metadata.version("strutwork") == strutwork.__version__
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {strutwork.__version__}\n" in citation
+
+
+def test_tested_floors_are_the_declared_ones() -> None:
+    text = (ROOT / "tests" / "floors.txt").read_text(encoding="utf-8")
+    pinned = dict(re.findall(r"^([A-Za-z0-9_-]+)==([0-9.]+)$", text, re.MULTILINE))
+    assert {name: pinned.get(name) for name in floors()} == floors()
+
+
+def test_every_error_of_the_packages_is_of_the_family() -> None:
+    modules = [
+        importlib.import_module(module.name)
+        for room in ROOMS
+        for module in pkgutil.walk_packages(importlib.import_module(room).__path__, f"{room}.")
+        if not module.name.endswith("__main__")
+    ]
+    values = [value for module in modules for value in vars(module).values()]
+    classes = [value for value in values if isinstance(value, type)]
+    found = [c for c in classes if issubclass(c, Exception) and not issubclass(c, Warning)]
+    ours = [error for error in found if error.__module__.split(".")[0] in ROOMS]
+    assert errors.UnitError in ours
+    assert [error for error in ours if not issubclass(error, errors.StrutworkError)] == []
+
+
+def test_an_error_shows_part_problem_and_remedy() -> None:
+    error = errors.ModelError("beam link1", "has zero length.", "Move one of its nodes.")
+    assert str(error) == "beam link1: has zero length.\nMove one of its nodes."
+    assert (error.part, error.problem, error.remedy) == error.args
+    assert str(errors.StrutworkError("", "stopped.")) == "stopped."
+
+
+def test_no_file_is_too_long_to_read() -> None:
+    lengths = {
+        p.relative_to(ROOT): len(p.read_text(encoding="utf-8").splitlines()) for p in sources()
+    }
+    assert {p: n for p, n in lengths.items() if n > LONGEST_FILE} == {}
