@@ -41,6 +41,7 @@ def build_model(tables: ModelTable) -> Model:
     """
     _check_size(tables)
     _check_names(tables)
+    _check_bodies(tables)
     _check_nodes(tables)
     joints = tuple(joint_of(table) for table in tables.joints)
     supports = _supports(tables)
@@ -130,6 +131,30 @@ def _check_names(tables: ModelTable) -> None:
             )
 
 
+def _check_bodies(tables: ModelTable) -> None:
+    """Rigid bodies have two nodes or more and share none."""
+    owner: dict[str, str] = {}
+    for table in tables.bodies:
+        if len(set(table.nodes)) < 2:
+            raise ModelError(
+                f"body {table.name}",
+                f"has {len(set(table.nodes))} node{'s' if not table.nodes else ''}.",
+                "Give it two nodes at least; a single node needs no body.",
+            )
+        for node in table.nodes:
+            if owner.get(node) == table.name:
+                raise ModelError(
+                    f"body {table.name}", f'names node "{node}" twice.', "Name it once."
+                )
+            if node in owner:
+                raise ModelError(
+                    f"node {node}",
+                    f'is in two rigid bodies, "{owner[node]}" and "{table.name}".',
+                    "Merge the bodies into one.",
+                )
+            owner[node] = table.name
+
+
 def _check_nodes(tables: ModelTable) -> None:
     """Every node that is named exists, and every node that exists is held by something."""
     connecting: list[tuple[str, Sequence[str]]] = [
@@ -164,26 +189,6 @@ def _check_nodes(tables: ModelTable) -> None:
 
 def _bodies(tables: ModelTable, beams: Sequence[Beam]) -> tuple[tuple[Body, ...], tuple[Body, ...]]:
     """Bodies of the linkage, and the rigid groups inside those that bend."""
-    owner: dict[str, str] = {}
-    for table in tables.bodies:
-        if len(set(table.nodes)) < 2:
-            raise ModelError(
-                f"body {table.name}",
-                f"has {len(set(table.nodes))} node{'s' if not table.nodes else ''}.",
-                "Give it two nodes at least; a single node needs no body.",
-            )
-        for node in table.nodes:
-            if node in owner:
-                where = f'"{owner[node]}" and "{table.name}"'
-                twice = owner[node] == table.name
-                raise ModelError(
-                    f"node {node}",
-                    f'stands twice in body "{table.name}".'
-                    if twice
-                    else f"is in two rigid bodies, {where}.",
-                    "Name it once." if twice else "Merge the bodies into one.",
-                )
-            owner[node] = table.name
     groups = [
         *((t.name, t.nodes) for t in tables.bodies),
         *((b.name, b.nodes) for b in beams),

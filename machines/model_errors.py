@@ -61,7 +61,7 @@ def _problem(details: ErrorDetails, data: dict[str, Any]) -> tuple[type[ModelErr
         case "tuple_type" | "list_type":
             problem = f"is {shown(found)} where a list is expected."
             remedy = "Write it in brackets [ ]."
-            if len(loc) == 1:
+            if len(loc) == 1 and _is_array_of_tables(str(loc[0])):
                 remedy = f"Write [[{loc[0]}]] with two brackets."
         case "dict_type" | "model_type" | "model_attributes_type":
             problem = f"is {shown(found)} where a table is expected."
@@ -73,6 +73,7 @@ def _problem(details: ErrorDetails, data: dict[str, Any]) -> tuple[type[ModelErr
         case "literal_error" | "union_tag_invalid":
             choices = context.get("expected") or context.get("expected_tags")
             wrong = found if kind == "literal_error" else context["tag"]
+            field += "" if kind == "literal_error" else ".shape"
             problem, remedy = f"{shown(wrong)} is not known.", f"Choose one of: {choices}."
         case "union_tag_not_found":
             field, problem = f"{field}.shape", "is missing."
@@ -97,6 +98,10 @@ def _path(loc: tuple[int | str, ...], data: dict[str, Any]) -> str:
         path += f".{step}" if path else step
         at = at.get(step) if isinstance(at, dict) else None
     return path
+
+
+def _is_array_of_tables(key: str) -> bool:
+    return get_args(ModelTable.model_fields[key].annotation)[-1:] == (Ellipsis,)
 
 
 def _nearest(loc: tuple[int | str, ...]) -> str:

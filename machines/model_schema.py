@@ -28,6 +28,8 @@ class Quantity:
         The least value.
     above : float or None
         A bound the value must exceed.
+    high : float or None
+        The greatest value.
     below : float or None
         A bound the value must stay under.
     """
@@ -35,6 +37,7 @@ class Quantity:
     dimension: Dimension
     low: float | None = None
     above: float | None = None
+    high: float | None = None
     below: float | None = None
 
     def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
@@ -66,6 +69,8 @@ class Quantity:
             return f"of at least {self.low:g}"
         if self.above is not None and number <= self.above:
             return f"above {self.above:g}"
+        if self.high is not None and number > self.high:
+            return f"of at most {self.high:g}"
         if self.below is not None and number >= self.below:
             return f"below {self.below:g}"
         return ""
@@ -95,7 +100,7 @@ Size = Annotated[float, Quantity(units.LENGTH, above=0.0)]
 Area = Annotated[float, Quantity(units.AREA, above=0.0)]
 SecondMoment = Annotated[float, Quantity(units.SECOND_MOMENT, above=0.0)]
 Modulus = Annotated[float, Quantity(units.PRESSURE, above=0.0)]
-PoissonsRatio = Annotated[float, Quantity(units.NUMBER, above=-1.0, below=0.5 + 1e-12)]
+PoissonsRatio = Annotated[float, Quantity(units.NUMBER, above=-1.0, high=0.5)]
 Density = Annotated[float, Quantity(units.DENSITY, above=0.0)]
 LossFactor = Annotated[float, Quantity(units.NUMBER, low=0.0)]
 Mass = Annotated[float, Quantity(units.MASS, low=0.0)]

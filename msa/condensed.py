@@ -77,7 +77,8 @@ def solve_condensed(system: System, load: Array, gaps: Array) -> Unknowns:
     for leg, (coupled, alone) in zip(legs, solved, strict=True):
         coordinates[:, leg] = alone - coupled @ coordinates[:, kept]
     displacements = particular + basis @ coordinates
-    return checked(system, displacements, multipliers(system, displacements, load), load)
+    forces = multipliers(system, displacements, load)
+    return checked(system, displacements, forces, load, gaps)
 
 
 def _at_tool(system: System, basis: Array) -> NDArray[np.bool_]:

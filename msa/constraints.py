@@ -143,7 +143,7 @@ def free_unknowns(system: System) -> Array:
                 row[:, :, 6 * b : 6 * b + 6] += sign * rigid_map(arm)
         rows.append(row[:, spring.diagonal > 0])
     matrix = np.concatenate(rows, axis=1)
-    matrix.reshape(*matrix.shape[:2], -1, 6)[..., 3:] /= length
+    matrix.reshape(*matrix.shape[:2], bodies, 6)[..., 3:] /= length
     size = np.linalg.norm(matrix, axis=-1, keepdims=True)
     matrix = matrix / np.where(size == 0, 1.0, size)
     if matrix.shape[1] < matrix.shape[2]:

@@ -101,7 +101,8 @@ def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
     force = np.swapaxes(basis, -1, -2) @ (load - stiffness @ particular)
     coordinates = constrained_minimum(system, reduced, extra, force, target)
     displacements = particular + basis @ coordinates
-    return checked(system, displacements, multipliers(system, displacements, load), load)
+    forces = multipliers(system, displacements, load)
+    return checked(system, displacements, forces, load, gaps)
 
 
 def symmetric_product(basis: Array, matrix: Array) -> Array:
@@ -123,13 +124,12 @@ def constrained_minimum(
         The stiffness is not positive definite on the null space of the rows.
     """
     diagonal = np.einsum("pii->pi", stiffness)
-    typical = np.where(diagonal > 0, diagonal, np.nan)
-    typical = (
-        np.nan_to_num(np.nanmedian(typical, axis=1, keepdims=True), nan=1.0)
-        if (diagonal.size and np.any(diagonal > 0))
-        else np.ones((len(stiffness), 1))
-    )
-    scale = 1.0 / np.sqrt(np.where(diagonal > 1e-12 * typical, diagonal, typical))
+    # below this share of the largest a stiffness is round-off of a coordinate that has none
+    present = diagonal > 1e-13 * diagonal.max(axis=1, keepdims=True, initial=0.0)
+    typical = np.nanmedian(
+        np.where(present, diagonal, np.nan), axis=1, keepdims=True
+    ) if present.any(axis=1).all() else np.ones((len(stiffness), 1))
+    scale = 1.0 / np.sqrt(np.where(present, diagonal, typical))
     k = stiffness * scale[:, :, None] * scale[:, None, :]
     f = force * scale[..., None]
     if rows.shape[1] == 0:

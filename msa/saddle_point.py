@@ -86,7 +86,7 @@ def solve_saddle_point(system: System, load: Array, gaps: Array) -> Unknowns:
     n, r = system.topology.size, rows.basis.shape[1]
     displacements = solution[:, :n] * d
     multipliers = rows.multipliers(solution[:, n : n + r] * size)
-    return checked(system, displacements, multipliers, load)
+    return checked(system, displacements, multipliers, load, gaps)
 
 
 def bordered(
@@ -123,8 +123,10 @@ def refined_solve(system: System, matrix: Array, right: Array) -> Array:
     return solution
 
 
-def checked(system: System, displacements: Array, multipliers: Array, load: Array) -> Unknowns:
-    """The solution with its residual, K u + Aᵀ λ − F, checked against the forces in balance."""
+def checked(
+    system: System, displacements: Array, multipliers: Array, load: Array, gaps: Array
+) -> Unknowns:
+    """The solution with its residuals checked: K u + Aᵀ λ − F, and A u − g."""
     d = scales(system)[:, None]
     inner = system.stiffness @ displacements
     held = np.swapaxes(system.rows, -1, -2) @ multipliers
@@ -133,6 +135,9 @@ def checked(system: System, displacements: Array, multipliers: Array, load: Arra
         [np.abs(part * d).max(axis=(1, 2), initial=0.0) for part in (inner, held, load)]
     )
     check_residual(residual, size, "static solution")
+    miss = np.abs(system.rows @ displacements - gaps).max(axis=(1, 2), initial=0.0)
+    moved = np.abs(displacements).max(axis=(1, 2), initial=0.0)
+    check_residual(miss, np.maximum(moved, np.abs(gaps).max(initial=0.0)), "joint constraints")
     return Unknowns(displacements, multipliers, residual / np.where(size == 0, 1.0, size))
 
 

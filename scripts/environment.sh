@@ -71,8 +71,13 @@ ensure_environment() {
         "$base" -m venv --clear "$root/.venv"
     fi
     say "Installing Strutwork${extras:+ with what its tests need} (some minutes, only once) ..."
-    "$python" -m pip install --quiet --disable-pip-version-check --prefer-binary \
-        --editable "$root${extras:+[$extras]}"
+    log="$root/.venv/install.log"
+    if ! "$python" -m pip install --quiet --disable-pip-version-check --prefer-binary \
+        --editable "$root${extras:+[$extras]}" >"$log" 2>&1; then
+        cat "$log" >&2
+        say "The installation failed, for the reason above. Try again when it is mended."
+        exit 1
+    fi
     # written last: an installation that was interrupted is taken up again
     printf '%s\n' "$wanted" >"$stamp"
     if [ -n "$extras" ]; then

@@ -160,9 +160,7 @@ class Model:
     def structure(self) -> Structure:
         bodies, inner = self.bodies()
         linkage = Linkage(tuple(self.positions), bodies, tuple(self.joints), self.tool)
-        return Structure(
-            linkage, tuple(self.beams), tuple(self.springs), inner, tuple(self.masses)
-        )
+        return Structure(linkage, tuple(self.beams), tuple(self.springs), inner, tuple(self.masses))
 
     def placement(self) -> Placement:
         arrays = [*self.positions.values()]

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import sys
 import warnings
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -32,22 +31,16 @@ Json = Annotated[
 
 def main() -> None:
     """Run the program: the console script."""
-    warnings.showwarning = _show_warning
-    try:
-        app()
-    except StrutworkError as error:
-        print(f"Error: {error}", file=sys.stderr)  # noqa: T201 - the program's own output
-        sys.exit(1)
+    with warnings.catch_warnings():
+        warnings.showwarning = _show_warning
+        try:
+            app()
+        except StrutworkError as error:
+            sys.stderr.write(f"Error: {error}\n")
+            sys.exit(1)
 
 
-def _show_warning(
-    message: Warning | str,
-    _category: type[Warning],
-    _filename: str,
-    _lineno: int,
-    _file: object = None,
-    _line: str | None = None,
-) -> None:
+def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
     sys.stderr.write(f"Warning: {message}\n")
 
 
@@ -72,7 +65,7 @@ def program(
 @app.command()
 def machines(json: Json = False) -> None:
     """List the machines of the literature, with their papers."""
-    from reports.cli import machines as work  # noqa: PLC0415 - see above
+    from reports.cli import machines as work
 
     work.run(json)
 
@@ -80,7 +73,7 @@ def machines(json: Json = False) -> None:
 @app.command()
 def check(file: ModelFile, json: Json = False) -> None:
     """Count freedoms and redundant constraints of a model file, and name them."""
-    from reports.cli import check as work  # noqa: PLC0415 - see above
+    from reports.cli import check as work
 
     work.run(file, json)
 
@@ -88,6 +81,6 @@ def check(file: ModelFile, json: Json = False) -> None:
 @app.command()
 def solve(file: ModelFile, json: Json = False) -> None:
     """Solve the load cases of a model file, and the stiffness at its tool."""
-    from reports.cli import solve as work  # noqa: PLC0415 - see above
+    from reports.cli import solve as work
 
     work.run(file, json)

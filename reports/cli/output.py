@@ -43,9 +43,7 @@ def table(
     made = Table(title=title, title_justify="left", title_style="bold")
     for i, column in enumerate(columns):
         # a number cut short would be a wrong number: narrow columns fold instead
-        made.add_column(
-            Text(column), justify="left" if i < names else "right", overflow="fold"
-        )
+        made.add_column(Text(column), justify="left" if i < names else "right", overflow="fold")
     for row in rows:
         made.add_row(*(Text(show(entry)) for entry in row))
     return made

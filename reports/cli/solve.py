@@ -35,7 +35,8 @@ def _print(found: ModelSolution) -> None:
         moved = {n: [1e3 * v for v in u] for n, u in case["displacements"].items()}
         _six(out, "Displacements", "node", _MOVED, moved)
         _six(out, "Reactions on the structure", "node", _FORCE, case["reactions"])
-        _six(out, "Joint forces on the second node, joint axes", "joint", _FORCE, case["joint_forces"])
+        on_second = "Joint forces on the second node, joint axes"
+        _six(out, on_second, "joint", _FORCE, case["joint_forces"])
         _six(out, "Spring forces", "spring", _FORCE, case["spring_forces"])
         ends = {
             f"{beam} {end}": force
@@ -54,8 +55,14 @@ def _six(
     columns: Sequence[str],
     values: Mapping[str, Sequence[float]],
 ) -> None:
-    if values:
-        out.print(table(title, [what, *columns], [(n, *v) for n, v in values.items()]))
+    if not values:
+        return
+    # round-off beside the largest force or moment is shown as zero
+    numbers = np.array(list(values.values()))
+    largest = np.abs(numbers.reshape(-1, 2, 3)).max(axis=(0, 2)).repeat(3)
+    numbers[np.abs(numbers) < 1e-10 * largest] = 0.0
+    rows = [(name, *row) for name, row in zip(values, numbers.tolist(), strict=True)]
+    out.print(table(title, [what, *columns], rows))
 
 
 def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float64]) -> None:

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reports.figures.shapes import Shape, across, ball, box, cylinder, mesh
 from reports.figures.theme import FONT, LINE, SOFT, layout, rounded
-from reports.page import plain
 
 Array = NDArray[Any]
 
@@ -22,21 +22,21 @@ class JointStyle:
 
     label: str
     colour: str
-    symbol: str
+    shape: str
 
 
 JOINT_STYLES: Mapping[str, JointStyle] = MappingProxyType(
     {
-        "revolute": JointStyle("revolute joint", "#0072b2", "circle"),
-        "prismatic": JointStyle("prismatic joint", "#d55e00", "square"),
-        "circular": JointStyle("prismatic joint on the circular guide", "#a0522d", "square"),
-        "spherical": JointStyle("spherical joint", "#009e73", "diamond"),
-        "universal": JointStyle("universal joint", "#cc79a7", "cross"),
-        "cylindrical": JointStyle("cylindrical joint", "#e69f00", "square"),
-        "planar": JointStyle("planar joint", "#7a5cc0", "x"),
-        "bushing": JointStyle("bushing", "#8c6d1f", "circle"),
-        "fixed": JointStyle("fixed joint", "#444444", "x"),
-        "support": JointStyle("support", "#000000", "square"),
+        "revolute": JointStyle("revolute joint", "#0072b2", "pin"),
+        "prismatic": JointStyle("prismatic joint", "#d55e00", "block"),
+        "circular": JointStyle("prismatic joint along the guide", "#9c4a12", "block"),
+        "spherical": JointStyle("spherical joint", "#009e73", "ball"),
+        "universal": JointStyle("universal joint", "#b0508a", "ball"),
+        "cylindrical": JointStyle("cylindrical joint", "#b37b00", "pin"),
+        "planar": JointStyle("planar joint", "#7a5cc0", "block"),
+        "bushing": JointStyle("bushing", "#8c6d1f", "ball"),
+        "fixed": JointStyle("fixed joint", "#444444", "block"),
+        "support": JointStyle("support", "#000000", "block"),
     }
 )
 
@@ -52,16 +52,68 @@ class DrawnJoint:
         Key of `JOINT_STYLES`.
     at : (3,)
         m.
-    driven : bool
-    axis : (3,) or None
-        Unit vector of the axis it turns about or slides along.
+    frame : (3, 3)
+        Joint axes as columns; the third is the joint's axis.
+    driven : tuple of (3, n) arrays
+        Paths of driven motions, drawn as arrows with two heads, m.
     """
 
     name: str
     style: str
     at: Array
-    driven: bool = False
-    axis: Array | None = None
+    frame: Array
+    driven: tuple[Array, ...] = ()
+
+
+def joint_traces(drawn: Sequence[DrawnJoint], size: float) -> list[dict[str, Any]]:
+    """Joints by type as solid symbols of about `size` m, driven motions as arrows."""
+    traces = []
+    for key, style in JOINT_STYLES.items():
+        shapes = [
+            _symbol(j, style, size) for j in drawn if j.style == key
+        ]
+        if shapes:
+            traces.append(mesh(shapes, style.label, style.colour, legendgroup=key))
+    arrows = [path for joint in drawn for path in joint.driven]
+    if arrows:
+        points = np.concatenate([_arrow(a, 0.45 * size) for a in arrows])
+        traces.append(path(points, "driven motion", "#000000", 5))
+    return traces
+
+
+def _symbol(joint: DrawnJoint, style: JointStyle, size: float) -> Shape:
+    label = f"{joint.name}: {style.label}{', driven' if joint.driven else ''}"
+    if style.shape == "ball":
+        return ball(joint.at, 0.5 * size, label)
+    if style.shape == "pin":
+        reach = 1.0 * size * joint.frame[:, 2]
+        return cylinder(joint.at - reach, joint.at + reach, 0.32 * size, label)
+    return box(joint.at, joint.frame, (1.1 * size, 1.1 * size, 1.5 * size), label)
+
+
+def straight(at: Array, direction: Array, size: float) -> Array:
+    """Path of a translation for `DrawnJoint.driven`, (n, 3)."""
+    return np.stack([at - 1.9 * size * direction, at + 1.9 * size * direction])
+
+
+def turning(at: Array, axis: Array, size: float) -> Array:
+    """Path of a rotation for `DrawnJoint.driven`: three quarters of a circle, (n, 3)."""
+    u, v = across(axis)
+    turn = np.linspace(0.0, 1.5 * np.pi, 37)[:, None]
+    return np.asarray(at + 1.2 * size * (np.cos(turn) * u + np.sin(turn) * v))
+
+
+def _arrow(points: Array, head: float) -> Array:
+    """A path with a head at both ends, ended by NaN, (n, 3)."""
+    gap = np.full((1, 3), np.nan)
+    parts = [points, gap]
+    for tip, before in ((points[0], points[1]), (points[-1], points[-2])):
+        back = (before - tip) / np.linalg.norm(before - tip)
+        for side in across(back):
+            for sign in (-1.0, 1.0):
+                barb = tip + head * (back + 0.45 * sign * side)
+                parts += [np.stack([tip, barb]), gap]
+    return np.concatenate(parts)
 
 
 def segments(
@@ -90,71 +142,11 @@ def path(points: Array, name: str, colour: str, width: float, **changes: Any) ->
     return trace | changes
 
 
-def points(
-    at: Array, labels: Sequence[str], name: str, colour: str, symbol: str, **changes: Any
-) -> dict[str, Any]:
-    """Markers at points in m, (n, 3), each with a label that shows under the pointer."""
-    x, y, z = 1e3 * at.reshape(-1, 3).T
-    trace: dict[str, Any] = {
-        "type": "scatter3d",
-        "mode": "markers",
-        "x": rounded(x),
-        "y": rounded(y),
-        "z": rounded(z),
-        "name": name,
-        "text": [plain(label) for label in labels],
-        "hoverinfo": "text",
-        "marker": {
-            "color": colour,
-            "symbol": symbol,
-            "size": 6,
-            "line": {"color": "#ffffff", "width": 1},
-        },
-    }
-    return trace | changes
-
-
-def joints(drawn: Sequence[DrawnJoint], size: float) -> list[dict[str, Any]]:
-    """Joints by type, the driven ones ringed, axes as short lines of half-length `size` m."""
-    traces = []
-    for key, style in JOINT_STYLES.items():
-        some = [j for j in drawn if j.style == key]
-        if not some:
-            continue
-        axes = [(j.at - size * j.axis, j.at + size * j.axis) for j in some if j.axis is not None]
-        if axes:
-            traces.append(
-                segments(axes, style.label, style.colour, 3, showlegend=False, legendgroup=key)
-            )
-        labels = [f"{j.name}: {style.label}{', driven' if j.driven else ''}" for j in some]
-        traces.append(
-            points(
-                np.array([j.at for j in some]),
-                labels,
-                style.label,
-                style.colour,
-                style.symbol,
-                legendgroup=key,
-            )
-        )
-    driven = [j for j in drawn if j.driven]
-    if driven:
-        ring = {"color": "#000000", "symbol": "circle-open", "size": 13, "line": {"width": 2}}
-        at = np.array([j.at for j in driven])
-        traces.append(
-            points(at, [""] * len(driven), "driven", "#000000", "circle-open")
-            | {"marker": ring, "hoverinfo": "skip"}
-        )
-    return traces
-
-
 def triad(origin: Array, rotation: Array, size: float) -> list[dict[str, Any]]:
     """Axes x, y, z of a frame with their letters."""
     tips = origin + size * rotation.T
-    lines = segments(
-        [(origin, tip) for tip in tips], "tool axes", SOFT, 3, showlegend=False
-    )
-    x, y, z = 1e3 * (origin + 1.25 * size * rotation.T).T
+    lines = segments([(origin, tip) for tip in tips], "tool axes", SOFT, 4, showlegend=False)
+    x, y, z = 1e3 * (origin + 1.2 * size * rotation.T).T
     letters = {
         "type": "scatter3d",
         "mode": "text",
@@ -189,7 +181,7 @@ def scene(traces: Sequence[dict[str, Any]], **changes: Any) -> dict[str, Any]:
         "xaxis": side("x (mm)"),
         "yaxis": side("y (mm)"),
         "zaxis": side("z (mm)"),
-        "camera": {"eye": {"x": 1.25, "y": -1.35, "z": 0.85}, "center": {"x": 0, "y": 0, "z": -0.1}},
+        "camera": {"eye": {"x": 1.2, "y": -1.4, "z": 0.95}, "center": {"x": 0, "y": 0, "z": -0.1}},
     }
     margin = {"l": 0, "r": 0, "t": 8, "b": 8}
     legend = {"orientation": "h", "x": 0, "y": 0, "yanchor": "top", "itemsizing": "constant"}

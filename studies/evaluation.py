@@ -1,0 +1,196 @@
+"""Tool compliance of a stack of poses, with what became of each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import Placement, Poses, jacobians
+from machines import Limit, Machine, check_limits
+from msa import Structure, tool_compliance
+from strutwork.errors import MechanismError, NumericalError
+from studies.filters import Filters, PoseStatus, moving_machine
+
+Array = NDArray[Any]
+
+#: Poses whose Jacobians are made at once: keeps a stack of constraint matrices in the cache.
+JACOBIAN_PIECE = 128
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """What `Evaluator` found at p poses.
+
+    Parameters
+    ----------
+    status : (p,) of int8
+        `PoseStatus`.
+    reason : (p,) of int16
+        0 where the pose counts, else 1 + index into `reasons`.
+    reasons : tuple of str
+        Why poses were dropped, in words.
+    outside : (p, k) of bool
+        Whether a range of each kind of joint is exceeded, kept or not; False where the pose
+        cannot be reached at all.
+    condition : (p,)
+        Condition number of the inverse Jacobian; NaN where not looked at.
+    compliance : (p, 6, 6)
+        SI; NaN where the pose does not count.
+    """
+
+    status: NDArray[np.int8]
+    reason: NDArray[np.int16]
+    reasons: tuple[str, ...]
+    outside: NDArray[np.bool_]
+    condition: Array
+    compliance: Array
+
+    @property
+    def good(self) -> NDArray[np.bool_]:
+        """True where the pose counts, (p,)."""
+        return np.asarray(self.status == PoseStatus.GOOD)
+
+
+@dataclass(frozen=True)
+class Evaluator:
+    """Evaluates stacks of poses of one machine; may be called from several threads.
+
+    Parameters
+    ----------
+    machine : Machine
+    filters : Filters
+    """
+
+    machine: Machine
+    filters: Filters
+
+    @cached_property
+    def kinds(self) -> tuple[str, ...]:
+        """Kinds of joints that have ranges."""
+        return tuple(dict.fromkeys(limit.kind for limit in self.machine.limits))
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """The ranges that are kept."""
+        return self.filters.limits(self.machine)
+
+    @cached_property
+    def moving(self) -> Machine:
+        """The machine whose Jacobian is looked at."""
+        return moving_machine(self.machine)
+
+    @cached_property
+    def length(self) -> float:
+        """Length of the condition number, m."""
+        return self.filters.length_for(self.machine)
+
+    def prepared(self) -> Evaluator:
+        """The same, with everything made that the threads share."""
+        _ = self.kinds, self.limits, self.moving.linkage, self.length
+        _ = self.machine.structure.segments, self.machine.structure.vertex_of_node
+        return self
+
+    def __call__(self, poses: Poses) -> Evaluated:
+        """Evaluate a flat stack of poses.
+
+        Poses that cannot be reached, are out of range, near-singular or mechanisms never
+        raise: they are marked.
+
+        Raises
+        ------
+        ModelError
+            The machine's model is wrong whatever the pose.
+        """
+        placement = self.machine.place(poses)
+        ranged = check_limits(self.limits, placement)
+        reasons = [*ranged.reasons]
+        reason = np.asarray(ranged.status).astype(np.int16)
+        status = np.where(
+            ranged.reachable,
+            PoseStatus.GOOD,
+            np.where(placement.reachable, PoseStatus.JOINT_RANGE, PoseStatus.UNREACHABLE),
+        ).astype(np.int8)
+        count = len(status)
+        condition = np.full(count, np.nan)
+        if self.filters.condition_limit is not None:
+            good = np.flatnonzero(status == PoseStatus.GOOD)
+            condition[good] = self._condition(poses[good])
+            near = good[~(condition[good] < self.filters.condition_limit)]
+            status[near] = PoseStatus.NEAR_SINGULAR
+            reasons.append(
+                f"condition number of the inverse Jacobian at least {self.filters.condition_limit:g}"
+            )
+            reason[near] = len(reasons)
+        good = np.flatnonzero(status == PoseStatus.GOOD)
+        compliance = np.full((count, 6, 6), np.nan)
+        compliance[good], status[good] = compliance_where_possible(
+            self.machine.structure, ranged[good]
+        )
+        for bad, words in (
+            (PoseStatus.MECHANISM, "moves freely with its drives held"),
+            (PoseStatus.UNSOLVED, "its solution failed its own check"),
+        ):
+            reasons.append(words)
+            reason[status == bad] = len(reasons)
+        outside = np.stack(
+            [
+                ~check_limits((m for m in self.machine.limits if m.kind == kind), placement)
+                .reachable
+                for kind in self.kinds
+            ],
+            axis=-1,
+        ) if self.kinds else np.zeros((count, 0), dtype=bool)
+        outside &= placement.reachable[:, None]
+        return Evaluated(status, reason, tuple(reasons), outside, condition, compliance)
+
+    def _condition(self, poses: Poses) -> Array:
+        result = np.empty(poses.batch)
+        linkage = self.moving.linkage
+        placement = self.moving.place(poses)
+        for start in range(0, len(result), JACOBIAN_PIECE):
+            piece = slice(start, start + JACOBIAN_PIECE)
+            result[piece] = jacobians(linkage, placement[piece]).condition(self.length)
+        return result
+
+
+def compliance_where_possible(
+    structure: Structure, placement: Placement
+) -> tuple[Array, NDArray[np.int8]]:
+    """Tool compliance of a stack of poses, some of which may be mechanisms.
+
+    The stack is solved as a whole; where that fails it is halved until the poses at fault
+    stand alone.
+
+    Parameters
+    ----------
+    structure : Structure
+    placement : Placement
+        One batch axis, p poses, all reachable.
+
+    Returns
+    -------
+    compliance : (p, 6, 6)
+        NaN where a pose could not be solved.
+    status : (p,) of int8
+        `PoseStatus`: good, mechanism or unsolved.
+    """
+    count = placement.batch[0]
+    compliance = np.full((count, 6, 6), np.nan)
+    status = np.zeros(count, dtype=np.int8)
+    pending = [slice(0, count)] if count else []
+    while pending:
+        part = pending.pop()
+        try:
+            compliance[part] = tool_compliance(structure.at(placement[part]))
+        except (MechanismError, NumericalError) as error:
+            if part.stop - part.start == 1:
+                mechanism = isinstance(error, MechanismError)
+                status[part] = PoseStatus.MECHANISM if mechanism else PoseStatus.UNSOLVED
+            else:
+                middle = (part.start + part.stop) // 2
+                pending += [slice(part.start, middle), slice(middle, part.stop)]
+    return compliance, status
