@@ -6,7 +6,7 @@ bodies are thereby eliminated exactly.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -140,25 +140,31 @@ class System:
         n = self.topology.size
         matrix = np.zeros((self.poses, n, n))
         for _, nodes, part in self.contributions():
-            dofs, moves = self.dofs(nodes)
-            block = self.carried(nodes, part)[:, moves][:, :, moves]
-            dofs = dofs[moves]
-            if len(set(dofs)) == len(dofs):
-                matrix[:, dofs[:, None], dofs] += block
-            else:
-                # both ends in one cluster: add block by block
-                for i in range(0, len(dofs), 6):
-                    for j in range(0, len(dofs), 6):
-                        matrix[:, dofs[i : i + 6, None], dofs[j : j + 6]] += block[
-                            :, i : i + 6, j : j + 6
-                        ]
+            self.add_part(matrix, nodes, part)
         return matrix
+
+    def add_part(self, matrix: Array, nodes: NDArray[np.intp], part: Array) -> None:
+        """Add a part's matrix at mesh nodes (p, 6k, 6k) to a dense one on the unknowns."""
+        dofs, moves = self.dofs(nodes)
+        block = self.carried(nodes, part)[:, moves][:, :, moves]
+        dofs = dofs[moves]
+        if len(set(dofs)) == len(dofs):
+            matrix[:, dofs[:, None], dofs] += block
+            return
+        # both ends in one cluster: add block by block
+        for i in range(0, len(dofs), 6):
+            for j in range(0, len(dofs), 6):
+                matrix[:, dofs[i : i + 6, None], dofs[j : j + 6]] += block[:, i : i + 6, j : j + 6]
 
     @cached_property
     def sparse_stiffness(self) -> sp.csc_array:
         """Sparse stiffness of a batch of one."""
+        return self.sparse_sum(self.contributions())
+
+    def sparse_sum(self, parts: Iterable[tuple[str, NDArray[np.intp], Array]]) -> sp.csc_array:
+        """Sum of parts' matrices at mesh nodes on the unknowns, sparse, for a batch of one."""
         rows, columns, values = [], [], []
-        for _, nodes, part in self.contributions():
+        for _, nodes, part in parts:
             dofs, moves = self.dofs(nodes)
             block = self.carried(nodes, part)[0][moves][:, moves]
             dofs = dofs[moves]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,8 @@ class Beam:
         Number of equal elements the beam is divided into.
     offsets : ((3,), (3,))
         From each node to the beam's end, global axes, m: a rigid arm.
+    mass : "consistent" or "lumped"
+        Consistent with rotary inertia, or half the mass at either end and none to turn.
 
     Raises
     ------
@@ -56,6 +58,7 @@ class Beam:
         (0.0, 0.0, 0.0),
         (0.0, 0.0, 0.0),
     )
+    mass: Literal["consistent", "lumped"] = "consistent"
 
     def __post_init__(self) -> None:
         if self.elements < 1:

@@ -76,7 +76,10 @@ class PointMass:
     inertia : (3, 3) nested tuples
         About the centre of mass, global axes, kg·m².
     offset : (3,)
-        From the node to the centre of mass, global axes, m.
+        From the node to the centre of mass, m.
+    axes : (str, str, str) or None
+        Nodes that carry the axes of inertia and offset: x from the first to the second, y on
+        the third's side in their plane. None: global axes.
 
     Raises
     ------
@@ -88,6 +91,7 @@ class PointMass:
     mass: float
     inertia: tuple[tuple[float, ...], ...] = ((0.0,) * 3,) * 3
     offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    axes: tuple[str, str, str] | None = None
 
     def __post_init__(self) -> None:
         part = f"mass at node {self.node}"

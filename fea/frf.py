@@ -1,0 +1,225 @@
+"""Frequency response between ports."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fea.coupled import AnyDamping, PartDamping, damped_matrices, is_coupled
+from fea.eigen import Eigen, solve_eigen
+from fea.modal import modal_model_of
+from fea.ports import Port
+from fea.reduction import Reduced, reduce_system
+from msa.assembly import system_of
+from msa.structure import PlacedStructure
+from strutwork.errors import ModelError, NumericalError
+
+Array = NDArray[Any]
+
+#: Frequency lines solved at once by the direct method.
+LINES = 64
+
+Method = Literal["modal", "all_modes", "direct"]
+
+
+@dataclass(frozen=True)
+class FrequencyResponse:
+    """Receptances (ISO 7626: displacement per force) between ports.
+
+    Parameters
+    ----------
+    frequencies : (f,)
+        Hz.
+    receptance : (..., f, o, i)
+        Complex, m/N and the like, peak per peak.
+    outputs, inputs : tuple of Port
+    static_compliance : (..., o, i)
+        At zero frequency; infinite where a rigid-body mode takes part.
+    damping : str
+        What damps, in words.
+    method : str
+        Which solver ran.
+    kept_modes : int
+        Flexible modes in the sum; zero for the direct method.
+    static_share : float
+        Least share of the static compliance at any port that the kept modes carry before the
+        static residual makes it whole.
+    """
+
+    frequencies: Array
+    receptance: Array
+    outputs: tuple[Port, ...]
+    inputs: tuple[Port, ...]
+    static_compliance: Array
+    damping: str
+    method: str
+    kept_modes: int
+    static_share: float
+
+    def __repr__(self) -> str:
+        return (
+            f"<FrequencyResponse: {len(self.frequencies)} lines, {len(self.outputs)} x "
+            f"{len(self.inputs)} receptances, {self.method}, {self.damping}>"
+        )
+
+    @property
+    def mobility(self) -> Array:
+        """Velocity per force, iωH, m/(N·s)."""
+        return np.asarray(1j * self._omega * self.receptance)
+
+    @property
+    def accelerance(self) -> Array:
+        """Acceleration per force, −ω²H, 1/kg."""
+        return np.asarray(-(self._omega**2) * self.receptance)
+
+    @property
+    def dynamic_stiffness(self) -> Array:
+        """1/|H| of every pair of ports, N/m."""
+        return np.asarray(1.0 / np.abs(self.receptance))
+
+    @property
+    def _omega(self) -> Array:
+        return 2.0 * np.pi * self.frequencies[:, None, None]
+
+
+def frequency_response(
+    placed: PlacedStructure,
+    inputs: Sequence[Port],
+    outputs: Sequence[Port],
+    frequencies: ArrayLike,
+    damping: AnyDamping,
+    method: Method = "modal",
+) -> FrequencyResponse:
+    """Receptances at a batch of poses.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    inputs, outputs : sequence of Port
+        Where it is loaded and observed.
+    frequencies : (f,)
+        Hz, not negative.
+    damping : damping of any kind
+    method : "modal", "all_modes" or "direct"
+        Modal superposition with static residual, all modes, or a solution at every line. Damping
+        that couples the modes is always solved in all of them together.
+
+    Returns
+    -------
+    FrequencyResponse
+
+    Raises
+    ------
+    ModelError
+        No port, negative frequencies, a port that cannot move, no mass, an unknown method.
+    NumericalError
+        A response that is not finite: no damping at a resonance, or a floating structure at
+        zero frequency.
+    """
+    lines = np.asarray(frequencies, dtype=float)
+    if lines.ndim != 1 or not len(lines) or np.any(~np.isfinite(lines)) or np.any(lines < 0):
+        raise ModelError("frequencies", "are empty or negative.", "Give frequencies in Hz.")
+    if not inputs or not outputs:
+        raise ModelError("ports", "are missing.", "Name at least one input and one output.")
+    if method not in ("modal", "all_modes", "direct"):
+        raise ModelError("method", f'"{method}" is unknown.', "modal, all_modes or direct.")
+    reduced = reduce_system(system_of(placed))
+    eigen = solve_eigen(reduced)
+    ports = tuple(dict.fromkeys([*outputs, *inputs]))
+    rows = [ports.index(p) for p in outputs]
+    columns = [ports.index(p) for p in inputs]
+    coupled = is_coupled(reduced, damping)
+    kept, share, used = 0, 1.0, str(method)
+    if isinstance(damping, PartDamping) and not coupled:
+        if damping.background is None:
+            raise ModelError(
+                "damping", "is named by parts and no part has any.", "Give a part its damping."
+            )
+        simple = damping.background
+    else:
+        simple = damping  # type: ignore[assignment]
+    if method == "direct" or coupled:
+        response = _direct(reduced, eigen, ports, lines, damping)
+        used = "direct"
+    else:
+        model = modal_model_of(reduced, eigen, ports, simple)
+        kept = model.square.shape[1]
+        if method == "modal":
+            model, residual = model.truncated(float(lines.max()))
+            kept = model.square.shape[1]
+            whole = model.static_compliance + residual
+            diagonal = np.einsum("pii->pi", whole)
+            carried = np.einsum("pii->pi", model.static_compliance)
+            share = float((carried / np.where(diagonal > 0, diagonal, 1.0)).min())
+            response = model.receptance(lines) + residual[:, None]
+        else:
+            response = model.receptance(lines)
+    response = response[:, :, rows][..., columns]
+    if not np.all(np.isfinite(response)):
+        raise NumericalError(
+            "frequency response",
+            "is not finite at some line.",
+            "Give damping, or leave zero frequency out where the structure floats.",
+        )
+    at = np.stack([port.on(reduced) for port in ports], axis=1)
+    flexible = at @ eigen.flexibility
+    static = flexible @ np.swapaxes(flexible, -1, -2)
+    if eigen.rigid.shape[-1]:
+        rigid = np.abs(at @ eigen.rigid)
+        floats = np.any(rigid[:, :, None] * rigid[:, None, :] > 0, axis=-1)
+        static = np.where(floats, np.inf, static)
+    static = static[:, rows][..., columns]
+    batch = placed.batch
+    return FrequencyResponse(
+        lines,
+        response.reshape((*batch, *response.shape[1:])),
+        tuple(outputs),
+        tuple(inputs),
+        static.reshape((*batch, *static.shape[1:])),
+        str(damping),
+        used,
+        kept,
+        share,
+    )
+
+
+def _direct(
+    reduced: Reduced, eigen: Eigen, ports: Sequence[Port], lines: Array, damping: AnyDamping
+) -> Array:
+    """Solve (K + iD + iωC − ω²M) u = f at every line, (p, f, q, q), with its residual."""
+    matrices = damped_matrices(reduced, eigen, damping)
+    at = np.stack([port.on(reduced) for port in ports], axis=1)
+    load = np.swapaxes(at, -1, -2)
+    diagonal = np.einsum("pii->pi", matrices.stiffness)
+    scale = 1.0 / np.sqrt(np.where(diagonal > 0, diagonal, diagonal.max()))
+    outer = scale[:, :, None] * scale[:, None, :]
+    k, m, c, d = (
+        x * outer
+        for x in (matrices.stiffness, matrices.mass, matrices.viscous, matrices.structural)
+    )
+    scaled = (load * scale[..., None]).astype(complex)
+    result = np.empty((len(at), len(lines), len(ports), len(ports)), dtype=complex)
+    for start in range(0, len(lines), LINES):
+        w = 2.0 * np.pi * lines[None, start : start + LINES, None, None]
+        dynamic = (k + 1j * d)[:, None] + 1j * w * c[:, None] - w**2 * m[:, None]
+        try:
+            solution = np.linalg.solve(dynamic, scaled[:, None])
+        except np.linalg.LinAlgError as error:
+            raise NumericalError(
+                "frequency response",
+                "a line falls on a resonance without damping.",
+                "Give damping, or move the line.",
+            ) from error
+        residual = np.abs(dynamic @ solution - scaled[:, None]).max()
+        if not residual <= 1e-6 * np.abs(scaled).max():
+            raise NumericalError(
+                "frequency response",
+                f"the residual is {residual:.2g} of the load.",
+                "The structure is badly conditioned.",
+            )
+        result[:, start : start + LINES] = np.swapaxes(scaled.real, -1, -2)[:, None] @ solution
+    return result

@@ -1,0 +1,133 @@
+"""Stiffness, mass and damping on the null space of the constraints.
+
+Every solver of this package works on independent coordinates: the joint coordinates of the
+spanning forest, less those that close loops. No constraint, and so no spurious frequency,
+is left in the matrices.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics.mobility import RANK_TOLERANCE
+from msa.assembly import System
+from msa.constraints import free_unknowns, scales
+from msa.mass import mass_matrix
+from msa.null_space import closing_rows, joint_coordinates, symmetric_product
+from msa.structure import rigid_map
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """A structure on its independent coordinates at p poses.
+
+    Parameters
+    ----------
+    system : System
+    basis : (p, n, c)
+        Displacements of the clusters per unit coordinate, zero columns where a pose has fewer
+        coordinates than another.
+    stiffness, mass : (p, c, c)
+        N/m, kg and the like.
+    rigid : (p, c, k)
+        Motions that cost no energy, in coordinates; zero columns where a pose has fewer.
+    """
+
+    system: System
+    basis: Array
+    stiffness: Array
+    mass: Array
+    rigid: Array
+
+    @property
+    def size(self) -> int:
+        """Number of independent coordinates c."""
+        return int(self.basis.shape[-1])
+
+    @cached_property
+    def rigid_count(self) -> NDArray[np.intp]:
+        """Number of rigid-body modes at every pose, (p,)."""
+        return np.asarray(np.any(self.rigid, axis=1).sum(axis=-1))
+
+    def at_node(self, node: str) -> Array:
+        """Displacement of a mesh node per unit coordinate, (p, 6, c).
+
+        Raises
+        ------
+        ModelError
+            An unknown node.
+        """
+        index = self.system.placed.structure.mesh_index
+        if node not in index:
+            raise ModelError(f"node {node}", "is not in the structure.", "Name one of its nodes.")
+        structure = self.system.placed.structure
+        vertex = structure.vertex_of_node[index[node]]
+        if vertex < 0:
+            return np.zeros((self.system.poses, 6, self.size))
+        carried = rigid_map(self.system.placed.arms[:, index[node]])
+        return np.asarray(carried @ self.basis[:, 6 * vertex : 6 * vertex + 6])
+
+    def project(self, matrix: Array) -> Array:
+        """A matrix on the unknowns (p, n, n) brought to the coordinates, (p, c, c)."""
+        return symmetric_product(self.basis, matrix)
+
+
+def reduce_system(system: System, geometric: Array | None = None) -> Reduced:
+    """Bring stiffness and mass to independent coordinates.
+
+    Parameters
+    ----------
+    system : System
+    geometric : (p, n, n), optional
+        Geometric stiffness to add, on the unknowns.
+
+    Returns
+    -------
+    Reduced
+
+    Raises
+    ------
+    ModelError
+        No coordinate is left: every direction is locked.
+    """
+    no_gaps = np.zeros((system.poses, len(system.row_labels), 0))
+    basis, _ = joint_coordinates(system, no_gaps)
+    d = scales(system)[:, None]
+    closing = closing_rows(system)
+    if len(closing):
+        rows = system.rows[:, closing] @ basis
+        size = np.linalg.norm(rows, axis=-1, keepdims=True)
+        rows = rows / np.where(size == 0, 1.0, size)
+        _, values, right = np.linalg.svd(rows)
+        keep = np.zeros(right.shape[:2], dtype=bool)
+        keep[:, : values.shape[-1]] = values > RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
+        # the least rank over the poses decides how many columns are kept for all
+        null = np.swapaxes(right, -1, -2) * ~keep[:, None, :]
+        basis = basis @ null[..., int(keep.sum(axis=1).min()) :]
+    if basis.shape[-1] == 0 or not np.any(basis):
+        raise ModelError(
+            "structure",
+            "has no degree of freedom: every direction is locked.",
+            "Release a support, or make a joint direction elastic.",
+        )
+    stiffness = system.stiffness if geometric is None else system.stiffness + geometric
+    free = free_unknowns(system)
+    rigid = np.zeros((system.poses, basis.shape[-1], free.shape[-1]))
+    if free.shape[-1]:
+        rigid = np.linalg.pinv(basis / d) @ free
+        present = np.any(free, axis=1)
+        rigid = rigid * present[:, None, :]
+    reduced = symmetric_product(basis, stiffness)
+    # a coordinate that a pose does not have gets a stiffness and no mass: no finite frequency
+    absent = ~np.any(basis, axis=1)
+    diagonal = np.einsum("pii->pi", reduced)
+    diagonal[absent] = np.broadcast_to(diagonal.max(axis=1, keepdims=True), diagonal.shape)[absent]
+    return Reduced(system, basis, reduced, symmetric_product(basis, mass_matrix(system)), rigid)
