@@ -126,9 +126,11 @@ def constrained_minimum(
     diagonal = np.einsum("pii->pi", stiffness)
     # below this share of the largest a stiffness is round-off of a coordinate that has none
     present = diagonal > 1e-13 * diagonal.max(axis=1, keepdims=True, initial=0.0)
-    typical = np.nanmedian(
-        np.where(present, diagonal, np.nan), axis=1, keepdims=True
-    ) if present.any(axis=1).all() else np.ones((len(stiffness), 1))
+    typical = (
+        np.nanmedian(np.where(present, diagonal, np.nan), axis=1, keepdims=True)
+        if present.any(axis=1).all()
+        else np.ones((len(stiffness), 1))
+    )
     scale = 1.0 / np.sqrt(np.where(present, diagonal, typical))
     k = stiffness * scale[:, :, None] * scale[:, None, :]
     f = force * scale[..., None]
