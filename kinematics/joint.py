@@ -135,7 +135,7 @@ class Joint:
     def states(self) -> tuple[State, ...]:
         """State of each of the six directions in statics (driven directions are held)."""
         locked = {*JOINT_TYPES[self.type], *self.locks, *self.driven} - set(self.stiffness)
-        elastic = set(self.stiffness) if self.matrix is None else set(DIRECTIONS)
+        elastic = {d for d, k in zip(DIRECTIONS, np.diag(self.stiffness_matrix), strict=True) if k}
         return tuple(
             State.ELASTIC if d in elastic else State.LOCKED if d in locked else State.FREE
             for d in DIRECTIONS

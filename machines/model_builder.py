@@ -84,6 +84,8 @@ def build_model(tables: ModelTable) -> Model:
 
 
 def _check_size(tables: ModelTable) -> None:
+    if not tables.nodes:
+        raise ModelError("nodes", "are none.", "Define the nodes of the structure.")
     mesh = len(tables.nodes) + sum(beam.elements - 1 for beam in tables.beams)
     if mesh > MAX_MESH_NODES:
         raise ModelError(

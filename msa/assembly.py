@@ -217,13 +217,11 @@ class System:
     def expand(self, unknowns: Array) -> Array:
         """Displacements of the mesh nodes (p, n, 6, m) from the unknowns (p, 6v, m)."""
         vertex = self.placed.structure.vertex_of_node
-        shape = (self.poses, -1, 6, unknowns.shape[-1])
+        shape = (self.poses, self.placed.structure.vertex_count, 6, unknowns.shape[-1])
         blocks = unknowns.reshape(shape)
-        padded = (
-            np.concatenate([blocks, np.zeros_like(blocks[:, :1])], axis=1)
-            if blocks.size
-            else (np.zeros((self.poses, 1, 6, unknowns.shape[-1])))
-        )
+        # one row of zeros at the end, which the ground's index −1 finds
+        ground = np.zeros((self.poses, 1, 6, unknowns.shape[-1]))
+        padded = np.concatenate([blocks, ground], axis=1)
         return np.asarray(rigid_map(self.placed.arms) @ padded[:, vertex])
 
     def gather(self, nodal: Array) -> Array:
@@ -233,7 +231,7 @@ class System:
         result = np.zeros((self.poses, self.placed.structure.vertex_count + 1, *nodal.shape[2:]))
         for node, v in enumerate(vertex):
             result[:, v] += moved[:, node]
-        return result[:, :-1].reshape(self.poses, -1, nodal.shape[-1])
+        return result[:, :-1].reshape(self.poses, self.topology.size, nodal.shape[-1])
 
     def tool_load(self) -> Array:
         """Six unit wrenches at the tool on the unknowns, (p, n, 6).
@@ -362,14 +360,15 @@ class System:
                         f'names the unknown joint "{name}".',
                         "Define the joint.",
                     )
-                j, d = linkage.joint_index[name], DIRECTIONS.index(direction)
-                if states[j, d] == State.FREE:
+                j = linkage.joint_index[name]
+                resists = [DIRECTIONS[d] for d in np.flatnonzero(states[j] != State.FREE)]
+                if direction not in resists:
                     raise ModelError(
                         f"joint {name}",
-                        f"has a misfit in {direction}, which is free.",
-                        "Name a locked or elastic direction.",
+                        f"has a misfit in {direction}, which is free or no direction.",
+                        "Name a locked or elastic direction: " + ", ".join(resists) + ".",
                     )
-                every[j, d, m] += value
+                every[j, DIRECTIONS.index(direction), m] += value
         owners, directions = self.row_owner
         on_rows = every[owners, directions]
         elastic = np.where((states == State.ELASTIC)[..., None], every, 0.0)

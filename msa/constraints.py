@@ -161,6 +161,8 @@ def free_unknowns(system: System) -> Array:
     mesh_owner = _mesh_owner(system)
     for v, node in enumerate(structure.reference_nodes):
         b = mesh_owner[node]
+        if b < 0:
+            continue
         arm = system.placed.positions[:, node] - references[:, b]
         result[:, v] = rigid_map(arm) @ twists[:, b]
     scaled = result.reshape(system.poses, -1, k) / scales(system)[:, None]

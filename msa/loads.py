@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from strutwork.errors import ModelError
+
 Vector = tuple[float, float, float]
 Wrench = tuple[float, float, float, float, float, float]
 
@@ -40,6 +44,11 @@ class LoadCase:
     gaps : mapping of (joint name, direction) to float
         Misfits of joints and settlements of supports: the displacement of the second side
         relative to the first, in joint axes, that closes the joint, m or rad.
+
+    Raises
+    ------
+    ModelError
+        A value that is not finite.
     """
 
     name: str
@@ -47,3 +56,18 @@ class LoadCase:
     line_loads: tuple[LineLoad, ...] = ()
     gravity: Vector | None = None
     gaps: Mapping[tuple[str, str], float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        parts = [
+            *((f"load at node {node}", wrench) for node, wrench in self.wrenches),
+            *((f"line load on beam {q.beam}", (*q.first, *q.second)) for q in self.line_loads),
+            *((f"misfit of joint {j} in {d}", (gap,)) for (j, d), gap in self.gaps.items()),
+            ("gravity", self.gravity or (0.0,)),
+        ]
+        for part, values in parts:
+            if not np.all(np.isfinite(values)):
+                raise ModelError(
+                    f"load case {self.name}",
+                    f"{part} is {', '.join(f'{v:g}' for v in values)}.",
+                    "Give finite numbers.",
+                )

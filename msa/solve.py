@@ -296,6 +296,8 @@ def _others(system: System, displacements: Array) -> Array:
     energy = np.zeros((system.poses, displacements.shape[-1]))
     for name, nodes, stiffness in system.contributions():
         if name.startswith(("spring ", "element ")):
-            u = displacements[:, nodes].reshape(system.poses, -1, displacements.shape[-1])
+            u = displacements[:, nodes].reshape(
+                system.poses, 6 * len(nodes), displacements.shape[-1]
+            )
             energy += 0.5 * np.einsum("pim,pim->pm", u, stiffness @ u)
     return energy

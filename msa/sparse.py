@@ -14,7 +14,7 @@ from kinematics.mobility import RANK_TOLERANCE
 from msa.assembly import System
 from msa.constraints import CONSISTENCY, free_unknowns, scales
 from msa.diagnosis import check_held, check_residual, mechanism_error
-from msa.saddle_point import Unknowns
+from msa.saddle_point import CANCELLED, Unknowns
 from strutwork.errors import InconsistentConstraintsError, ModelError
 
 Array = NDArray[Any]
@@ -56,7 +56,8 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
     _, values = system.row_blocks
     held = _rows(system, values[0]).T @ multipliers
     inner = system.sparse_stiffness @ u
-    scaled = [np.abs(x * d[:, None]).max(initial=0.0) for x in (inner, held, load[0])]
+    terms = CANCELLED * abs(system.sparse_stiffness) @ np.abs(u * np.any(gaps[0], axis=0))
+    scaled = [np.abs(x * d[:, None]).max(initial=0.0) for x in (inner, held, load[0], terms)]
     residual = np.abs((inner + held - load[0]) * d[:, None]).max(initial=0.0)
     check_residual(np.array([residual]), np.array([max(scaled)]), "static solution")
     share = residual / (max(scaled) or 1.0)

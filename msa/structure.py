@@ -317,7 +317,8 @@ class PlacedStructure:
         """From each cluster's reference node to its nodes, (..., n, 3), m; zero for ground."""
         s = self.structure
         vertex = s.vertex_of_node
-        reference = np.where(vertex >= 0, s.reference_nodes[vertex], np.arange(len(vertex)))
+        reference, moves = np.arange(len(vertex)), vertex >= 0
+        reference[moves] = s.reference_nodes[vertex[moves]]
         return self.positions - self.positions[..., reference, :]
 
     @cached_property

@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
+from reports.data_files import DataFile
+
 Spec = Mapping[str, Any]
 Tone = Literal["plain", "good", "fair", "poor", "quiet"]
 
@@ -149,7 +151,15 @@ class Links:
     kind: ClassVar[str] = "links"
 
 
-Block = Text | Note | Facts | Table | Figure | Row | Links
+@dataclass(frozen=True)
+class Points:
+    """A list of short statements."""
+
+    items: tuple[str, ...]
+    kind: ClassVar[str] = "points"
+
+
+Block = Points | Text | Note | Facts | Table | Figure | Row | Links
 
 
 @dataclass(frozen=True)
@@ -162,11 +172,14 @@ class Chapter:
         Unique on the page, the target of links.
     title : str
     blocks : tuple of Block
+    files : tuple of DataFile
+        What stands beside the report because of this chapter.
     """
 
     key: str
     title: str
     blocks: tuple[Block, ...]
+    files: tuple[DataFile, ...] = ()
 
 
 @dataclass(frozen=True)

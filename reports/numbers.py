@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import floor, isfinite, log10
 
 NEWTON_PER_MICROMETRE = 1e6
@@ -21,7 +22,7 @@ def significant(value: float, digits: int = 3) -> str:
     if value == 0:
         return "0"
     exponent = floor(log10(abs(float(f"{value:.{digits - 1}e}"))))
-    if -4 < exponent < digits + 3:
+    if -4 < exponent < digits + 2:
         text = f"{value:.{max(0, digits - 1 - exponent)}f}"
     else:
         mantissa, power = f"{value:.{digits - 1}e}".split("e")
@@ -33,6 +34,12 @@ def fixed(value: float, decimals: int) -> str:
     """A number with a fixed number of decimals."""
     text = f"{value:.{decimals}f}"
     return text.replace("-", MINUS)
+
+
+def clean(values: Sequence[float], digits: int = 3) -> str:
+    """A vector in one line; entries that are only rounding beside its largest show as 0."""
+    floor_ = 1e-9 * max(abs(v) for v in values)
+    return ", ".join(significant(0.0 if abs(v) <= floor_ else v, digits) for v in values)
 
 
 def micro(value: float, digits: int = 3) -> str:

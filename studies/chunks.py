@@ -51,7 +51,10 @@ class ChunkStore:
         A damaged file is one that is cut off, fails its checksum or belongs to another study.
         """
         try:
-            with np.load(self.path(number), allow_pickle=False) as file:
+            with (
+                self.path(number).open("rb") as stream,
+                np.load(stream, allow_pickle=False) as file,
+            ):
                 arrays = {name: file[name] for name in file.files}
         except (OSError, ValueError, EOFError, KeyError, zipfile.BadZipFile, zlib.error):
             return None

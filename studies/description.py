@@ -36,8 +36,10 @@ def machine_name(machine: Machine) -> str:
 
 def joint_model(machine: Machine) -> str:
     """Which joints the machine's structure has, in words."""
-    if isinstance(machine, ThreeLegs) and machine.platform_joint == "clamped":
-        return "apparent: last links clamped in the platform, as the paper's tables suggest"
+    if isinstance(machine, ThreeLegs):
+        if machine.platform_joint == "clamped":
+            return "apparent: last links clamped in the platform, as the paper's tables suggest"
+        return "true spherical joints"
     return "as built: every joint with its own free directions"
 
 
@@ -59,7 +61,7 @@ def parameters(machine: Machine) -> dict[str, Any]:
 
 
 def plain(value: object, part: str = "value") -> Any:
-    """Numbers, words, lists and tables only; arrays become lists.
+    """Numbers, words, lists and tables only; arrays become lists, functions their names.
 
     Raises
     ------
@@ -77,10 +79,13 @@ def plain(value: object, part: str = "value") -> Any:
     if isinstance(value, Sequence | frozenset | set):
         items = sorted(value, key=str) if isinstance(value, frozenset | set) else value
         return [plain(v, part) for v in items]
+    if inspect.isfunction(value):
+        kept = inspect.getclosurevars(value).nonlocals
+        return {"function": f"{value.__module__}.{value.__qualname__}", **plain(kept, part)}
     raise ModelError(
         part,
         f"is a {type(value).__name__}, which cannot be written down.",
-        "Use numbers, strings, arrays and dataclasses.",
+        "Use numbers, strings, arrays, functions and dataclasses.",
     )
 
 

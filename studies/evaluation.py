@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from kinematics import Placement, Poses, jacobians
 from machines import Limit, Machine, check_limits
-from msa import Structure, tool_compliance
+from msa import PlacedStructure, Structure, system_of, tool_compliance
+from msa.constraints import free_unknowns, scales
+from msa.diagnosis import WORK_TOLERANCE
 from strutwork.errors import MechanismError, NumericalError
 from studies.filters import Filters, PoseStatus, moving_machine
 
@@ -116,14 +118,13 @@ class Evaluator:
         ).astype(np.int8)
         count = len(status)
         condition = np.full(count, np.nan)
-        if self.filters.condition_limit is not None:
+        limit = self.filters.condition_limit
+        if limit is not None:
             good = np.flatnonzero(status == PoseStatus.GOOD)
             condition[good] = self._condition(poses[good])
-            near = good[~(condition[good] < self.filters.condition_limit)]
+            near = good[~(condition[good] < limit)]
             status[near] = PoseStatus.NEAR_SINGULAR
-            reasons.append(
-                f"condition number of the inverse Jacobian at least {self.filters.condition_limit:g}"
-            )
+            reasons.append(f"condition number of the inverse Jacobian at least {limit:g}")
             reason[near] = len(reasons)
         good = np.flatnonzero(status == PoseStatus.GOOD)
         compliance = np.full((count, 6, 6), np.nan)
@@ -136,14 +137,19 @@ class Evaluator:
         ):
             reasons.append(words)
             reason[status == bad] = len(reasons)
-        outside = np.stack(
-            [
-                ~check_limits((m for m in self.machine.limits if m.kind == kind), placement)
-                .reachable
-                for kind in self.kinds
-            ],
-            axis=-1,
-        ) if self.kinds else np.zeros((count, 0), dtype=bool)
+        outside = (
+            np.stack(
+                [
+                    ~check_limits(
+                        (m for m in self.machine.limits if m.kind == kind), placement
+                    ).reachable
+                    for kind in self.kinds
+                ],
+                axis=-1,
+            )
+            if self.kinds
+            else np.zeros((count, 0), dtype=bool)
+        )
         outside &= placement.reachable[:, None]
         return Evaluated(status, reason, tuple(reasons), outside, condition, compliance)
 
@@ -162,8 +168,8 @@ def compliance_where_possible(
 ) -> tuple[Array, NDArray[np.int8]]:
     """Tool compliance of a stack of poses, some of which may be mechanisms.
 
-    The stack is solved as a whole; where that fails it is halved until the poses at fault
-    stand alone.
+    The stack is solved as a whole. Where that fails the mechanisms are found by rank and left
+    out, and what still fails is halved until the poses at fault stand alone.
 
     Parameters
     ----------
@@ -181,16 +187,37 @@ def compliance_where_possible(
     count = placement.batch[0]
     compliance = np.full((count, 6, 6), np.nan)
     status = np.zeros(count, dtype=np.int8)
-    pending = [slice(0, count)] if count else []
+    pending = [np.arange(count)] if count else []
+    ranked = False
     while pending:
         part = pending.pop()
         try:
             compliance[part] = tool_compliance(structure.at(placement[part]))
         except (MechanismError, NumericalError) as error:
-            if part.stop - part.start == 1:
+            if not ranked:
+                # an error names its joints at length: thousands of mechanisms would take minutes
+                ranked = True
+                loose = moves_freely(structure.at(placement))
+                status[loose] = PoseStatus.MECHANISM
+                rest = np.flatnonzero(~loose)
+                pending = [rest] if rest.size else []
+            elif part.size == 1:
                 mechanism = isinstance(error, MechanismError)
                 status[part] = PoseStatus.MECHANISM if mechanism else PoseStatus.UNSOLVED
             else:
-                middle = (part.start + part.stop) // 2
-                pending += [slice(part.start, middle), slice(middle, part.stop)]
+                pending += [half for half in np.array_split(part, 2) if half.size]
     return compliance, status
+
+
+def moves_freely(placed: PlacedStructure) -> NDArray[np.bool_]:
+    """Whether the tool can move without any resistance at each pose of a stack, (p,)."""
+    result = np.zeros(placed.batch, dtype=bool)
+    for start in range(0, len(result), JACOBIAN_PIECE):
+        system = system_of(placed[start : start + JACOBIAN_PIECE])
+        scale = scales(system)[:, None]
+        load = system.tool_load() * scale
+        work = np.abs(np.swapaxes(free_unknowns(system), -1, -2) @ load)
+        size = np.linalg.norm(load, axis=1, keepdims=True)
+        moving = (work > WORK_TOLERANCE * size).any(axis=(1, 2))
+        result[start : start + JACOBIAN_PIECE] = moving
+    return result

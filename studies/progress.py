@@ -30,6 +30,16 @@ def silent(done: int, total: int, /) -> None:
     """Say nothing."""
 
 
+def share(progress: Progress | None, number: int, count: int) -> Progress:
+    """What the part `number` of `count` equally long parts is given to report to."""
+
+    def tell(done: int, total: int, /) -> None:
+        if progress is not None:
+            progress(number * total + done, count * total)
+
+    return tell
+
+
 @dataclass
 class Lines:
     """A line now and then, none at all for short work.

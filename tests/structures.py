@@ -216,3 +216,29 @@ def cantilever(section: Section = BAR, length: float = 0.6, **options: Any) -> M
     model.beam("beam", "root", "tip", section, **options)
     model.support("root")
     return model
+
+
+def cantilever_compliance(beam: Beam, length: float) -> Array:
+    """Closed-form compliance (6, 6) at the tip of a cantilever along its local x axis."""
+    e, g, nu = (
+        beam.material.youngs_modulus,
+        beam.material.shear_modulus,
+        beam.material.poissons_ratio,
+    )
+    section = beam.section
+    iy, iz = section.second_moment_y, section.second_moment_z
+    areas = section.shear_area(nu) if beam.shear else None
+    slip_y, slip_z = (length / (g * a) for a in areas) if areas else (0.0, 0.0)
+    c = np.diag(
+        [
+            length / (e * section.area),
+            length**3 / (3 * e * iz) + slip_y,
+            length**3 / (3 * e * iy) + slip_z,
+            length / (g * section.torsion_constant),
+            length / (e * iy),
+            length / (e * iz),
+        ]
+    )
+    c[1, 5] = c[5, 1] = length**2 / (2 * e * iz)
+    c[2, 4] = c[4, 2] = -(length**2) / (2 * e * iy)
+    return c

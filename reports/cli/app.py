@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 import warnings
+from enum import StrEnum
 from typing import Annotated
 
 import typer
@@ -27,6 +28,14 @@ ModelFile = Annotated[str, typer.Argument(metavar="FILE", help="A model file (TO
 Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object, in SI units, and nothing else.")
 ]
+
+
+class Ranges(StrEnum):
+    """Joints whose ranges a pose must keep."""
+
+    ALL = "all"
+    REVOLUTE = "revolute"
+    NONE = "none"
 
 
 def main() -> None:
@@ -84,3 +93,63 @@ def solve(file: ModelFile, json: Json = False) -> None:
     from reports.cli import solve as work
 
     work.run(file, json)
+
+
+@app.command("map")
+def map_stiffness(
+    machine: Annotated[
+        str, typer.Argument(metavar="MACHINE", help="As `strutwork machines` says.")
+    ],
+    out: Annotated[
+        str | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Write the map there as NetCDF and CSV."),
+    ] = None,
+    apparent: Annotated[
+        bool,
+        typer.Option("--apparent", help="Links clamped in the platform, not on spherical joints."),
+    ] = False,
+    ranges: Annotated[
+        Ranges, typer.Option(help="Whose joint ranges a pose must keep.")
+    ] = Ranges.ALL,
+    lattice: Annotated[
+        int, typer.Option(min=1, max=200, help="Fineness of the check points; 10 gives 317.")
+    ] = 10,
+    rolls: Annotated[
+        int, typer.Option(min=1, max=720, help="Rolls about the normal tried at each point.")
+    ] = 24,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Threads; one a processor by default.")
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Map the stiffness of a machine over the hemisphere of its check points."""
+    from reports.cli import stiffness as work
+
+    work.run(
+        machine,
+        out,
+        apparent=apparent,
+        ranges=ranges.value,
+        lattice=lattice,
+        rolls=rolls,
+        workers=workers,
+        json=json,
+    )
+
+
+@app.command()
+def report(
+    target: Annotated[
+        str,
+        typer.Argument(metavar="TARGET", help="A machine, a comparison (azulay-2014) or a FILE."),
+    ],
+    out: Annotated[
+        str | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Write a report: one HTML file that opens offline, and its data files."""
+    from reports.cli import report as work
+
+    work.run(target, out, json)

@@ -84,23 +84,23 @@ def joint_traces(drawn: Sequence[DrawnJoint], size: float) -> list[dict[str, Any
 def _symbol(joint: DrawnJoint, style: JointStyle, size: float) -> Shape:
     label = f"{joint.name}: {style.label}{', driven' if joint.driven else ''}"
     if style.shape == "ball":
-        return ball(joint.at, 0.5 * size, label)
+        return ball(joint.at, 0.8 * size, label)
     if style.shape == "pin":
-        reach = 1.0 * size * joint.frame[:, 2]
+        reach = 1.5 * size * joint.frame[:, 2]
         return cylinder(joint.at - reach, joint.at + reach, 0.32 * size, label)
     return box(joint.at, joint.frame, (1.1 * size, 1.1 * size, 1.5 * size), label)
 
 
 def straight(at: Array, direction: Array, size: float) -> Array:
     """Path of a translation for `DrawnJoint.driven`, (n, 3)."""
-    return np.stack([at - 1.9 * size * direction, at + 1.9 * size * direction])
+    return np.stack([at - 3.0 * size * direction, at + 3.0 * size * direction])
 
 
 def turning(at: Array, axis: Array, size: float) -> Array:
     """Path of a rotation for `DrawnJoint.driven`: three quarters of a circle, (n, 3)."""
     u, v = across(axis)
     turn = np.linspace(0.0, 1.5 * np.pi, 37)[:, None]
-    return np.asarray(at + 1.2 * size * (np.cos(turn) * u + np.sin(turn) * v))
+    return np.asarray(at + 1.6 * size * (np.cos(turn) * u + np.sin(turn) * v))
 
 
 def _arrow(points: Array, head: float) -> Array:
@@ -181,7 +181,7 @@ def scene(traces: Sequence[dict[str, Any]], **changes: Any) -> dict[str, Any]:
         "xaxis": side("x (mm)"),
         "yaxis": side("y (mm)"),
         "zaxis": side("z (mm)"),
-        "camera": {"eye": {"x": 1.2, "y": -1.4, "z": 0.95}, "center": {"x": 0, "y": 0, "z": -0.1}},
+        "camera": {"eye": {"x": 1.35, "y": -1.6, "z": 1.0}, "center": {"x": 0, "y": 0, "z": -0.12}},
     }
     margin = {"l": 0, "r": 0, "t": 8, "b": 8}
     legend = {"orientation": "h", "x": 0, "y": 0, "yanchor": "top", "itemsizing": "constant"}

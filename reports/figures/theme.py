@@ -26,8 +26,9 @@ def layout(**changes: Any) -> dict[str, Any]:
         "font": {"family": FONT, "size": 13, "color": INK},
         "paper_bgcolor": "#ffffff",
         "plot_bgcolor": "#ffffff",
-        "margin": {"l": 60, "r": 16, "t": 20, "b": 52},
-        "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
+        "margin": {"l": 60, "r": 16, "t": 34, "b": 52},
+        # below the plot: above it the buttons would cover it
+        "legend": {"orientation": "h", "x": 0, "y": 0, "yanchor": "bottom", "yref": "container"},
         "hoverlabel": {"font": {"family": FONT, "size": 13}},
         "colorway": list(PALETTE),
     }

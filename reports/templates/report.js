@@ -4,7 +4,6 @@
     responsive: true,
     displaylogo: false,
     displayModeBar: "hover",
-    modeBarButtonsToRemove: ["select2d", "lasso2d", "tableRotation", "resetCameraLastSave3d"],
     toImageButtonOptions: { format: "png", scale: 2 },
   };
   // printers do not draw WebGL: a picture of each 3-D view stands in for it on paper
@@ -19,16 +18,19 @@
     }
     picture.src = url;
   };
+  const flat = [["toImage"], ["zoom2d", "pan2d", "resetScale2d"]];
+  const solid = [["toImage"], ["orbitRotation", "zoom3d", "pan3d", "resetCameraDefault3d"]];
+  const solids = [];
   const failures = [];
   for (const figure of document.querySelectorAll("figure.plot")) {
     const drawing = figure.querySelector(".drawing");
     try {
       const spec = JSON.parse(figure.querySelector("script").textContent);
-      await Plotly.newPlot(drawing, spec.data, spec.layout, config);
+      const modeBarButtons = spec.layout.scene ? solid : flat;
+      await Plotly.newPlot(drawing, spec.data, spec.layout, { ...config, modeBarButtons });
       if (spec.layout.scene) {
         drawing.classList.add("solid");
-        await photograph(drawing);
-        drawing.on("plotly_relayout", () => photograph(drawing));
+        solids.push(drawing);
       }
     } catch (error) {
       drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
@@ -37,4 +39,9 @@
     }
   }
   document.documentElement.dataset.plots = failures.length ? `failed: ${failures}` : "drawn";
+  for (const drawing of solids) {
+    await new Promise((resolve) => setTimeout(resolve, 200));
+    await photograph(drawing);
+    drawing.on("plotly_relayout", () => photograph(drawing));
+  }
 })();

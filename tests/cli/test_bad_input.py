@@ -13,7 +13,9 @@ from tests.cli.conftest import Program
 from tests.model_files import SAMPLE, Content, Edit, add, drop, put, sample, toml
 
 MATRIX = [[1e7 * (i == j) for j in range(6)] for i in range(6)]
-ASKEW = [[2e6 if (i, j) == (0, 1) else v for j, v in enumerate(row)] for i, row in enumerate(MATRIX)]
+ASKEW = [
+    [2e6 if (i, j) == (0, 1) else v for j, v in enumerate(row)] for i, row in enumerate(MATRIX)
+]
 
 #: What is changed in the sample, and what the message must hold.
 WRONG: dict[str, tuple[list[Edit], list[str]]] = {
@@ -238,9 +240,7 @@ def test_mechanism_under_load_names_joint_and_direction(
     assert "mechanism under its load" in run.err
 
 
-def test_solve_without_load_and_tool(
-    strutwork: Program, write: Callable[[Content], Path]
-) -> None:
+def test_solve_without_load_and_tool(strutwork: Program, write: Callable[[Content], Path]) -> None:
     tables = ("gravity", "loads", "line_loads", "settlements", "misfits", "tool")
     run = strutwork("solve", write(sample(*map(drop, tables))), "--json")
     assert (run.status, run.out) == (1, "")
@@ -259,12 +259,13 @@ def test_gravity_without_density(strutwork: Program, write: Callable[[Content], 
     [
         (b"nodes = [", "not TOML"),
         (b"[nodes]\nA = [0, 0, 0]\nA = [0, 0, 0]\n", "not TOML"),
-        (b"title = \"caf\xe9\"\n", "not UTF-8: byte 12 is 0xe9"),
+        (b'title = "caf\xe9"\n', "not UTF-8: byte 12 is 0xe9"),
         (toml(SAMPLE).encode("utf-16"), "not UTF-8"),
         (b"\x00\x01\x02", "not TOML"),
         (b"x = " + b"[" * 5000 + b"]" * 5000, "nested too deeply"),
         (b"x = " + b"9" * 5000, "not TOML"),
         (b"", "nodes: is missing"),
+        (b"[nodes]", "nodes: are none"),
         (b"[1, 2, 3]", "not TOML"),
         (b'{"nodes": {}}', "not TOML"),
     ],

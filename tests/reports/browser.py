@@ -75,8 +75,11 @@ class Browser:
         self.complaints.clear()
         self.requests.clear()
         self.resize(width, height)
-        self.send("Page.navigate", url=page.resolve().as_uri())
-        self.wait_for("document.documentElement.dataset.plots !== undefined")
+        url = page.resolve().as_uri()
+        self.send("Page.navigate", url=url)
+        # the old document answers until the new one has begun
+        arrived = f"location.href === {json.dumps(url)} && document.readyState === 'complete'"
+        self.wait_for(f"{arrived} && document.documentElement.dataset.plots !== undefined")
 
     def resize(self, width: int, height: int) -> None:
         self.send(

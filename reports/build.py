@@ -1,0 +1,124 @@
+"""Writing a report: from its target to a folder with the page and its data."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from reports.content import Chapter, Page
+from reports.data_files import DataFile
+from reports.machine_study import Teller
+from reports.page import render
+from strutwork import __version__
+from strutwork.errors import ModelError
+
+#: The comparison of the four machines of the paper.
+COMPARISON = "azulay-2014"
+
+PAGE = "report.html"
+
+
+@dataclass(frozen=True)
+class WrittenReport:
+    """Where a report lies.
+
+    Parameters
+    ----------
+    report : Path
+        The page.
+    data : tuple of Path
+        The files beside it.
+    """
+
+    report: Path
+    data: tuple[Path, ...]
+
+    def __repr__(self) -> str:
+        return f"<WrittenReport: {self.report} and {len(self.data)} data files>"
+
+
+def write_report(target: str, folder: Path, progress: Teller | None = None) -> WrittenReport:
+    """Compute and write a report.
+
+    Parameters
+    ----------
+    target : str
+        A machine of the catalogue, "azulay-2014" for the comparison of its four machines, or
+        the path of a model file.
+    folder : Path
+        Made when missing. Files of an earlier report of the same name are replaced.
+    progress : callable, optional
+        Given the name of a part of the work, returns what is told how far it is.
+
+    Returns
+    -------
+    WrittenReport
+
+    Raises
+    ------
+    ModelError
+        No such machine or file, a wrong model, or a folder that cannot be written.
+    StrutworkError
+        A model that cannot be solved. Whatever is raised, nothing is written.
+    """
+    page, files = _contents(target, progress)
+    return _write(Path(folder), render(page), files)
+
+
+def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFile, ...]]:
+    from machines.catalogue import CATALOGUE
+
+    make: Callable[[], tuple[str, str, tuple[Chapter, ...]]]
+    if target == COMPARISON:
+        from reports.comparison_report import comparison_chapters
+
+        make = partial(comparison_chapters, progress)
+    elif target in CATALOGUE:
+        from reports.machine_report import machine_chapters
+
+        make = partial(machine_chapters, target, progress)
+    elif Path(target).suffix == ".toml" or Path(target).exists():
+        from reports.model_report import model_chapters
+
+        make = partial(model_chapters, Path(target))
+    else:
+        raise ModelError(
+            f"report {target}",
+            "is no machine of the catalogue and no model file.",
+            f"Machines: {', '.join(CATALOGUE)}; comparison: {COMPARISON}; or the path of a TOML "
+            "file.",
+        )
+    title, subtitle, chapters = make()
+    footer = f"Made by Strutwork {__version__}. This page needs no network."
+    files = tuple(f for chapter in chapters for f in chapter.files)
+    return Page(title, subtitle, chapters, footer), files
+
+
+def _write(folder: Path, page: str, files: Sequence[DataFile]) -> WrittenReport:
+    """Write everything beside the folder first, then put it in place."""
+    existed = folder.exists()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".report-", dir=folder) as name:
+            staged = Path(name)
+            for file in files:
+                file.write(staged / file.name)
+            (staged / PAGE).write_text(page, encoding="utf-8")
+            for file in files:
+                (staged / file.name).replace(folder / file.name)
+            # the page last: where it is, its data are
+            report = (staged / PAGE).replace(folder / PAGE)
+    except BaseException as error:
+        if not existed and folder.is_dir() and not any(folder.iterdir()):
+            folder.rmdir()
+        if isinstance(error, OSError):
+            raise ModelError(
+                str(folder),
+                f"cannot be written ({error.strerror}).",
+                "Choose a folder you may write to.",
+            ) from error
+        raise
+    return WrittenReport(report, tuple(folder / file.name for file in files))

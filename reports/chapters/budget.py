@@ -1,0 +1,79 @@
+"""Compliance budget of a machine of the literature at its best, median and worst poses."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from reports.content import Block, Chapter, Figure, Row, Text
+from reports.data_files import DataFile, csv_file
+from reports.figures.charts import stacked_shares
+from reports.machine_study import MODEL_NAMES, MachineStudy
+
+
+def budget_chapter(study: MachineStudy) -> Chapter:
+    """Stacked bars for each joint model; the three legs' equal parts are added up."""
+    figures = []
+    for model, label in MODEL_NAMES.items():
+        categories, shares = by_kind(study.budgets[model])
+        figures.append(
+            Figure(
+                f"budget-{model}",
+                f"{label[0].upper()}{label[1:]}: share of each kind of part, all three legs, in "
+                "the deflection along the force.",
+                stacked_shares(categories, shares, "share of the deflection"),
+                "Stacked bars of the shares of links and drives in the tool's deflection along x, "
+                f"y and z at the best, median and worst pose, {label}.",
+                f"budget-{model}.csv",
+                height=480,
+            )
+        )
+    blocks: list[Block] = [
+        Text(
+            "Which part gives way under a force at the tool: the share of each part's strain "
+            "energy, which is its share in the deflection along the force. The poses are those "
+            "with the largest, the median and the smallest stiffness along that axis; the tool's "
+            "other directions are free to follow the force."
+        ),
+        Row(tuple(figures), 420),
+    ]
+    files = tuple(budget_file(study.budgets[m], f"budget-{m}.csv", n) for m, n in MODEL_NAMES.items())
+    return Chapter("budget", "Compliance budget", tuple(blocks), files)
+
+
+def by_kind(budget: xr.Dataset) -> tuple[list[str], dict[str, list[float]]]:
+    """Bars and shares in percent, parts of the same name in the three legs added up."""
+    share = budget["share"].to_numpy()
+    parts = [str(p) for p in budget["part"].to_numpy()]
+    kinds: dict[str, np.ndarray[tuple[int], np.dtype[np.float64]]] = {}
+    for i, part in enumerate(parts):
+        word, _, name = part.partition(" ")
+        name = name.split("/", 1)[-1]
+        kind = f"{name} (link)" if word == "beam" else f"{name.split(':')[0]} ({word})"
+        kinds[kind] = kinds.get(kind, 0.0) + 100.0 * share[..., i].reshape(-1)
+    categories = [
+        f"{force}, {rank}"
+        for force in budget["force"].to_numpy()
+        for rank in budget["rank"].to_numpy()
+    ]
+    return categories, {kind: values.tolist() for kind, values in kinds.items()}
+
+
+def budget_file(budget: xr.Dataset, name: str, label: str) -> DataFile:
+    """Every part's share at every pose of the budget."""
+    rows = []
+    for f, force in enumerate(budget["force"].to_numpy()):
+        for r, rank in enumerate(budget["rank"].to_numpy()):
+            place = [float(v) for v in budget["position"].to_numpy()[f, r]]
+            values = [
+                float(budget[v].to_numpy()[f, r]) for v in ("roll", "stiffness", "deflection")
+            ]
+            rows += [
+                [force, rank, *place, *values, str(part), float(budget["share"].to_numpy()[f, r, p])]
+                for p, part in enumerate(budget["part"].to_numpy())
+            ]
+    columns = (
+        "force", "rank", "x_m", "y_m", "z_m", "roll_rad", "stiffness_blocked_N_per_m",
+        "deflection_m_per_N", "part", "share",
+    )
+    return csv_file(name, f"share of every part at the best, median and worst pose, {label}", columns, rows)

@@ -1,0 +1,129 @@
+"""A model file: what it is, how it stands, whether it can move."""
+
+from __future__ import annotations
+
+from reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
+from reports.data_files import json_file
+from reports.figures.model import model_view
+from reports.model_check import ModelCheck
+from reports.model_solution import ModelSolution
+from reports.numbers import clean, count, significant
+from machines.model import Model
+from msa import axis_stiffness_blocked, axis_stiffness_free
+
+#: Rows of motions and self-stress states a reader is shown; the file has all.
+SHOWN = 12
+
+
+def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | None) -> Chapter:
+    """The structure in a sentence and its headline numbers."""
+    structure, found = model.structure, check.mobility
+    parts = [
+        count(len(model.nodes), "node"),
+        count(len(structure.beams), "beam"),
+        count(len(model.joints), "joint"),
+        count(len(structure.springs), "spring"),
+        count(len(model.supports), "supported node"),
+        count(len(model.cases), "load case"),
+    ]
+    text = f"A structure of {', '.join(parts[:-1])} and {parts[-1]}, in one configuration."
+    facts = [
+        Fact("Degrees of freedom", str(check.degrees_of_freedom), "", "of the flexible structure"),
+        Fact(
+            "Mobility",
+            str(found.mobility),
+            "",
+            f"of the rigid linkage; {found.mobility_locked} with the drives held",
+        ),
+        Fact("Redundant constraints", str(found.redundant), "", "with the drives held"),
+    ]
+    if check.mass is not None and check.mass.total:
+        facts.append(Fact("Mass", significant(check.mass.total), "kg"))
+    if solution is not None and solution.compliance is not None:
+        free = axis_stiffness_free(solution.compliance)
+        blocked = None if solution.stiffness is None else axis_stiffness_blocked(solution.compliance)
+        for i, axis in enumerate("xyz"):
+            detail = "other directions free, 1/C_ii"
+            if blocked is not None:
+                detail += f"; blocked, (C⁻¹)_ii: {significant(blocked[i] / 1e6)} N/µm"
+            facts.append(Fact(f"Tool stiffness along {axis}", significant(free[i] / 1e6), "N/µm", detail))
+    return Chapter("summary", "Summary", (Text(text), Facts(tuple(facts))))
+
+
+def structure_chapter(model: Model) -> Chapter:
+    """The structure in 3-D."""
+    linkage = model.structure.linkage
+    drawing = {
+        "unit": "m",
+        "nodes": dict(zip(linkage.nodes, model.placement.positions.tolist(), strict=True)),
+        "beams": {b.name: list(b.nodes) for b in model.structure.beams},
+        "bodies": {b.name: list(b.nodes) for b in (*model.structure.rigid, *linkage.bodies)},
+        "joints": {
+            joint.name: {
+                "type": joint.type,
+                "between": list(joint.between),
+                "driven": list(joint.driven),
+                "axes_as_columns": frame.tolist(),
+            }
+            for joint, frame in zip(linkage.joints, model.placement.frames, strict=True)
+        },
+        "springs": {s.name: list(s.nodes) for s in model.structure.springs},
+        "tool": model.tool,
+    }
+    figure = Figure(
+        "structure",
+        "The structure as the file describes it, in mm. Drag to turn, scroll to zoom; names show "
+        "under the pointer. Joint symbols are not to scale.",
+        model_view(model),
+        f"Three-dimensional drawing of the structure with {count(len(linkage.joints), 'joint')} "
+        "marked by type.",
+        "drawing.json",
+        height=560,
+    )
+    file = json_file("drawing.json", "what the drawing shows: nodes, parts and joint axes", drawing)
+    return Chapter("structure", "The structure", (figure,), (file,))
+
+
+def check_chapter(check: ModelCheck) -> Chapter:
+    """Mobility, redundancy, mechanisms and states of self-stress of the rigidified linkage."""
+    found = check.mobility
+    rows: list[list[str]] = [
+        ["mobility, driven directions free", str(found.mobility)],
+        ["mobility, driven directions held", str(found.mobility_locked)],
+        ["redundant constraints, driven directions held", str(found.redundant)],
+        ["Grübler's count, which knows no geometry", str(found.gruebler)],
+    ]
+    if check.mass is not None:
+        rows.append(["mass, kg", significant(check.mass.total, 4)])
+        if check.mass.center is not None:
+            middle = clean([1e3 * v for v in check.mass.center], 4)
+            rows.append(["centre of mass x, y, z, mm", middle])
+    blocks: list[Block] = [
+        Text(
+            "Every beam, body and elastic joint counts as rigid here, and springs to ground as "
+            "absent; rank decides, not a count."
+        ),
+        Table("Mobility and redundancy", (Column("quantity", "", False), Column("value")), rows),
+    ]
+    for title, motions in (
+        ("Motions left with the drives held", found.motions),
+        ("Motions with the drives free", found.driven_motions),
+    ):
+        if motions:
+            lines = [[str(i), m.description] for i, m in enumerate(motions[:SHOWN], 1)]
+            columns = (Column("", "", False), Column("motion", "", False))
+            blocks.append(Table(title, columns, lines, "check.json"))
+    if found.self_stress:
+        lines = [
+            [str(i), ", ".join(s.joints)] for i, s in enumerate(found.self_stress[:SHOWN], 1)
+        ]
+        columns = (Column("", "", False), Column("joints that take part", "", False))
+        blocks.append(Table("States of self-stress", columns, lines, "check.json"))
+        blocks.append(
+            Note(
+                "Redundant constraints let manufacturing errors lock forces into the joints named; "
+                "without them there would be none."
+            )
+        )
+    file = json_file("check.json", "mobility, redundancy, motions and mass, SI", check.to_dict())
+    return Chapter("check", "Mobility and redundancy", tuple(blocks), (file,))

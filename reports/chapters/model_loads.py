@@ -1,0 +1,151 @@
+"""Load cases of a model file: deformed shapes, displacements, reactions, joint forces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import floor, log10
+from typing import Any
+
+import numpy as np
+
+from kinematics import DIRECTIONS
+from reports.content import Block, Chapter, Column, Figure, Note, Table, Text
+from reports.data_files import DataFile, csv_file, json_file
+from reports.figures.model import deformed_shape, deformed_view, model_size
+from reports.model_solution import ModelSolution
+from reports.numbers import significant
+
+#: Rows of a table a reader is shown; the file has all.
+SHOWN = 40
+
+#: Share of the structure's size that the largest displacement is drawn with.
+DRAWN = 0.08
+
+_MOVED = (*((f"u{a}", "µm") for a in "xyz"), *((f"r{a}", "mrad") for a in "xyz"))
+_FORCE = (*((f"F{a}", "N") for a in "xyz"), *((f"M{a}", "N·m") for a in "xyz"))
+
+
+def loads_chapter(solution: ModelSolution) -> Chapter:
+    """Every load case with its deformed shape and its numbers."""
+    answers = solution.to_dict()
+    blocks: list[Block] = []
+    shapes: list[list[Any]] = []
+    for number, name in enumerate(solution.statics.cases):
+        case = answers["cases"][name]
+        figure = _deformed(solution, number, shapes)
+        energy = significant(case["strain_energy"], 4)
+        blocks.append(Text(f"Case “{name}”: strain energy {energy} J."))
+        if figure is not None:
+            blocks.append(figure)
+        moved = {
+            n: [1e6 * v for v in u[:3]] + [1e3 * v for v in u[3:]]
+            for n, u in case["displacements"].items()
+        }
+        blocks += _six(f"Displacements, case “{name}”", "node", _MOVED, moved)
+        blocks += _six(
+            f"Reactions on the structure, case “{name}”", "node", _FORCE, case["reactions"]
+        )
+    files = [
+        json_file("solution.json", "displacements, reactions and forces of every case, SI", answers),
+        csv_file(
+            "deformed-shapes.csv",
+            "the drawn shapes: true position and displacement, m; lines are parted by empty rows",
+            ("case", "x_m", "y_m", "z_m", "displacement_m", "drawn_factor"),
+            shapes,
+        ),
+    ]
+    return Chapter("loads", "Load cases", tuple(blocks), tuple(files))
+
+
+def forces_chapter(solution: ModelSolution) -> Chapter:
+    """Forces in joints, springs and beams for every load case."""
+    answers = solution.to_dict()
+    blocks: list[Block] = []
+    rows: list[list[Any]] = []
+    for name, case in answers["cases"].items():
+        ends = {
+            f"{beam}, {end} its {word} end": force
+            for beam, both in case["beam_forces"].items()
+            for end, word, force in (("at", "first", both["from"]), ("at", "second", both["to"]))
+        }
+        for title, what, values in (
+            ("Joint forces on the second node, joint axes", "joint", case["joint_forces"]),
+            ("Spring forces, global axes", "spring", case["spring_forces"]),
+            ("Forces on the beams, beam axes", "beam", ends),
+        ):
+            blocks += _six(f"{title}, case “{name}”", what, _FORCE, values, "forces.csv")
+            rows += [[name, what, part, *force] for part, force in values.items()]
+    columns = ("case", "kind", "part", *(f"{f}_{u}".replace("·", "") for f, u in _FORCE))
+    file: DataFile = csv_file("forces.csv", "forces in joints, springs and beams", columns, rows)
+    return Chapter("forces", "Forces in joints and beams", tuple(blocks), (file,))
+
+
+def _six(
+    title: str,
+    what: str,
+    columns: Sequence[tuple[str, str]],
+    values: Mapping[str, Sequence[float]],
+    data: str = "solution.json",
+) -> list[Block]:
+    if not values:
+        return []
+    rows = []
+    # round-off beside the table's largest entries says nothing
+    table = np.abs(np.array(list(values.values())))
+    floors = 1e-9 * np.repeat([table[:, :3].max(), table[:, 3:].max()], 3)
+    for part, six in list(values.items())[:SHOWN]:
+        shown = [0.0 if abs(v) <= low else v for v, low in zip(six, floors, strict=True)]
+        rows.append([part, *(significant(v, 4) for v in shown)])
+    heads = (Column(what, "", False), *(Column(title, unit) for title, unit in columns))
+    blocks: list[Block] = [Table(title, heads, rows, data)]
+    if len(values) > SHOWN:
+        blocks.append(Text(f"The first {SHOWN} of {len(values)} are shown; {data} has all."))
+    return blocks
+
+
+def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Figure | Note | None:
+    model, statics = solution.model, solution.statics
+    case = model.cases[number]
+    largest = float(
+        np.linalg.norm(statics.displacements[:, :3, number], axis=-1).max(initial=0.0)
+    )
+    size = model_size(model)
+    if largest < 1e-15 * size:
+        return Note(f"Nothing moves in case “{case.name}”.")
+    factor = round_factor(DRAWN * size / largest)
+    shape, moved = deformed_shape(model, statics, number, factor)
+    if not len(shape):
+        return None
+    still, _ = deformed_shape(model, statics, number, 0.0)
+    rows += [
+        [case.name, *(float(v) for v in point), float(m), factor]
+        for point, m in zip(still, moved, strict=True)
+    ]
+    return Figure(
+        f"deformed-{number + 1}",
+        f"Case “{case.name}”: displacements drawn {factor:,g} times as large as they are. The "
+        f"largest of a node is {significant(1e6 * largest, 4)} µm; colour gives the true "
+        "displacement, grey the structure at rest, red the forces.".replace(",", "\u202f", 1)
+        if factor >= 1000
+        else f"Case “{case.name}”: displacements drawn {factor:g} times as large as they are. The "
+        f"largest of a node is {significant(1e6 * largest, 4)} µm; colour gives the true "
+        "displacement, grey the structure at rest, red the forces.",
+        deformed_view(model, shape, moved, case, "displacement (µm)"),
+        f"Three-dimensional drawing of the deformed structure in case {case.name}.",
+        "deformed-shapes.csv",
+        height=520,
+    )
+
+
+def round_factor(value: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is not above `value`.
+
+    >>> round_factor(730.0), round_factor(0.31)
+    (500.0, 0.2)
+    """
+    power = 10.0 ** floor(log10(value))
+    step = next(s for s in (5.0, 2.0, 1.0) if s * power <= value * (1 + 1e-12))
+    return float(f"{step * power:.6g}")
+
+
+__all__ = ["DIRECTIONS", "forces_chapter", "loads_chapter", "round_factor"]

@@ -1,0 +1,38 @@
+"""Progress of long work on standard error: a bar in a terminal, lines now and then in a log."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+from rich.progress import Progress as Bars
+
+from reports.cli.output import progress_console
+from studies.progress import Lines, Progress
+
+
+@contextmanager
+def shown() -> Iterator[Callable[[str], Progress]]:
+    """Give a function that makes the progress of a piece of work from its label."""
+    if not sys.stderr.isatty():
+        yield Lines
+        return
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+    )
+    with Bars(*columns, console=progress_console(), transient=True) as bars:
+
+        def started(label: str) -> Progress:
+            task = bars.add_task(label, total=None)
+
+            def tell(done: int, total: int, /) -> None:
+                bars.update(task, completed=done, total=total)
+
+            return tell
+
+        yield started

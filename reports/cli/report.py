@@ -1,0 +1,22 @@
+"""`strutwork report`: the report of a machine, a comparison or a model file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from reports.build import write_report
+from reports.cli.output import console, print_json
+from reports.cli.progress import shown
+
+
+def run(target: str, out: str | None, json: bool) -> None:
+    """Write the report and say where it lies."""
+    folder = Path(out) if out is not None else Path("out") / Path(target).stem
+    with shown() as started:
+        written = write_report(target, folder, started)
+    if json:
+        print_json({"report": str(written.report), "data": [str(p) for p in written.data]})
+        return
+    printed = console()
+    printed.print(f"Report: {written.report}", markup=False, soft_wrap=True)
+    printed.print(f"Data files beside it: {len(written.data)}", markup=False)

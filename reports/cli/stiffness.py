@@ -1,0 +1,111 @@
+"""`strutwork map`: stiffness of a machine of the catalogue over its check points."""
+
+from __future__ import annotations
+
+import json as json_text
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from machines import ThreeLegs, get, roll_angles
+from reports.cli.output import console, print_json, table
+from reports.cli.progress import shown
+from strutwork.errors import ModelError
+from studies import Filters, hemisphere, stiffness_map, summary, write_csv, write_netcdf
+
+RANGES: dict[str, tuple[str, ...] | None] = {"all": None, "revolute": ("revolute",), "none": ()}
+
+
+def run(
+    machine: str,
+    out: str | None,
+    *,
+    apparent: bool,
+    ranges: str,
+    lattice: int,
+    rolls: int,
+    workers: int | None,
+    json: bool,
+) -> None:
+    """Map the stiffness and print its summary."""
+    if Path(machine).suffix == ".toml":
+        raise ModelError(
+            machine,
+            "is a model file, which has one configuration: there is nothing to map.",
+            "Use `strutwork solve`, or name a machine of `strutwork machines`.",
+        )
+    made = get(machine).factory()
+    if apparent:
+        if not isinstance(made, ThreeLegs):
+            raise ModelError(f"machine {machine}", "has no apparent joint model.", "Leave it out.")
+        made = made.apparent()
+    with shown() as started:
+        dataset = stiffness_map(
+            made,
+            hemisphere(made, lattice=lattice),
+            roll_angles(rolls),
+            Filters(joint_kinds=RANGES[ranges]),
+            workers=workers,
+            progress=started(f"stiffness of {machine}"),
+        )
+    result = _result(machine, dataset)
+    if out is not None:
+        folder = Path(out)
+        name = f"{machine}-apparent-map" if apparent else f"{machine}-map"
+        written = [
+            write_netcdf(folder / f"{name}.nc", dataset),
+            write_csv(folder / f"{name}.csv", dataset),
+        ]
+        result["data"] = [str(path) for path in written]
+    if json:
+        print_json(result)
+    else:
+        _print(result)
+
+
+def _result(machine: str, dataset: xr.Dataset) -> dict[str, Any]:
+    dropped = dataset["dropped"].sum("point")
+    return {
+        "machine": machine,
+        "points": int(dataset.sizes["point"]),
+        "points_kept": int(dataset.attrs["points_kept"]),
+        "candidates": int(dataset.attrs["candidates"]),
+        "candidates_kept": int(dataset.attrs["candidates_kept"]),
+        "dropped": {str(r): int(dropped.sel(reason=r)) for r in dataset["reason"].to_numpy()},
+        "dropped_because": json_text.loads(dataset.attrs["dropped_by_reason"]),
+        "stiffness": {
+            meaning: {axis["direction"]: axis for axis in summed["axes"]}
+            for meaning, summed in (
+                ("blocked", summary(dataset, "blocked").to_dict()),
+                ("free", summary(dataset, "free").to_dict()),
+            )
+        },
+        "data": [],
+    }
+
+
+def _print(result: dict[str, Any]) -> None:
+    out = console()
+    out.print(
+        f"{result['machine']}: {result['points_kept']} of {result['points']} points, "
+        f"{result['candidates_kept']} of {result['candidates']} candidate poses count",
+        markup=False,
+    )
+    for reason, count in result["dropped"].items():
+        if count:
+            out.print(f"  {count} {reason.replace('_', ' ')}", markup=False)
+    for meaning, words in (
+        ("blocked", "other directions blocked, (C⁻¹)ii"),
+        ("free", "other directions free, 1/Cii"),
+    ):
+        rows = []
+        for direction, axis in result["stiffness"][meaning].items():
+            s = axis["statistics"]
+            numbers = [s["mean"], s["standard_deviation"], axis["worst"]["value"]]
+            numbers += [s["quantiles"][2], axis["best"]["value"]]
+            rows.append((direction, *(1e-6 * v for v in numbers)))
+        columns = ["axis", "mean", "deviation", "worst", "median", "best"]
+        out.print(table(f"Stiffness in N/µm, {words}", columns, rows))
+    for path in result["data"]:
+        out.print(path, markup=False, soft_wrap=True)

@@ -1,0 +1,87 @@
+"""Data files beside a report: every plotted or tabulated number, unrounded, in SI where not said."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from strutwork.errors import NumericalError
+
+
+@dataclass(frozen=True)
+class DataFile:
+    """A file to be written.
+
+    Parameters
+    ----------
+    name : str
+        File name without a folder.
+    what : str
+        What it holds, in words.
+    write : callable
+        Receives the path and writes the whole file.
+    """
+
+    name: str
+    what: str
+    write: Callable[[Path], object] = field(repr=False)
+
+
+def csv_file(
+    name: str, what: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
+) -> DataFile:
+    """A table with a line of headings; missing numbers are empty."""
+    lines = [[_entry(name, value) for value in row] for row in rows]
+
+    def write(path: Path) -> None:
+        with path.open("w", encoding="utf-8", newline="") as stream:
+            writer = csv.writer(stream, lineterminator="\n")
+            writer.writerow(columns)
+            writer.writerows(lines)
+
+    return DataFile(name, what, write)
+
+
+def json_file(name: str, what: str, value: Any) -> DataFile:
+    """One JSON value.
+
+    Raises
+    ------
+    NumericalError
+        It holds a number that is not finite.
+    """
+    try:
+        text = json.dumps(value, allow_nan=False, ensure_ascii=False, indent=1, default=_plain)
+    except ValueError:
+        raise NumericalError(
+            name, "would hold a number that is not finite.", "Check the model."
+        ) from None
+    return DataFile(name, what, lambda path: path.write_text(text + "\n", encoding="utf-8"))
+
+
+def netcdf_file(name: str, what: str, dataset: xr.Dataset) -> DataFile:
+    """A dataset as NetCDF-4."""
+    return DataFile(name, what, lambda path: dataset.to_netcdf(path, engine="h5netcdf"))
+
+
+def _entry(name: str, value: Any) -> Any:
+    """A cell as text; floats with all their digits."""
+    if isinstance(value, float | np.floating):
+        number = float(value)
+        if np.isinf(number):
+            raise NumericalError(name, "would hold an infinite number.", "Check the model.")
+        return "" if np.isnan(number) else repr(number)
+    return "" if value is None else value
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray | np.generic):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} has no JSON form")

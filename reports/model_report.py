@@ -1,0 +1,40 @@
+"""The report of a structure from a model file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from machines.model_file import read_model
+from reports.chapters.closing import closing_chapter
+from reports.chapters.model import check_chapter, structure_chapter, summary_chapter
+from reports.chapters.model_loads import forces_chapter, loads_chapter
+from reports.chapters.model_tool import budget_chapter, tool_chapter
+from reports.content import Chapter
+from reports.model_check import check_model
+from reports.model_solution import solve_model
+
+
+def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
+    """Title, subtitle and chapters of a model file's report.
+
+    Raises
+    ------
+    StrutworkError
+        The file is wrong, or its structure moves freely under its loads.
+    """
+    model = read_model(path)
+    check = check_model(model)
+    solution = solve_model(model) if model.cases or model.tool is not None else None
+    chapters = [summary_chapter(model, check, solution), structure_chapter(model)]
+    chapters.append(check_chapter(check))
+    settings = {"model file": path.name}
+    if solution is not None:
+        settings["solver"] = solution.statics.method
+        if model.cases:
+            chapters += [loads_chapter(solution), forces_chapter(solution)]
+        if model.tool is not None:
+            chapters.append(tool_chapter(solution))
+        if solution.compliance is not None:
+            chapters.append(budget_chapter(model))
+    chapters.append(closing_chapter(path.name, settings, {"title": model.title}, chapters))
+    return model.title or path.stem, f"Static analysis of the model file {path.name}", tuple(chapters)

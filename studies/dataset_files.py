@@ -1,0 +1,156 @@
+"""Datasets of studies as files: NetCDF, CSV and JSON, whole or not at all."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError
+from strutwork.files import write_text, write_whole
+from studies.filters import PoseStatus
+
+_UNITS = {"direction": ("N/m", "N m/rad")}
+
+
+def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
+    """Write a dataset as NetCDF-4.
+
+    Raises
+    ------
+    ModelError
+        The folder cannot be written.
+    """
+    return write_whole(
+        Path(path), lambda part: dataset.to_netcdf(part, engine="h5netcdf", format="NETCDF4")
+    )
+
+
+def read_netcdf(path: Path) -> xr.Dataset:
+    """Read a dataset back, all of it.
+
+    Raises
+    ------
+    ModelError
+        The file is missing or is no NetCDF.
+    """
+    try:
+        with xr.open_dataset(path, engine="h5netcdf") as file:
+            return file.load()
+    except (OSError, ValueError, KeyError) as error:
+        raise ModelError(
+            str(path), f"cannot be read as NetCDF ({error}).", "Write it again."
+        ) from error
+
+
+def write_csv(path: Path, dataset: xr.Dataset) -> Path:
+    """Write what a dataset has along its poses, one row a pose, units in the header.
+
+    Flags stand in words; numbers that are missing are empty. Compliance matrices are left
+    out: they are in the NetCDF file.
+
+    Raises
+    ------
+    ModelError
+        A dataset without poses, or a folder that cannot be written.
+    """
+    dim = pose_dimension(dataset)
+    columns = dict(_columns(dataset, dim))
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow([dim, *columns])
+            writer.writerows(
+                [i, *(_cell(c[i]) for c in columns.values())] for i in range(dataset.sizes[dim])
+            )
+
+    return write_whole(Path(path), write)
+
+
+def write_json(path: Path, dataset: xr.Dataset) -> Path:
+    """Write a dataset as one JSON object; missing numbers are null.
+
+    Raises
+    ------
+    ModelError
+        The folder cannot be written.
+    """
+    return write_text(Path(path), json.dumps(to_json(dataset), allow_nan=False) + "\n")
+
+
+def to_json(dataset: xr.Dataset) -> dict[str, Any]:
+    """A dataset as plain values: attributes, coordinates, and variables with unit and shape."""
+    return {
+        "attributes": {name: _plain(value) for name, value in dataset.attrs.items()},
+        "coordinates": {str(n): _plain(c.to_numpy()) for n, c in dataset.coords.items()},
+        "variables": {
+            str(name): {
+                "dimensions": [str(d) for d in variable.dims],
+                **{key: _plain(value) for key, value in variable.attrs.items()},
+                "values": _plain(variable.to_numpy()),
+            }
+            for name, variable in dataset.data_vars.items()
+        },
+    }
+
+
+def pose_dimension(dataset: xr.Dataset) -> str:
+    """Name of the dimension of poses: point or pose.
+
+    Raises
+    ------
+    ModelError
+        It has neither.
+    """
+    for dim in ("point", "pose"):
+        if dim in dataset.dims:
+            return dim
+    raise ModelError("dataset", "has no poses.", "Give a stiffness map or a sweep.")
+
+
+def _columns(dataset: xr.Dataset, dim: str) -> Iterator[tuple[str, NDArray[Any]]]:
+    """Header and values of every column."""
+    for name, variable in dataset.data_vars.items():
+        if variable.dims[:1] != (dim,) or name == "compliance":
+            continue
+        values = variable.to_numpy()
+        if name == "status":
+            yield "status", np.array([s.word for s in PoseStatus])[values]
+            continue
+        unit = variable.attrs.get("units", "1")
+        labels = [
+            dataset[d].to_numpy() if d in dataset.coords else np.arange(dataset.sizes[d])
+            for d in variable.dims[1:]
+        ]
+        for index in np.ndindex(*(len(items) for items in labels)):
+            words = [str(items[i]) for items, i in zip(labels, index, strict=True)]
+            if name in ("stiffness_blocked", "stiffness_free"):
+                unit = _UNITS["direction"][words[0].startswith("r")]
+            head = "_".join([str(name), *words])
+            yield (head if unit == "1" else f"{head} [{unit}]"), values[(slice(None), *index)]
+
+
+def _cell(value: Any) -> Any:
+    if isinstance(value, np.floating):
+        return "" if np.isnan(value) else repr(float(value))
+    if isinstance(value, np.bool_):
+        return int(value)
+    return value
+
+
+def _plain(value: Any) -> Any:
+    """Lists, numbers and words; not-a-number becomes None."""
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind == "f" and not np.all(np.isfinite(value)):
+            shown = value.astype(object)
+            shown[~np.isfinite(value)] = None
+            return shown.tolist()
+        return value.tolist()
+    return value.item() if isinstance(value, np.generic) else value

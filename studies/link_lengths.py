@@ -1,0 +1,66 @@
+"""The proposed machine of Azulay et al. 2014 with links of three lengths (Table 2)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import xarray as xr
+
+from machines import Proposed3PPRS
+from strutwork.errors import ModelError
+from studies.filters import AS_IN_AZULAY, Filters
+from studies.progress import Progress, share
+from studies.stiffness_map import stiffness_map
+
+#: m (Table 2).
+LINK_LENGTHS = (0.196, 0.216, 0.236)
+
+
+def link_lengths(
+    machine: Proposed3PPRS | None = None,
+    lengths: Sequence[float] = LINK_LENGTHS,
+    filters: Filters = AS_IN_AZULAY,
+    *,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Mapping[float, xr.Dataset]:
+    """Stiffness maps of the machine with other link lengths, the workpiece in the same place.
+
+    Only the links change: the pole of the hemisphere, the guide and the platform stay, so the
+    sliders go where longer or shorter links let them.
+
+    Parameters
+    ----------
+    machine : Proposed3PPRS, optional
+        Everything but the link length; its `apparent()` for the model that the paper's
+        numbers suggest.
+    lengths : sequence of float
+        m.
+    filters : Filters
+        With the prismatic joints' ranges kept, 196 mm loses most of its points: its sliders
+        would stand inside the guide's radius.
+    workers, progress
+        As `studies.stiffness_map`.
+
+    Returns
+    -------
+    mapping of length to Dataset
+
+    Raises
+    ------
+    ModelError
+        No lengths, or one with which the machine cannot stand at home.
+    """
+    if not lengths:
+        raise ModelError("link lengths", "are none.", "Give at least one, m.")
+    base = machine or Proposed3PPRS()
+    return {
+        length: stiffness_map(
+            replace(base, link_length=length),
+            filters=filters,
+            workers=workers,
+            progress=share(progress, number, len(lengths)),
+        )
+        for number, length in enumerate(lengths)
+    }

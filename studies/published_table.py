@@ -1,0 +1,99 @@
+"""Published numbers beside computed ones, row by row."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+from typing import Any, Literal
+
+from strutwork.errors import ModelError
+from strutwork.files import write_whole
+
+Status = Literal["predicted", "calibrated", "not reproducible"]
+
+
+@dataclass(frozen=True)
+class PublishedRow:
+    """One published number and ours.
+
+    Parameters
+    ----------
+    row : str
+        What it belongs to.
+    quantity : str
+    unit : str
+        Of both numbers.
+    published, computed : float
+    status : "predicted", "calibrated" or "not reproducible"
+    note : str
+    """
+
+    row: str
+    quantity: str
+    unit: str
+    published: float
+    computed: float
+    status: Status
+    note: str = ""
+
+    @property
+    def difference_percent(self) -> float:
+        """(computed − published) / published, %."""
+        if self.published == 0:
+            raise ModelError(
+                f"{self.row}, {self.quantity}",
+                "the published number is zero.",
+                "A difference in percent has no meaning here.",
+            )
+        return 100.0 * (self.computed - self.published) / self.published
+
+    def to_dict(self) -> dict[str, Any]:
+        """The columns of the file, in its order."""
+        content = asdict(self)
+        return {name: content.get(name, self.difference_percent) for name in COLUMNS}
+
+
+#: Columns of a file of published numbers.
+COLUMNS = (
+    *(f.name for f in fields(PublishedRow) if f.name not in ("status", "note")),
+    "difference_percent",
+    "status",
+    "note",
+)
+
+
+def file_name(table: str) -> str:
+    """Name of a table's file: `published-azulay-2014-table-4.csv`."""
+    return f"published-{table}.csv"
+
+
+def write_published(folder: Path, table: str, rows: Iterable[PublishedRow]) -> Path:
+    """Write the rows of a table as CSV, whole or not at all.
+
+    Parameters
+    ----------
+    folder : Path
+    table : str
+        Key of the published table.
+    rows : iterable of PublishedRow
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    ModelError
+        The folder cannot be written.
+    """
+    content = [row.to_dict() for row in rows]
+
+    def write(path: Path) -> None:
+        with path.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(content)
+
+    return write_whole(Path(folder) / file_name(table), write)

@@ -1,0 +1,188 @@
+"""Stiffness of a machine over check points, with the best roll at each."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike, NDArray
+
+from machines import Machine, roll_angles
+from msa import axis_stiffness_blocked
+from strutwork.errors import ModelError
+from studies.check_points import CheckPoints, hemisphere
+from studies.chunks import Arrays
+from studies.description import attributes, plain, study_key
+from studies.evaluation import Evaluated, Evaluator
+from studies.executor import Executor
+from studies.filters import REASONS, Filters, PoseStatus
+from studies.progress import Progress
+from studies.run import Chunk, Run, fill
+from studies.variables import AXES, named, stiffness_variables
+
+Array = NDArray[Any]
+
+#: Poses evaluated at once: some tens of megabytes a worker.
+CHUNK = 2048
+
+#: Rolls whose stiffness is this near to the best one's are as good; the first is taken, so that
+#: rounding decides nothing.
+TIE = 1e-9
+
+
+def stiffness_map(
+    machine: Machine,
+    points: CheckPoints | None = None,
+    rolls: ArrayLike | None = None,
+    filters: Filters | None = None,
+    *,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    folder: Path | None = None,
+    executor: Executor | None = None,
+) -> xr.Dataset:
+    """Stiffness over check points, the roll γ chosen for the largest blocked Kxx.
+
+    At each point every roll is a candidate. Candidates out of reach, out of joint ranges, near
+    a singularity or without a solution are dropped and counted; of the others the one with the
+    largest (C⁻¹)_xx is taken (Azulay 2014, section 3.3.1).
+
+    Parameters
+    ----------
+    machine : Machine
+    points : CheckPoints, optional
+        Default: `hemisphere(machine)`.
+    rolls : (r,), optional
+        rad. Default: 24 over a third of a turn, `machines.roll_angles()`.
+    filters : Filters, optional
+        Default: all joint ranges, condition number below 100.
+    workers : int, optional
+        Threads; default one a processor.
+    progress : callable, optional
+        Told how many candidates of how many are done.
+    folder : Path, optional
+        Keeps finished chunks there; a later call with the same inputs goes on from them.
+    executor : Executor, optional
+        In place of threads.
+
+    Returns
+    -------
+    xarray.Dataset
+        Dimensions point, axis, direction, wrench, principal, reason, joint_kind; every variable
+        states its unit. `status` says for each point whether a candidate was left; where none
+        was, the point's numbers are missing (NaN) and the status is the one of the candidate
+        that got furthest.
+
+    Raises
+    ------
+    ModelError
+        No rolls, or a machine whose model is wrong.
+    """
+    filters = filters or Filters()
+    points = points or hemisphere(machine)
+    turns = np.atleast_1d(np.asarray(roll_angles() if rolls is None else rolls, dtype=float))
+    if turns.ndim != 1 or not turns.size or not np.all(np.isfinite(turns)):
+        raise ModelError("rolls", "are none, or not finite.", "Give a list of angles, rad.")
+    evaluator = Evaluator(machine, filters).prepared()
+
+    def evaluate(chunk: Chunk) -> Arrays:
+        return _best_rolls(evaluator(points.poses(chunk.items, turns)), turns)
+
+    size = max(1, CHUNK // len(turns))
+    settings = {"filters": filters, "chunk": size}
+    run = Run(workers, executor, folder, progress)
+    arrays: Arrays = {}
+    words: Counter[str] = Counter()
+    for chunk, part in run.chunks(
+        evaluate,
+        len(points),
+        size,
+        lambda: study_key(
+            "stiffness map", machine, settings, points.position, points.normal, turns
+        ),
+        len(turns),
+    ):
+        counts = part.pop("reason_counts")
+        words.update(dict(zip(part.pop("reasons").tolist(), counts.tolist(), strict=True)))
+        fill(arrays, chunk, part, len(points))
+    arrays["position"], arrays["normal"] = points.position, points.normal
+    return _dataset(evaluator, arrays, turns, {w: n for w, n in words.items() if n})
+
+
+def _best_rolls(found: Evaluated, rolls: Array) -> Arrays:
+    """For each point of a chunk the candidate with the largest Kxx, and what was dropped."""
+    shape = (-1, len(rolls))
+    status = found.status.reshape(shape)
+    good = status == PoseStatus.GOOD
+    stiffness = np.full(found.status.shape, -np.inf)
+    stiffness[found.good] = axis_stiffness_blocked(found.compliance[found.good])[:, 0]
+    stiffness = stiffness.reshape(shape)
+    best = stiffness.max(axis=1, keepdims=True)
+    with np.errstate(invalid="ignore"):
+        candidate = good & (stiffness >= best - TIE * np.abs(best))
+    chosen = candidate.argmax(axis=1)
+    any_good = good.any(axis=1)
+    row = np.arange(len(chosen))
+    points = len(chosen)
+    lost = ~any_good
+    result: Arrays = {
+        "status": np.where(any_good, PoseStatus.GOOD, status.max(axis=1)).astype(np.int8),
+        "roll": np.where(lost, np.nan, rolls[chosen]),
+        "condition_number": np.where(lost, np.nan, found.condition.reshape(shape)[row, chosen]),
+        "compliance": found.compliance.reshape(points, -1, 6, 6)[row, chosen],
+        "dropped": np.stack([(status == code).sum(axis=1) for code in REASONS], axis=-1),
+        "outside_range": found.outside.reshape(points, len(rolls), -1).sum(axis=1),
+    }
+    used = np.bincount(found.reason, minlength=len(found.reasons) + 1)[1:]
+    return result | {"reasons": np.array(found.reasons), "reason_counts": used}
+
+
+def _dataset(
+    evaluator: Evaluator, arrays: Arrays, rolls: Array, words: Mapping[str, int]
+) -> xr.Dataset:
+    status = arrays["status"]
+    points = len(status)
+    variables = {
+        "position": named(("point", "axis"), arrays["position"], "m", "tool position"),
+        "normal": named(("point", "axis"), arrays["normal"], "1", "direction of the tool's z axis"),
+        "roll": named("point", arrays["roll"], "rad", "roll about the normal (Euler angle γ)"),
+        **stiffness_variables("point", arrays["compliance"], status),
+        "condition_number": named(
+            "point", arrays["condition_number"], "1", "condition number of the inverse Jacobian"
+        ),
+        "dropped": named(
+            ("point", "reason"), arrays["dropped"], "1", "candidates dropped, by reason"
+        ),
+        "outside_range": named(
+            ("point", "joint_kind"),
+            arrays["outside_range"],
+            "1",
+            "candidates outside the ranges of a kind of joint, whether the ranges are kept or not",
+        ),
+    }
+    kept = "all" if evaluator.filters.joint_kinds is None else evaluator.filters.joint_kinds
+    details = {
+        "roll_criterion": "largest blocked Kxx, (C^-1)_xx, of the candidates that count",
+        "candidates": points * len(rolls),
+        "candidates_kept": int(points * len(rolls) - arrays["dropped"].sum()),
+        "points_kept": int(np.count_nonzero(status == PoseStatus.GOOD)),
+        "dropped_by_reason": json.dumps(words),
+        "rolls": json.dumps(plain(rolls)),
+        "joint_ranges_kept": json.dumps(kept),
+        "condition_limit": evaluator.filters.condition_limit or "none",
+        "condition_length": evaluator.length,
+    }
+    return xr.Dataset(
+        variables,
+        coords={
+            "axis": list(AXES),
+            "reason": [code.word for code in REASONS],
+            "joint_kind": list(evaluator.kinds),
+        },
+        attrs=attributes("stiffness map", evaluator.machine) | details,
+    ).assign_coords(point=np.arange(points))
