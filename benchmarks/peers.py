@@ -69,6 +69,51 @@ def opensees_compliance(structure: Structure, positions: Array) -> Array:
     return result
 
 
+def opensees_frequencies(structure: Structure, positions: Array, count: int) -> Array:
+    """Lowest frequencies with OpenSeesPy at every geometry, Hz, (p, count).
+
+    Consistent mass without rotary inertia; `-fullGenLapack`, its faster solver at this size.
+    """
+    import openseespy.opensees as ops  # noqa: PLC0415 - a benchmark extra
+
+    index = structure.linkage.node_index
+    names = [n for n in structure.linkage.nodes if not n.startswith("ground")]
+    tags = {name: k + 1 for k, name in enumerate(names)}
+    rows = [index[n] for n in names]
+    density = STEEL.density
+    if density is None:
+        message = "the benchmark's steel has no density"
+        raise RuntimeError(message)
+    per_length = density * SECTION.area
+    section = (
+        SECTION.area,
+        STEEL.youngs_modulus,
+        STEEL.shear_modulus,
+        SECTION.torsion_constant,
+        SECTION.second_moment_y,
+        SECTION.second_moment_z,
+    )
+    result = np.empty((len(positions), count))
+    for pose, points in enumerate(positions[:, rows].tolist()):
+        ops.wipe()
+        ops.model("basic", "-ndm", 3, "-ndf", 6)
+        for tag, point in enumerate(points, start=1):
+            ops.node(tag, *point)
+        for leg in range(3):
+            ops.fix(tags[f"{leg}.0"], 1, 1, 1, 1, 1, 1)
+        ops.geomTransf("Linear", 1, 0.0, 0.0, 1.0)
+        ops.geomTransf("Linear", 2, 0.0, 1.0, 0.0)
+        for k, beam in enumerate(structure.beams):
+            up = 2 if beam.nodes == ("T", "S") else 1
+            ends = (tags[beam.nodes[0]], tags[beam.nodes[1]])
+            ops.element(
+                "elasticBeamColumn", k + 1, *ends, *section, up, "-mass", per_length, "-cMass"
+            )
+        result[pose] = np.sqrt(ops.eigen("-fullGenLapack", count)) / (2.0 * np.pi)
+    ops.wipe()
+    return result
+
+
 def pynite_compliance(structure: Structure, positions: Array) -> Array:
     """Tool compliance with PyNite at every geometry, (p, 6, 6); one model, six combinations."""
     from Pynite import FEModel3D  # noqa: PLC0415 - a benchmark extra

@@ -41,6 +41,14 @@ def rate(task: Callable[[], object], poses: int, rounds: int = 5) -> float:
     return poses / statistics.median(seconds)
 
 
+def machine_line() -> str:
+    """What the figures were taken on."""
+    return (
+        f"Machine: {platform.machine()}, {os.cpu_count()} cores, "
+        f"Python {platform.python_version()}, NumPy {np.__version__}."
+    )
+
+
 def frame_rates(poses: int) -> tuple[list[tuple[str, float]], dict[str, float]]:
     """Rates on the 84-dof frame, and the largest difference from each peer."""
     from benchmarks.peers import opensees_compliance, pynite_compliance  # noqa: PLC0415
@@ -120,10 +128,6 @@ def table(
 ) -> str:
     """The page with the results."""
     peer = rates[0][1]
-    system = (
-        f"Machine: {platform.machine()}, {os.cpu_count()} cores, "
-        f"Python {platform.python_version()}, NumPy {np.__version__}."
-    )
     case = (
         "84 free degrees of freedom, 20 beams, new geometry at every pose, six unit loads at the "
         "tool. Times go from node positions to the 6 x 6 compliance, with the residual checked "
@@ -139,7 +143,7 @@ def table(
         "# Performance",
         "",
         "Made by `python -m benchmarks.static_speed --write`: read ratios. BLAS on one thread.",
-        system,
+        machine_line(),
         "",
         "## Three-legged frame",
         "",

@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eig
 
-from fea.coupled import AnyDamping, DampedMatrices, damped_matrices
+from fea.coupled import AnyDamping, damped_matrices
 from fea.eigen import solve_eigen
 from fea.reduction import reduce_system
 from msa.assembly import system_of
@@ -16,6 +17,9 @@ from msa.structure import PlacedStructure
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
+
+#: Dashpots that resist a motion by less than this share of the largest do not resist it.
+DRAG = 1e-10
 
 
 @dataclass(frozen=True)
@@ -27,9 +31,11 @@ class ComplexModes:
     frequencies : (m,)
         Undamped natural frequency |s| of each mode, Hz, ascending; zero for rigid-body modes.
     damping_ratios : (m,)
-        ζ = −Re s / |s|; one where a mode is critically damped or beyond.
+        ζ = −Re s / |s|; one where a mode is critically damped or beyond, zero for rigid-body
+        modes.
     eigenvalues : (m,)
-        s, rad/s, with positive imaginary part where it oscillates.
+        s, rad/s, with positive imaginary part where it oscillates; a mode damped beyond
+        critical has two real ones, which stand as two modes.
     shapes : (m, n, 6)
         Complex shape at the mesh nodes, largest entry one.
     """
@@ -46,8 +52,10 @@ class ComplexModes:
 def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10) -> ComplexModes:
     """Damped modes of a structure at one pose.
 
-    With viscous damping from the state-space problem of (K + sC + s²M) φ = 0; structural
-    damping makes K complex, and of each pair of eigenvalues the one that decays is taken.
+    From the state-space problem of (K + iD + sC + s²M) φ = 0; of each pair of eigenvalues the
+    one in the upper half plane is taken, where the sign of iD is that of a decay. A rigid-body
+    motion is a mode at zero; one that dashpots drag also creeps to rest, and its decay stands
+    as a second, real mode.
 
     Parameters
     ----------
@@ -74,69 +82,77 @@ def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10)
     reduced = reduce_system(system)
     eigen = solve_eigen(reduced)
     matrices = damped_matrices(reduced, eigen, damping)
-    # mass-normalised undamped modes as coordinates; motions without mass follow statically
-    # and have no frequency
-    shapes = np.concatenate(
-        [
-            eigen.rigid[0],
-            (eigen.flexibility[0] * np.where(eigen.finite[0], eigen.circular[0], 0.0))[
-                :, eigen.finite[0]
-            ],
-        ],
-        axis=1,
-    )
-    massless = eigen.flexibility[0][:, ~eigen.finite[0]]
-    values, vectors = _state_space(matrices, shapes, massless)
+    stiffness = matrices.stiffness[0] + 1j * matrices.structural[0]
+    viscous = matrices.viscous[0]
+    finite = eigen.finite[0]
+    # mass-normalised undamped modes as coordinates, and motions without mass beside them
+    flexible = (eigen.flexibility[0] * np.where(finite, eigen.circular[0], 0.0))[:, finite]
+    massless = eigen.flexibility[0][:, ~finite]
+    still, dragged = _dragged(eigen.rigid[0], viscous, flexible)
+    values, vectors = _state_space(stiffness, viscous, dragged, flexible, massless)
+    at_zero = np.concatenate([still, dragged], axis=1)
+    values = np.concatenate([np.zeros(at_zero.shape[1]), values])
+    vectors = np.concatenate([at_zero, vectors], axis=1)
     order = np.argsort(np.abs(values), kind="stable")[:count]
     values, vectors = values[order], vectors[:, order]
     at_nodes = np.moveaxis(system.expand((reduced.basis[0] @ vectors)[None])[0], -1, 0)
-    largest = np.abs(at_nodes).reshape(len(values), -1).argmax(axis=1)
-    scale = at_nodes.reshape(len(values), -1)[np.arange(len(values)), largest]
+    flat = at_nodes.reshape(len(values), -1)
+    scale = flat[np.arange(len(values)), np.abs(flat).argmax(axis=1)]
     size = np.abs(values)
-    rigid = size <= 1e-6 * max(size.max(initial=0.0), 1e-300)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        ratios = np.where(rigid, 0.0, -values.real / size)
-    return ComplexModes(
-        np.where(rigid, 0.0, size / (2.0 * np.pi)),
-        ratios,
-        values,
-        at_nodes / scale[:, None, None],
-    )
+    ratios = np.divide(-values.real, size, out=np.zeros(len(values)), where=size > 0)
+    return ComplexModes(size / (2.0 * np.pi), ratios, values, at_nodes / scale[:, None, None])
 
 
-def _state_space(matrices: DampedMatrices, shapes: Array, massless: Array) -> tuple[Array, Array]:
-    basis = np.concatenate([shapes, massless], axis=1)
-    whole = [
-        basis.T @ m[0] @ basis
-        for m in (matrices.stiffness + 1j * matrices.structural, matrices.viscous)
-    ]
-    stiffness, viscous = whole
-    m = shapes.shape[1]
-    if massless.shape[1]:
-        stiffness, viscous, follow = _condensed(stiffness, viscous, m)
+def _dragged(rigid: Array, viscous: Array, flexible: Array) -> tuple[Array, Array]:
+    """Rigid-body modes that no dashpot resists, and those that some do."""
+    if not rigid.shape[1]:
+        return rigid, rigid
+    force = rigid.T @ viscous @ rigid
+    size = max(np.abs(np.diag(flexible.T @ viscous @ flexible)).max(initial=0.0), np.trace(force))
+    values, turn = np.linalg.eigh(force)
+    resists = values > DRAG * max(size, 1e-300)
+    turned = rigid @ turn
+    return turned[:, ~resists], turned[:, resists]
+
+
+def _state_space(
+    stiffness: Array, viscous: Array, dragged: Array, flexible: Array, massless: Array
+) -> tuple[Array, Array]:
+    """Eigenvalues and shapes beside the rigid-body modes at zero.
+
+    The state holds the velocities of the dragged rigid-body modes, whose places do not matter,
+    places and velocities of the flexible modes, and places of the motions without mass.
+    """
+    d, m, z = dragged.shape[1], flexible.shape[1], massless.shape[1]
+    basis = np.concatenate([dragged, flexible, massless], axis=1)
+    k, c = basis.T @ stiffness @ basis, basis.T @ viscous @ basis
+    if not np.any(k.imag):
+        k = k.real
+    # coordinates q = (dragged, flexible, massless); its velocities v are of the first two
+    v, f, last = slice(0, d + m), slice(d, d + m), slice(d + m, None)
+    if z and not np.abs(c[last]).max() > DRAG * np.abs(c).max():
+        # without dashpots on them the motions without mass follow statically
+        follow = -np.linalg.solve(k[last, last], k[last, v])
+        k = k[v, v] + k[v, last] @ follow
+        c, z = c[v, v], 0
+        basis = basis[:, v] + massless @ follow
+    left = np.zeros((d + 2 * m + z,) * 2, dtype=k.dtype)
+    right: Array = np.eye(d + 2 * m + z)
+    place, speed, tail = slice(0, m), slice(m, 2 * m + d), slice(2 * m + d, None)
+    left[place, m + d : 2 * m + d] = np.eye(m)
+    left[speed, place], left[speed, speed] = -k[v, f], -c[v, v]
+    if z:
+        left[speed, tail] = -k[v, last]
+        left[tail, place], left[tail, speed], left[tail, tail] = (
+            -k[last, f],
+            -c[last, v],
+            -k[last, last],
+        )
+        right[speed, tail], right[tail, tail] = c[v, last], c[last, last]
+        values, vectors = eig(left, right)
     else:
-        follow = np.zeros((0, m))
-    state = np.block([[np.zeros((m, m)), np.eye(m)], [-stiffness, -viscous]])
-    values, vectors = np.linalg.eig(state)
-    # one of each pair: the root in the upper half plane; an overdamped pair is two real roots
-    scale = np.abs(values).max(initial=1.0)
-    chosen = values.imag > -1e-9 * scale
-    if np.any(matrices.structural):
-        chosen &= values.real <= 1e-9 * scale
-    values, vectors = values[chosen], vectors[:m, chosen]
-    still = np.abs(values) <= 1e-7 * scale
-    if still.any():
-        # a rigid-body mode is a double root at zero: keep one of each pair
-        first = np.flatnonzero(still)[: int(np.ceil(still.sum() / 2))]
-        keep = np.concatenate([first, np.flatnonzero(~still)])
-        values, vectors = values[keep], vectors[:, keep]
-    full = np.concatenate([vectors, follow @ vectors], axis=0)
-    return values, basis @ full
-
-
-def _condensed(stiffness: Array, viscous: Array, m: int) -> tuple[Array, Array, Array]:
-    """Leave out motions without mass, which follow the others statically."""
-    inner = stiffness[m:, m:]
-    follow = -np.linalg.solve(inner, stiffness[m:, :m])
-    lift = np.concatenate([np.eye(m), follow], axis=0)
-    return lift.T @ stiffness @ lift, lift.T @ viscous @ lift, follow
+        values, vectors = np.linalg.eig(left)
+    chosen = np.isfinite(values) & (values.imag >= 0.0)
+    values, vectors = values[chosen], vectors[:, chosen]
+    places = np.concatenate([vectors[m : m + d] / values, vectors[:m], vectors[tail]])
+    return values, basis @ places

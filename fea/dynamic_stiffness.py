@@ -19,6 +19,10 @@ from strutwork.errors import ModelError, NumericalError
 Array = NDArray[Any]
 
 
+#: Least singular value of a receptance of unit size below which its ports depend on each other.
+DEPENDENT = 1e-13
+
+
 @dataclass(frozen=True)
 class MinimumDynamicStiffness:
     """The least driving-point dynamic stiffness over a band.
@@ -114,7 +118,7 @@ def minimum_of(
         )
     low, high = (2.0 * np.pi * f for f in band)
     products = model.residues**2
-    moving = (model.rigid**2).sum(axis=-1)
+    moving = np.einsum("pqq->pq", model.mobility_of_rigid_modes)
     if np.any(moving > 0) and low == 0:
         raise ModelError(
             "frequency band",
@@ -133,9 +137,9 @@ def minimum_of(
         TOLERANCE,
     )
     static = products.sum(axis=-1)
+    free = moving == 0
     value, frequency = 1.0 / found[..., 1], found[..., 0] / (2.0 * np.pi)
     lower, upper = _bounds(model, ratios, products, static, low, high)
-    free = moving == 0
     broken = free & ((value < lower * (1 - 1e-9)) | (value > upper * (1 + 1e-9)))
     if np.any(broken):
         pose = int(np.argwhere(broken)[0][0])
@@ -154,7 +158,7 @@ def minimum_of(
         model.ports,
         shaped(value),
         shaped(frequency),
-        shaped(np.where(free, 1.0 / static, 0.0)),
+        shaped(np.where(free, 1.0 / np.where(free, static, 1.0), 0.0)),
         shaped(np.where(free, lower, 0.0)),
         shaped(upper),
         shaped(found[..., 2] <= found[..., 1] * (1 + 2 * TOLERANCE)),
@@ -166,9 +170,10 @@ def _bounds(
 ) -> tuple[Array, Array]:
     """2ζ√(1−ζ²)·static with the least ζ, and 2ζ·min 1/r² over the modes in the band."""
     massive = model.square > 0
-    least = np.where(massive, ratios, np.inf).min(axis=1)
+    least = np.where(massive, ratios, np.inf).min(axis=1, initial=np.inf)
     if isinstance(model.damping, LossFactor):
-        shrink = 2.0 * least
+        # without a flexible mode that has mass nothing is magnified
+        shrink = np.where(np.isfinite(least), 2.0 * least, 1.0)
     else:
         # a mode damped beyond 1/√2 has no peak: its magnitude never exceeds the static one
         shrink = np.where(
@@ -178,14 +183,30 @@ def _bounds(
         )
     with np.errstate(divide="ignore"):
         omega = 1.0 / np.sqrt(model.square)
-        at_peak = 2.0 * ratios[:, None, :] / products
+    at_peak = np.full(products.shape, np.inf)
+    np.divide(2.0 * ratios[:, None, :], products, out=at_peak, where=products > 1e-290)
     inside = (massive & (omega >= low) & (omega <= high))[:, None, :]
-    upper = np.where(inside, at_peak, np.inf).min(axis=-1)
-    return shrink[:, None] / static, upper
+    upper = np.where(inside, at_peak, np.inf).min(axis=-1, initial=np.inf)
+    return shrink[:, None] / np.where(static > 0, static, np.inf), upper
 
 
 def blocked_dynamic_stiffness(receptance: Array) -> Array:
-    """|Z_ii| with Z = H⁻¹: the other ports held, (..., q), N/m."""
+    """|Z_ii| with Z = H⁻¹: the other ports held, (..., q), N/m.
+
+    Raises
+    ------
+    ModelError
+        Ports that do not move independently.
+    """
+    size = np.sqrt(np.abs(np.einsum("...ii->...i", receptance)))
+    outer = size[..., :, None] * size[..., None, :]
+    scaled = receptance / np.where(outer > 0, outer, 1.0)
+    if np.any(np.linalg.svd(scaled, compute_uv=False)[..., -1] <= DEPENDENT):
+        raise ModelError(
+            "ports",
+            "do not move independently: one cannot be held while another moves.",
+            "Leave a port out.",
+        )
     impedance = np.linalg.inv(receptance)
     return np.asarray(np.abs(np.einsum("...ii->...i", impedance)))
 

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fea.reduction import Reduced
+from msa.assembly import System
 from msa.diagnosis import mechanism_error
+from msa.null_space import symmetric_product
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -66,7 +68,12 @@ def solve_eigen(reduced: Reduced) -> Eigen:
         raise ModelError(
             "structure", "has no mass.", "Give materials a density, or add masses: modes need them."
         )
-    rigid = _rigid_modes(reduced)
+    rigid = rigid_modes(
+        reduced.system,
+        reduced.rigid,
+        symmetric_product(reduced.rigid, mass),
+        np.einsum("pii->pi", mass).max(axis=1),
+    )
     basis = None
     if rigid.shape[-1]:
         if np.any(reduced.rigid_count != rigid.shape[-1]):
@@ -101,22 +108,37 @@ def _pencil(reduced: Reduced, stiffness: Array, mass: Array) -> tuple[Array, Arr
     return scale[..., None] * (np.swapaxes(inverse, -1, -2) @ vectors), square
 
 
-def _rigid_modes(reduced: Reduced) -> Array:
-    rigid = reduced.rigid
+def rigid_modes(system: System, rigid: Array, gram: Array, largest: Array) -> Array:
+    """Rigid motions made orthonormal in the mass, (p, c, k).
+
+    Parameters
+    ----------
+    system : System
+    rigid : (p, c, k)
+    gram : (p, k, k)
+        Their mass.
+    largest : (p,)
+        Largest mass of a coordinate, beside which nothing is told from rounding.
+
+    Raises
+    ------
+    ModelError
+        A free motion without mass.
+    """
     if rigid.shape[-1] == 0:
         return rigid
-    gram = np.swapaxes(rigid, -1, -2) @ reduced.mass @ rigid
     values, vectors = np.linalg.eigh(gram)
     present = np.any(rigid, axis=1).sum(axis=-1)
     order = np.arange(rigid.shape[-1])
     # absent columns have no mass and sort first
     real = order[None, :] >= rigid.shape[-1] - present[:, None]
-    massless = real & (values <= 1e-14 * values.max(axis=1, initial=0.0, keepdims=True))
+    largest = np.maximum(values[:, -1], largest * np.abs(rigid).max(axis=(1, 2)) ** 2)
+    massless = real & (values <= MASSLESS * largest[:, None])
     if np.any(massless):
         raise ModelError(
             "structure",
             "has a free motion without mass: "
-            + str(mechanism_error(reduced.system, int(np.argwhere(massless)[0][0]))),
+            + str(mechanism_error(system, int(np.argwhere(massless)[0][0]))),
             "Give what moves a mass or an inertia about that axis, or hold it.",
         )
     size = np.where(real, 1.0 / np.sqrt(np.where(values > 0, values, 1.0)), 0.0)

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fea.coupled import AnyDamping, PartDamping, damped_matrices, is_coupled
+from fea.damping import LossFactor
 from fea.eigen import Eigen, solve_eigen
-from fea.modal import modal_model_of
-from fea.ports import Port
+from fea.modal import ModalModel, modal_model_of
+from fea.ports import Port, port_motions
 from fea.reduction import Reduced, reduce_system
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
@@ -155,7 +156,9 @@ def frequency_response(
             diagonal = np.einsum("pii->pi", whole)
             carried = np.einsum("pii->pi", model.static_compliance)
             share = float((carried / np.where(diagonal > 0, diagonal, 1.0)).min())
-            response = model.receptance(lines) + residual[:, None]
+            # what a loss factor turns, it turns in the static part of the other modes too
+            rest = residual / (1.0 + 1j * simple.structural)
+            response = model.receptance(lines) + rest[:, None]
         else:
             response = model.receptance(lines)
     response = response[:, :, rows][..., columns]
@@ -165,13 +168,11 @@ def frequency_response(
             "is not finite at some line.",
             "Give damping, or leave zero frequency out where the structure floats.",
         )
-    at = np.stack([port.on(reduced) for port in ports], axis=1)
+    at, rigid = port_motions(reduced, ports, eigen.rigid)
     flexible = at @ eigen.flexibility
     static = flexible @ np.swapaxes(flexible, -1, -2)
-    if eigen.rigid.shape[-1]:
-        rigid = np.abs(at @ eigen.rigid)
-        floats = np.any(rigid[:, :, None] * rigid[:, None, :] > 0, axis=-1)
-        static = np.where(floats, np.inf, static)
+    floats = ModalModel(ports, flexible, eigen.square, rigid, LossFactor(0.0))
+    static = np.where(floats.mobility_of_rigid_modes == 0, static, np.inf)
     static = static[:, rows][..., columns]
     batch = placed.batch
     return FrequencyResponse(
@@ -194,7 +195,9 @@ def _direct(
     matrices = damped_matrices(reduced, eigen, damping)
     at = np.stack([port.on(reduced) for port in ports], axis=1)
     load = np.swapaxes(at, -1, -2)
-    diagonal = np.einsum("pii->pi", matrices.stiffness)
+    # a coordinate that floats has mass where it has no stiffness
+    middle = (2.0 * np.pi * float(np.median(lines))) ** 2
+    diagonal = np.einsum("pii->pi", matrices.stiffness + middle * matrices.mass)
     scale = 1.0 / np.sqrt(np.where(diagonal > 0, diagonal, diagonal.max()))
     outer = scale[:, :, None] * scale[:, None, :]
     k, m, c, d = (

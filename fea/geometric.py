@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -66,15 +67,31 @@ def axial_forces(solution: StaticSolution, case: str) -> Array:
     return np.asarray(mean[..., solution.placed.structure.segments[:, 0]])
 
 
-def geometric_stiffness(system: System, axial: Array) -> Array:
-    """Geometric stiffness of a structure on its unknowns, dense, (p, n, n).
+def geometric_contributions(
+    system: System, axial: Array
+) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
+    """Geometric stiffness of the beam elements: name, mesh nodes (2,), (p, 12, 12).
 
     Parameters
     ----------
     system : System
     axial : (p, s)
         Axial force in every beam element, N, tension positive.
+
+    Raises
+    ------
+    ModelError
+        Axial forces of another number of elements, or not finite.
     """
+    if axial.shape[1:] != (len(system.placed.structure.segments),):
+        raise ModelError(
+            "preload",
+            f"has {axial.shape[-1]} axial forces for "
+            f"{len(system.placed.structure.segments)} beam elements.",
+            "Take it from fea.axial_forces of the same structure.",
+        )
+    if not np.all(np.isfinite(axial)):
+        raise ModelError("preload", "is not finite.", "Give axial forces in N.")
     placed, structure = system.placed, system.placed.structure
     length, axes = placed.beam_geometry
     beam = structure.segments[:, 0]
@@ -88,7 +105,16 @@ def geometric_stiffness(system: System, axial: Array) -> Array:
         for k in (0, 1):
             carry[..., 6 * k : 6 * k + 6, 6 * k : 6 * k + 6] = rigid_map(offsets[..., k, :])
         parts = np.swapaxes(carry, -1, -2) @ parts @ carry
+    for s, (beam_index, a, b) in enumerate(structure.segments):
+        yield f"beam {structure.beams[beam_index].name}", np.array([a, b]), parts[:, s]
+
+
+def geometric_stiffness(system: System, axial: Array) -> Array:
+    """Geometric stiffness of a structure on its unknowns, dense, (p, n, n).
+
+    Parameters, errors as `geometric_contributions`.
+    """
     matrix = np.zeros((system.poses, system.topology.size, system.topology.size))
-    for s, (_, a, b) in enumerate(structure.segments):
-        system.add_part(matrix, np.array([a, b]), parts[:, s])
+    for _, nodes, part in geometric_contributions(system, axial):
+        system.add_part(matrix, nodes, part)
     return matrix

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from scipy.linalg import eig
 
 from fea.modal import ModalModel
+from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
@@ -38,7 +39,20 @@ def level_crossings(model: ModalModel, port: int, level: float, pose: int = 0) -
     -------
     frequencies : (k,)
         Ascending, Hz.
+
+    Raises
+    ------
+    ModelError
+        A rigid-body mode that moves the port, or a level that is not positive.
     """
+    if model.mobility_of_rigid_modes[pose, port, port] > 0:
+        raise ModelError(
+            f"port {model.ports[port]}",
+            "is moved by a rigid-body mode: its receptance has no largest value.",
+            "Hold the structure.",
+        )
+    if not (np.isfinite(level) and level > 0):
+        raise ModelError("level", f"is {level!r}.", "Give a positive magnitude, m/N.")
     r = model.residues[pose, port]
     excited = np.abs(r) > 1e-9 * np.abs(r).max()
     r, square, viscous = r[excited], model.square[pose, excited], model.viscous[pose, excited]
@@ -65,7 +79,7 @@ def level_crossings(model: ModalModel, port: int, level: float, pose: int = 0) -
     real = values[
         (np.abs(values.imag) < 1e-7 * np.maximum(np.abs(values), 1e-3)) & (values.real > 0)
     ]
-    found = np.sort(real.real) * unit / (2.0 * np.pi)
+    found = np.asarray(np.sort(real.real) * unit / (2.0 * np.pi))
     if not len(found):
         return found
     distinct = np.concatenate([[True], np.diff(found) > 1e-9 * found[1:]])

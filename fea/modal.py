@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from fea.damping import Damping, modal_ratios
 from fea.eigen import Eigen, solve_eigen
-from fea.ports import Port
+from fea.ports import STILL, Port, port_motions
 from fea.reduction import Reduced, reduce_system
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
+from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
@@ -65,21 +66,27 @@ class ModalModel:
         """H(0) of the flexible modes, (p, q, q)."""
         return np.asarray(self.residues @ np.swapaxes(self.residues, -1, -2))
 
+    @property
+    def mobility_of_rigid_modes(self) -> Array:
+        """Σ g gᵀ, 1/kg, (p, q, q); zero where no rigid-body mode moves both ports."""
+        product = self.rigid @ np.swapaxes(self.rigid, -1, -2)
+        size = np.sqrt(np.einsum("pqq->pq", product))
+        return np.where(np.abs(product) > STILL * size[:, :, None] * size[:, None, :], product, 0.0)
+
     def receptance(self, frequencies: Array) -> Array:
         """Receptance (p, f, q, q) at frequencies in Hz; all modes take part.
 
-        Raises
-        ------
-        FloatingPointError
-            Never: at zero frequency rigid-body modes give infinity.
+        Not finite where it has no value: at a resonance without damping, and at zero frequency
+        where a rigid-body mode moves the ports.
         """
         omega = 2.0 * np.pi * np.asarray(frequencies, dtype=float)
         w = omega[None, :, None]
-        factor = 1.0 / (
-            1.0
-            - w**2 * self.square[:, None, :]
-            + 1j * (w * self.viscous[:, None, :] + self.damping.structural)
-        )
+        with np.errstate(divide="ignore", invalid="ignore"):
+            factor = 1.0 / (
+                1.0
+                - w**2 * self.square[:, None, :]
+                + 1j * (w * self.viscous[:, None, :] + self.damping.structural)
+            )
         ports = self.residues.shape[1]
         first, second = np.triu_indices(ports)
         # one real product per part of the complex factor: matrix multiplication does the sum
@@ -88,8 +95,8 @@ class ModalModel:
         if self.rigid.shape[-1]:
             with np.errstate(divide="ignore", invalid="ignore"):
                 moving = 1.0 / (-(omega**2) + 1j * omega * self.damping.rigid)
-            inertia = np.einsum("pqk,pqk->pq", self.rigid[:, first], self.rigid[:, second])
-            upper = upper + moving[None, :, None] * inertia[:, None, :]
+            inertia = self.mobility_of_rigid_modes[:, None, first, second]
+            upper = upper + np.where(inertia == 0, 0.0, moving[None, :, None]) * inertia
         result = np.empty((*upper.shape[:2], ports, ports), dtype=complex)
         result[..., first, second] = upper
         result[..., second, first] = upper
@@ -110,7 +117,7 @@ class ModalModel:
         whole = np.einsum("pqm,pqm->pq", self.residues, self.residues)
         share = self.residues**2 / np.where(whole > 0, whole, 1.0)[..., None]
         in_band = self.square * (2.0 * np.pi * 2.0 * highest) ** 2 >= 1.0
-        keep = in_band.any(axis=0)
+        keep = np.asarray(in_band.any(axis=0))
         order = np.argsort(-share.max(axis=(0, 1)), kind="stable")
         for mode in order:
             carried = share[:, :, keep].sum(axis=-1)
@@ -140,7 +147,7 @@ def modal_model(placed: PlacedStructure, ports: Sequence[Port], damping: Damping
     Raises
     ------
     ModelError
-        No mass, all locked, a port that cannot move, damping beyond critical.
+        No mass, all locked, no port or one that cannot move, damping beyond critical.
     """
     reduced = reduce_system(system_of(placed))
     return modal_model_of(reduced, solve_eigen(reduced), ports, damping)
@@ -150,6 +157,8 @@ def modal_model_of(
     reduced: Reduced, eigen: Eigen, ports: Sequence[Port], damping: Damping
 ) -> ModalModel:
     """Modal model from an eigensolution at hand."""
-    at = np.stack([port.on(reduced) for port in ports], axis=1)
+    if not ports:
+        raise ModelError("ports", "are missing.", "Name at least one port.")
+    at, rigid = port_motions(reduced, ports, eigen.rigid)
     modal_ratios(damping, eigen.square)
-    return ModalModel(tuple(ports), at @ eigen.flexibility, eigen.square, at @ eigen.rigid, damping)
+    return ModalModel(tuple(ports), at @ eigen.flexibility, eigen.square, rigid, damping)

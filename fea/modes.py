@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fea.eigen import Eigen, solve_eigen
-from fea.reduction import Reduced, reduce_system
-from msa.assembly import system_of
-from msa.mass import mass_properties
+from fea.geometric import geometric_contributions, geometric_stiffness
+from fea.participation import effective_mass, energy_shares
+from fea.reduction import reduce_system
+from fea.sparse_modes import SPARSE_FROM, lanczos_suits, sparse_modes
+from fea.sparse_reduction import reduce_sparse
+from msa.assembly import System, system_of
+from msa.mass import mass_matrix, sparse_mass
 from msa.structure import PlacedStructure
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import MechanismError, ModelError, NumericalError
 
 Array = NDArray[Any]
+Method = Literal["dense", "sparse"]
 
 #: Poses solved at once: keeps a stack of matrices within some megabytes.
 CHUNK = 64
@@ -36,8 +42,9 @@ class Modes:
     effective_mass : (..., m, 6)
         Per direction x y z rx ry rz, rotations about the centre of mass; kg and kg·m².
     total_mass : (..., 6)
-        Diagonal of the rigid-body mass about the centre of mass: the sum that the effective
-        masses of all modes reach when nothing is held, kg and kg·m².
+        Total mass three times, and the moments of inertia about the centre of mass: the sum
+        that the effective masses of all modes reach when nothing is held, kg and kg·m². What
+        moves with a support alone is in it and takes part in no mode.
     rigid_body_modes : (...) of int
     energy_parts : tuple of str
         Parts that store strain energy.
@@ -46,6 +53,8 @@ class Modes:
         rigid-body modes.
     note : str
         Empty, or that fewer modes exist than were asked for.
+    solver : str
+        Which eigenvalue solver ran, with its factorisation.
     """
 
     placed: PlacedStructure
@@ -57,6 +66,7 @@ class Modes:
     energy_parts: tuple[str, ...]
     energy_shares: Array
     note: str = ""
+    solver: str = "dense"
 
     def __repr__(self) -> str:
         first = self.frequencies.reshape(-1, self.frequencies.shape[-1])[0][:4]
@@ -81,7 +91,12 @@ class Modes:
         }
 
 
-def modes(placed: PlacedStructure, count: int = 10, preload: Array | None = None) -> Modes:
+def modes(
+    placed: PlacedStructure,
+    count: int = 10,
+    preload: Array | None = None,
+    method: Method | None = None,
+) -> Modes:
     """Lowest modes of a structure at a batch of poses.
 
     Parameters
@@ -91,7 +106,10 @@ def modes(placed: PlacedStructure, count: int = 10, preload: Array | None = None
         Number of modes, rigid-body modes included.
     preload : (..., s) or None
         Axial force in every beam element, N, tension positive, from `fea.axial_forces`: adds
-        the geometric stiffness.
+        the geometric stiffness. What costs no elastic energy stays a rigid-body mode.
+    method : "dense" or "sparse", optional
+        All modes by LAPACK, or the lowest by shift-invert Lanczos. Default: sparse for a single
+        pose with more than `SPARSE_FROM` independent coordinates.
 
     Returns
     -------
@@ -101,26 +119,32 @@ def modes(placed: PlacedStructure, count: int = 10, preload: Array | None = None
     Raises
     ------
     ModelError
-        A count below one, no mass, or every direction locked.
+        A count below one, no mass, every direction locked, a free motion without mass, an
+        unknown method or one that does not suit.
+    NumericalError
+        A preload under which the structure buckles.
     MechanismError
-        A preload that makes the structure buckle is a NumericalError; a motion without mass
-        that nothing resists a ModelError.
+        The stiffness is not positive beside the rigid-body modes.
     """
     if count < 1:
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
+    if method not in (None, "dense", "sparse"):
+        raise ModelError("modes", f'unknown method "{method}".', "Choose dense or sparse.")
     system = system_of(placed)
-    parts = []
-    for start in range(0, system.poses, CHUNK):
-        part = system_of(system.placed[start : start + CHUNK])
-        geometric = None
-        if preload is not None:
-            from fea.geometric import geometric_stiffness  # noqa: PLC0415 - only when preloaded
-
-            flat = np.asarray(preload, dtype=float).reshape(system.poses, -1)
-            geometric = geometric_stiffness(part, flat[start : start + CHUNK])
-        parts.append(_modes(reduce_system(part, geometric), count))
-    joined = [np.concatenate(arrays) for arrays in zip(*parts, strict=True)]
-    frequencies, shapes, effective, total, rigid, shares = joined
+    flat = None
+    if preload is not None:
+        flat = np.asarray(preload, dtype=float).reshape(system.poses, -1)
+    try:
+        found, solver = _solve(system, count, flat, method)
+    except (MechanismError, NumericalError) as error:
+        if preload is None:
+            raise
+        raise NumericalError(
+            "structure",
+            "is not stable under its preload: it buckles.",
+            "Lower the preload, or check its sign: tension is positive.",
+        ) from error
+    frequencies, shapes, effective, total, shares, rigid = found
     exist = int(np.isfinite(frequencies).sum(axis=-1).max())
     note = ""
     if exist < count:
@@ -145,21 +169,46 @@ def modes(placed: PlacedStructure, count: int = 10, preload: Array | None = None
         names,
         shaped(shares),
         note,
+        solver,
     )
 
 
-def _modes(reduced: Reduced, count: int) -> tuple[Array, ...]:
-    eigen = solve_eigen(reduced)
-    frequencies, vectors = lowest(eigen, reduced, count)
-    system = reduced.system
-    unknowns = reduced.basis @ vectors
+def _solve(
+    system: System, count: int, preload: Array | None, method: Method | None
+) -> tuple[list[Array], str]:
+    """Frequencies, shapes, effective masses, total mass, rigid-body modes, energy shares."""
+    large = system.poses == 1 and system.topology.forest.count > SPARSE_FROM
+    if method == "sparse" or (method is None and large):
+        geometric = None if preload is None else geometric_contributions(system, preload)
+        reduced = reduce_sparse(system, geometric)
+        if method == "sparse" or lanczos_suits(reduced, count):
+            found = sparse_modes(reduced, count)
+            unknowns = (reduced.basis @ found.vectors)[None]
+            rigid = np.array([reduced.rigid.shape[1]], dtype=np.intp)
+            summary = _summary(system, unknowns, found.frequencies[None], sparse_mass(system))
+            return [*summary, rigid], found.solver
+    parts = []
+    for start in range(0, system.poses, CHUNK):
+        part = system_of(system.placed[start : start + CHUNK])
+        stiffening = None
+        if preload is not None:
+            stiffening = geometric_stiffness(part, preload[start : start + CHUNK])
+        dense = reduce_system(part, stiffening)
+        frequencies, vectors = lowest(solve_eigen(dense), count)
+        summary = _summary(part, dense.basis @ vectors, frequencies, mass_matrix(part))
+        parts.append([*summary, dense.rigid_count])
+    return [np.concatenate(arrays) for arrays in zip(*parts, strict=True)], "dense"
+
+
+def _summary(
+    system: System, unknowns: Array, frequencies: Array, mass: Array | sp.csc_array
+) -> list[Array]:
     shapes = np.moveaxis(system.expand(unknowns), -1, 1)
-    effective, total = _effective_mass(reduced, vectors)
-    shares = _energy_shares(reduced, unknowns, frequencies)
-    return frequencies, shapes, effective, total, reduced.rigid_count, shares
+    effective, total = effective_mass(system, unknowns, mass)
+    return [frequencies, shapes, effective, total, energy_shares(system, unknowns, frequencies)]
 
 
-def lowest(eigen: Eigen, reduced: Reduced, count: int) -> tuple[Array, Array]:
+def lowest(eigen: Eigen, count: int) -> tuple[Array, Array]:
     """Frequencies, Hz, (p, count) and mass-normalised vectors (p, c, count), rigid ones first.
 
     Where a pose has fewer modes the frequency is infinite and the vector zero.
@@ -182,35 +231,3 @@ def lowest(eigen: Eigen, reduced: Reduced, count: int) -> tuple[Array, Array]:
     order = np.argsort(values, axis=1, kind="stable")[:, :count]
     picked = np.take_along_axis(vectors, order[:, None, :], axis=-1)
     return np.take_along_axis(values, order, axis=1), picked
-
-
-def _effective_mass(reduced: Reduced, vectors: Array) -> tuple[Array, Array]:
-    """Effective masses (p, m, 6) and the rigid mass they add to (p, 6).
-
-    Rigid motions about the centre of mass are brought to the coordinates as far as supports
-    let them; what supports carry has no share in the vibration.
-    """
-    from msa.mass import mass_matrix  # noqa: PLC0415
-    from msa.structure import rigid_map  # noqa: PLC0415
-
-    system = reduced.system
-    properties = mass_properties(system.placed)
-    reference = system.placed.structure.reference_nodes
-    arms = system.placed.positions[:, reference] - properties.centre[:, None, :]
-    motion = rigid_map(arms).reshape(system.poses, -1, 6)
-    participation = np.swapaxes(reduced.basis @ vectors, -1, -2) @ (mass_matrix(system) @ motion)
-    total = np.einsum("pij,pij->pj", motion, mass_matrix(system) @ motion)
-    return np.asarray(participation**2), np.asarray(total)
-
-
-def _energy_shares(reduced: Reduced, unknowns: Array, frequencies: Array) -> Array:
-    system = reduced.system
-    u = system.expand(unknowns)
-    energy: dict[str, Array] = {}
-    for name, nodes, stiffness in system.contributions():
-        at = u[:, nodes].reshape(system.poses, -1, u.shape[-1])
-        energy[name] = energy.get(name, 0.0) + np.einsum("pim,pim->pm", at, stiffness @ at)
-    stacked = np.stack(list(energy.values()), axis=-1)
-    total = stacked.sum(axis=-1, keepdims=True)
-    vibrates = (frequencies > 0) & np.isfinite(frequencies)
-    return np.where(vibrates[..., None], stacked / np.where(total > 0, total, 1.0), 0.0)

@@ -98,7 +98,7 @@ def _largest(products, square, viscous, eta, moving, alpha, low, high, starts, t
     previous = low
     for k in range(ends.shape[0] + 1):
         edge = high if k == ends.shape[0] else min(max(ends[k], low), high)
-        if edge > previous and count < WAITING:
+        if edge > previous and (count < WAITING - 1 or k == ends.shape[0]):
             lower[count], upper[count] = previous, edge
             count += 1
             previous = edge

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +14,9 @@ from kinematics import DIRECTIONS
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
+
+#: Motions below this share of what rounding works on count as none.
+STILL = 1e-9
 
 
 @dataclass(frozen=True)
@@ -51,24 +55,44 @@ class Port:
             )
 
     @classmethod
-    def parse(cls, text: str) -> Port:
+    def parse(cls, text: str, nodes: Collection[str] = ()) -> Port:
         """Port from `NODE:direction` or `NODE-NODE:direction`, the second relative to the first.
+
+        Parameters
+        ----------
+        text : str
+        nodes : collection of str
+            Names of the structure's nodes: they tell a hyphen in a name from one between two.
 
         Raises
         ------
         ModelError
-            Text of another shape.
+            Text of another shape, or a hyphen that splits it into known nodes in two ways.
         """
-        nodes, _, direction = text.rpartition(":")
-        if not nodes:
-            raise ModelError(f'port "{text}"', "has no direction.", "Write it as NODE:x.")
-        return cls(nodes, direction)
+        named, _, direction = text.rpartition(":")
+        if not named or not direction:
+            raise ModelError(f'port "{text}"', "is no node with a direction.", "Write NODE:x.")
+        if named in nodes or "-" not in named:
+            return cls(named, direction)
+        cuts = [i for i, letter in enumerate(named) if letter == "-"]
+        pairs = [(named[:i], named[i + 1 :]) for i in cuts]
+        if nodes:
+            pairs = [p for p in pairs if p[0] in nodes and p[1] in nodes]
+        pairs = [p for p in pairs if all(p)]
+        if len(pairs) != 1:
+            raise ModelError(
+                f'port "{text}"',
+                "does not tell which node moves against which.",
+                "Write NODE-NODE:x with two nodes of the structure.",
+            )
+        first, second = pairs[0]
+        return cls(second, direction, against=first)
 
     @property
     def vector(self) -> Array:
         """Direction as a six-vector."""
         if isinstance(self.direction, str):
-            return np.eye(6)[DIRECTIONS.index(self.direction)]
+            return np.asarray(np.eye(6)[DIRECTIONS.index(self.direction)])
         return np.asarray(self.direction, dtype=float)
 
     def __str__(self) -> str:
@@ -83,13 +107,32 @@ class Port:
         ModelError
             An unknown node, or a port that cannot move.
         """
-        motion = np.einsum("i,pic->pc", self.vector, reduced.at_node(self.node))
+        at = reduced.at_node(self.node)
         if self.against is not None:
-            motion = motion - np.einsum("i,pic->pc", self.vector, reduced.at_node(self.against))
-        if not np.any(motion):
+            at = at - reduced.at_node(self.against)
+        motion = np.einsum("i,pic->pc", self.vector, at)
+        # a loop's coordinates are found numerically: a held direction keeps their rounding
+        size = np.abs(reduced.basis).max(axis=(1, 2)) * np.linalg.norm(self.vector)
+        still = np.abs(motion).max(axis=1) <= STILL * size
+        if np.any(still):
+            where = f" at pose {int(still.argmax())}" if reduced.system.poses > 1 else ""
             raise ModelError(
                 f"port {self}",
-                "does not move: its node is held in that direction.",
+                f"does not move{where}: its node is held in that direction.",
                 "Choose another node or direction.",
             )
         return np.asarray(motion)
+
+
+def port_motions(reduced: Reduced, ports: Sequence[Port], rigid: Array) -> tuple[Array, Array]:
+    """Motion at the ports per coordinate (p, q, c), and in the rigid-body modes (p, q, k).
+
+    A port that no rigid motion moves gets zeros without rounding: a strut that spins
+    does not make the tool float.
+    """
+    at = np.stack([port.on(reduced) for port in ports], axis=1)
+    if not rigid.shape[-1]:
+        return at, at @ rigid
+    moved = np.abs(at @ reduced.rigid).max(axis=-1)
+    size = np.abs(at).max(axis=-1) * np.abs(reduced.rigid).max(axis=(1, 2))[:, None]
+    return at, np.asarray(np.where((moved > STILL * size)[..., None], at @ rigid, 0.0))

@@ -120,7 +120,7 @@ def reduce_system(system: System, geometric: Array | None = None) -> Reduced:
         )
     stiffness = system.stiffness if geometric is None else system.stiffness + geometric
     free = free_unknowns(system)
-    rigid = np.zeros((system.poses, basis.shape[-1], free.shape[-1]))
+    rigid: Array = np.zeros((system.poses, basis.shape[-1], free.shape[-1]))
     if free.shape[-1]:
         rigid = np.linalg.pinv(basis / d) @ free
         present = np.any(free, axis=1)

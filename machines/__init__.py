@@ -1,29 +1,43 @@
 """Machines of the literature: dimensions, kinematics, structures and published values."""
 
 from machines.alizade_3prps import Alizade3PRPS
+from machines.azulay_dynamic import (
+    DYNAMIC_SETS,
+    DynamicSet,
+    Platform,
+    VibratingLegs,
+    dynamic_machine,
+)
 from machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
 from machines.eclipse_3pprs import Eclipse3PPRS
 from machines.glozman_3prrs import Glozman3PRRS
 from machines.limits import Limit, check_limits, joint_limits
 from machines.proposed_3pprs import Proposed3PPRS
+from machines.prototype_3ppprs import Prototype3PPPRS
 from machines.published import Paper, PublishedTable, PublishedValue
 from machines.three_legs import ThreeLegs
 
 __all__ = [
     "CATALOGUE",
+    "DYNAMIC_SETS",
     "Alizade3PRPS",
     "CatalogueEntry",
+    "DynamicSet",
     "Eclipse3PPRS",
     "Glozman3PRRS",
     "Limit",
     "Machine",
     "Paper",
+    "Platform",
     "Proposed3PPRS",
+    "Prototype3PPPRS",
     "PublishedTable",
     "PublishedValue",
     "ThreeLegs",
+    "VibratingLegs",
     "check_limits",
+    "dynamic_machine",
     "get",
     "hemisphere_normals",
     "hemisphere_poses",

@@ -13,6 +13,7 @@ from machines.eclipse_3pprs import Eclipse3PPRS
 from machines.glozman_3prrs import Glozman3PRRS
 from machines.limits import Limit
 from machines.proposed_3pprs import Proposed3PPRS
+from machines.prototype_3ppprs import Prototype3PPPRS
 from machines.published import Paper
 from machines.published_azulay import AZULAY_2014
 from msa.structure import Structure
@@ -74,6 +75,13 @@ _ENTRIES = (
         "alizade-3prps", "Alizade", "[P circular] R [P along the link] S", AZULAY_2014, Alizade3PRPS
     ),
     CatalogueEntry("glozman-3prrs", "Glozman", "[P circular] [R] R S", AZULAY_2014, Glozman3PRRS),
+    CatalogueEntry(
+        "prototype-3ppprs",
+        "Prototype 3xPPPRS, redundant and reconfigurable",
+        "[P curvilinear] [P tangential] [P radial] R S",
+        AZULAY_2014,
+        Prototype3PPPRS,
+    ),
 )
 
 #: Every machine by its name.

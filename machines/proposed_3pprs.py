@@ -36,17 +36,22 @@ class Proposed3PPRS(ThreeLegs):
         this long: a beam of no length has no stiffness matrix, and a much shorter one adds only
         rounding (our choice). One millimetre takes less than 0.3 % of the stiffness along any
         axis.
+    first_link_length : float or None
+        m. A first link of constant length, a ram that the slide moves as a whole and that is
+        held this far inside the slider; None for one from the guide to the slider.
     """
 
     link_length: float = 0.216
     stroke: float = 0.065
     pole_height: float = 0.126
     shortest_first_link: float = 1e-3
+    first_link_length: float | None = None
 
     @property
     def lengths(self) -> tuple[str, ...]:
         """Fields that must be positive."""
-        return (*super().lengths, "link_length", "stroke", "shortest_first_link")
+        constant = () if self.first_link_length is None else ("first_link_length",)
+        return (*super().lengths, "link_length", "stroke", "shortest_first_link", *constant)
 
     @property
     def leg(self) -> Leg:
@@ -88,6 +93,8 @@ class Proposed3PPRS(ThreeLegs):
         short = np.abs(overhang.real) < self.shortest_first_link
         shortest = np.where(overhang.real < 0, -1.0, 1.0) * self.shortest_first_link
         root = slider - np.where(short, shortest, overhang)
+        if self.first_link_length is not None:
+            root = slider - self.first_link_length
         elevation = angle(np.where(missing, 0.0, seats.height), reach)
         foot = seats.at(slider, 0.0)
         link = seats.points - foot

@@ -125,7 +125,7 @@ class ThreeLegs(ABC):
                     f"is {value!r}.",
                     "Give a positive number, N/m, or None for a rigid drive.",
                 )
-        at_home = self.place_legs(Radial.of(self.home().position + self.seats))
+        at_home = self.place_legs(self.radial(self.home().position + self.seats))
         for reason, legs in at_home.faults.items():
             if legs.any():
                 raise ModelError(
@@ -222,6 +222,10 @@ class ThreeLegs(ABC):
         down = np.array([0.0, 0.0, -np.sin(self.ball_neutral)])
         return np.asarray(outward * np.cos(self.ball_neutral) + down)
 
+    def radial(self, points: Array) -> Radial:
+        """Joint centres on the platform (..., 3, 3), m, as the legs see them."""
+        return Radial.of(points)
+
     def apparent(self) -> Self:
         """The model that the paper's Tables 2 and 4 suggest: links clamped at the platform."""
         return replace(self, platform_joint="clamped", guide_drive="sliding")
@@ -249,7 +253,7 @@ class ThreeLegs(ABC):
         """
         arms = np.einsum("...ij,kj->...ki", poses.rotation, self.seats)
         points = poses.position[..., None, :] + arms
-        radial = Radial.of(points)
+        radial = self.radial(points)
         legs = self.place_legs(radial)
         nodes = {CENTRE: np.zeros_like(poses.position), TOOL: poses.position}
         frames: dict[str, Array] = {}

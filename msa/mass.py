@@ -175,12 +175,16 @@ def mass_contributions(system: System) -> list[tuple[str, NDArray[np.intp], Arra
 
 
 def mass_matrix(system: System) -> Array:
-    """Mass on the unknowns of a system, dense, (p, n, n)."""
-    n = system.topology.size
-    matrix = np.zeros((system.poses, n, n))
-    for _, nodes, part in mass_contributions(system):
-        system.add_part(matrix, nodes, part)
-    return matrix
+    """Mass on the unknowns of a system, dense, (p, n, n); made once and kept with the system."""
+    kept = system.__dict__
+    if "_mass" not in kept:
+        n = system.topology.size
+        matrix = np.zeros((system.poses, n, n))
+        for _, nodes, part in mass_contributions(system):
+            system.add_part(matrix, nodes, part)
+        # a frozen dataclass keeps derived data in its __dict__, as cached_property does
+        kept["_mass"] = matrix
+    return np.asarray(kept["_mass"])
 
 
 def sparse_mass(system: System) -> sp.csc_array:
@@ -190,7 +194,7 @@ def sparse_mass(system: System) -> sp.csc_array:
 
 @dataclass(frozen=True)
 class MassProperties:
-    """Mass of a structure at a batch of poses, ground's share left out.
+    """Mass of a structure at a batch of poses, with what stands on ground nodes.
 
     Parameters
     ----------

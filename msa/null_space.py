@@ -107,8 +107,23 @@ def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
 
 def symmetric_product(basis: Array, matrix: Array) -> Array:
     """Bᵀ M B, made exactly symmetric."""
+    picked = _selection(basis)
+    if picked is not None:
+        return np.ascontiguousarray(matrix[:, picked[:, None], picked])
     product = np.swapaxes(basis, -1, -2) @ matrix @ basis
     return np.asarray((product + np.swapaxes(product, -1, -2)) / 2.0)
+
+
+def _selection(basis: Array) -> NDArray[np.intp] | None:
+    """The unknowns that a basis only picks, at every pose the same; None for another basis.
+
+    A frame without moving joints has such a basis, and indexing is cheaper than two products.
+    """
+    if basis.shape[0] == 0 or np.count_nonzero(basis) != basis.shape[0] * basis.shape[2]:
+        return None
+    picked = np.asarray(basis[0].argmax(axis=0))
+    alone = basis[:, picked, np.arange(basis.shape[2])]
+    return picked if np.all(alone == 1.0) else None
 
 
 def constrained_minimum(

@@ -54,7 +54,7 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
     u = solution[:n] * d[:, None]
     multipliers = weights @ (solution[n : n + basis.shape[0]] * size)
     _, values = system.row_blocks
-    held = _rows(system, values[0]).T @ multipliers
+    held = sparse_rows(system, values[0]).T @ multipliers
     inner = system.sparse_stiffness @ u
     terms = CANCELLED * abs(system.sparse_stiffness) @ np.abs(u * np.any(gaps[0], axis=0))
     scaled = [np.abs(x * d[:, None]).max(initial=0.0) for x in (inner, held, load[0], terms)]
@@ -64,7 +64,7 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
     return Unknowns(u[None], multipliers[None], np.array([share]))
 
 
-def _rows(system: System, values: Array) -> sp.csr_array:
+def sparse_rows(system: System, values: Array) -> sp.csr_array:
     """Constraint rows A as a sparse matrix."""
     vertex, _ = system.row_blocks
     row = np.repeat(np.arange(len(vertex)), 12).reshape(-1, 2, 6)
@@ -81,7 +81,7 @@ def _orthonormal_blocks(
 ) -> tuple[sp.csr_array, sp.csr_array, Array]:
     """Orthonormal rows, the map to multipliers of A, and right-hand side, by cluster group."""
     _, values = system.row_blocks
-    a = _rows(system, values[0]) @ sp.diags_array(d)
+    a = sparse_rows(system, values[0]) @ sp.diags_array(d)
     count = a.shape[0]
     if count == 0:
         return a, sp.csr_array((0, 0)), np.zeros((0, gaps.shape[-1]))
@@ -97,7 +97,7 @@ def _orthonormal_blocks(
         block = a[rows]
         columns = np.unique(block.indices)
         left, singular, right = np.linalg.svd(block[:, columns].toarray(), full_matrices=False)
-        rank = int(np.count_nonzero(singular > RANK_TOLERANCE * singular[0]))
+        rank = int(np.count_nonzero(singular > RANK_TOLERANCE * singular.max(initial=0.0)))
         scaled = gaps[rows] / size[rows, None]
         met = left[:, :rank] @ (left[:, :rank].T @ scaled)
         if np.abs(met - scaled).max(initial=0.0) > CONSISTENCY * max(

@@ -1,5 +1,10 @@
 """Studies: stiffness over poses and parameters, and comparisons with published numbers."""
 
+from studies.azulay_dynamic import (
+    AzulayDynamics,
+    azulay_table_5,
+    published_dynamic_ranking,
+)
 from studies.budget_map import budget_map
 from studies.check_points import CheckPoints, area_weights, hemisphere
 from studies.comparison import (
@@ -10,7 +15,22 @@ from studies.comparison import (
     published_rows,
     variant,
 )
-from studies.dataset_files import read_netcdf, to_json, write_csv, write_json, write_netcdf
+from studies.dataset_files import (
+    read_netcdf,
+    to_json,
+    write_csv,
+    write_json,
+    write_long_csv,
+    write_netcdf,
+)
+from studies.dynamic import dynamic_stiffness, frequency_responses
+from studies.dynamic_map import Vibration, dynamic_map
+from studies.dynamic_sensitivity import (
+    closed_form_stiffness,
+    dynamic_link_lengths,
+    mass_sensitivity,
+    offset_sensitivity,
+)
 from studies.executor import Executor, Threads, default_executor
 from studies.filters import AS_IN_AZULAY, Filters, PoseStatus
 from studies.link_lengths import LINK_LENGTHS, link_lengths
@@ -27,6 +47,7 @@ from studies.statistics import (
 )
 from studies.stiffness_map import stiffness_map
 from studies.sweep import sweep
+from studies.synthetic_measurement import SyntheticMeasurement, synthetic_measurement
 
 __all__ = [
     "AS_IN_AZULAY",
@@ -35,6 +56,7 @@ __all__ = [
     "QUANTILES",
     "AxisSummary",
     "AzulayComparison",
+    "AzulayDynamics",
     "CheckPoints",
     "Executor",
     "Filters",
@@ -45,14 +67,25 @@ __all__ = [
     "PublishedRow",
     "Statistics",
     "Summary",
+    "SyntheticMeasurement",
     "Threads",
+    "Vibration",
     "area_weights",
+    "azulay_table_5",
     "budget_map",
+    "closed_form_stiffness",
     "compare_azulay",
     "default_executor",
+    "dynamic_link_lengths",
+    "dynamic_map",
+    "dynamic_stiffness",
     "file_name",
+    "frequency_responses",
     "hemisphere",
     "link_lengths",
+    "mass_sensitivity",
+    "offset_sensitivity",
+    "published_dynamic_ranking",
     "published_ranking",
     "published_rows",
     "read_netcdf",
@@ -60,10 +93,12 @@ __all__ = [
     "stiffness_map",
     "summary",
     "sweep",
+    "synthetic_measurement",
     "to_json",
     "variant",
     "write_csv",
     "write_json",
+    "write_long_csv",
     "write_netcdf",
     "write_published",
 ]

@@ -9,8 +9,8 @@ from typing import Any, Literal
 
 import xarray as xr
 
-from machines import CATALOGUE, Machine, Proposed3PPRS, PublishedTable, ThreeLegs, get
-from machines.published_azulay import AZULAY_2014, TABLE_2, TABLE_4
+from machines import Machine, Proposed3PPRS, PublishedTable, ThreeLegs, get
+from machines.published_azulay import TABLE_2, TABLE_4
 from strutwork.errors import ModelError
 from studies.azulay_notes import note_of, status_of
 from studies.filters import AS_IN_AZULAY, Filters
@@ -91,8 +91,8 @@ class AzulayComparison:
 
 
 def machines() -> tuple[str, ...]:
-    """Names of the paper's machines in the catalogue."""
-    return tuple(name for name, entry in CATALOGUE.items() if entry.paper is AZULAY_2014)
+    """Names of the machines that the paper compares."""
+    return tuple(dict.fromkeys(value.row for value in TABLE_4))
 
 
 def published_ranking(direction: str) -> tuple[str, ...]:

@@ -74,6 +74,40 @@ def write_csv(path: Path, dataset: xr.Dataset) -> Path:
     return write_whole(Path(path), write)
 
 
+def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
+    """Write variables that share their dimensions, one row an entry, units in the header.
+
+    Raises
+    ------
+    ModelError
+        No variables, or variables along different dimensions: choose some by
+        `dataset[[names]]`; or a folder that cannot be written.
+    """
+    kinds = {variable.dims for variable in dataset.data_vars.values()}
+    if len(kinds) != 1:
+        raise ModelError(
+            "dataset",
+            f"has variables along {len(kinds)} sets of dimensions.",
+            "Choose variables along the same: dataset[[names]].",
+        )
+    dims = kinds.pop()
+    places = [dataset[d].to_numpy() for d in dims]
+    arrays = {**{d: dataset[d] for d in dims}, **dataset.data_vars}
+    units = {name: array.attrs.get("units", "1") for name, array in arrays.items()}
+    head = [str(n) if unit == "1" else f"{n} [{unit}]" for n, unit in units.items()]
+    values = [variable.to_numpy() for variable in dataset.data_vars.values()]
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(head)
+            for index in np.ndindex(*(len(p) for p in places)):
+                where = [_cell(p[i]) for p, i in zip(places, index, strict=True)]
+                writer.writerow([*where, *(_cell(v[index]) for v in values)])
+
+    return write_whole(Path(path), write)
+
+
 def write_json(path: Path, dataset: xr.Dataset) -> Path:
     """Write a dataset as one JSON object; missing numbers are null.
 

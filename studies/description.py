@@ -19,15 +19,17 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import strutwork
-from machines import CATALOGUE, Machine, ThreeLegs
+from machines import CATALOGUE, Machine, ThreeLegs, VibratingLegs
 from strutwork.errors import ModelError
 
 #: Packages whose code decides a study's numbers.
-_CODE = ("strutwork", "kinematics", "msa", "machines", "studies")
+_CODE = ("strutwork", "kinematics", "msa", "fea", "machines", "studies")
 
 
 def machine_name(machine: Machine) -> str:
     """Name in the catalogue, or the class's own."""
+    if isinstance(machine, VibratingLegs):
+        return machine_name(machine.base)
     for entry in CATALOGUE.values():
         if entry.factory is type(machine):
             return entry.name
@@ -36,6 +38,8 @@ def machine_name(machine: Machine) -> str:
 
 def joint_model(machine: Machine) -> str:
     """Which joints the machine's structure has, in words."""
+    if isinstance(machine, VibratingLegs):
+        return joint_model(machine.base)
     if isinstance(machine, ThreeLegs):
         if machine.platform_joint == "clamped":
             return "apparent: last links clamped in the platform, as the paper's tables suggest"

@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 
 from kinematics import characteristic_length
-from machines import Limit, Machine, ThreeLegs
+from machines import Limit, Machine, Prototype3PPPRS, ThreeLegs
 from strutwork.errors import ModelError
 
 
@@ -117,8 +117,9 @@ def moving_machine(machine: Machine) -> Machine:
     """The machine whose Jacobian tells how near a pose is to a singularity.
 
     A structure with links clamped in the platform cannot move with its drives; its
-    singularities are those of the machine it stands for, with spherical joints.
+    singularities are those of the machine it stands for, with spherical joints. A machine with
+    redundant drives is looked at with those locked that its inverse kinematics does not move.
     """
     if isinstance(machine, ThreeLegs) and machine.platform_joint == "clamped":
-        return replace(machine, platform_joint="spherical")
-    return machine
+        machine = replace(machine, platform_joint="spherical")
+    return machine.locked() if isinstance(machine, Prototype3PPPRS) else machine

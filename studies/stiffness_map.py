@@ -114,24 +114,43 @@ def stiffness_map(
     return _dataset(evaluator, arrays, turns, {w: n for w, n in words.items() if n})
 
 
+def stiffest_roll(found: Evaluated, rolls: int) -> tuple[NDArray[np.intp], NDArray[np.int8]]:
+    """For each point the roll with the largest blocked Kxx, and what became of the point.
+
+    Parameters
+    ----------
+    found : Evaluated
+        Points times rolls, roll fastest.
+    rolls : int
+
+    Returns
+    -------
+    chosen : (points,)
+        Index of the roll; without meaning where no candidate counts.
+    status : (points,) of int8
+        `PoseStatus`; of the candidate that got furthest where none counts.
+    """
+    status, good = found.status.reshape(-1, rolls), found.good.reshape(-1, rolls)
+    each = np.full(found.status.shape, -np.inf)
+    each[found.good] = axis_stiffness_blocked(found.compliance[found.good])[:, 0]
+    stiffness = each.reshape(-1, rolls)
+    best = stiffness.max(axis=1, keepdims=True)
+    with np.errstate(invalid="ignore"):
+        candidate = good & (stiffness >= best - TIE * np.abs(best))
+    outcome = np.where(good.any(axis=1), PoseStatus.GOOD, status.max(axis=1)).astype(np.int8)
+    return candidate.argmax(axis=1), outcome
+
+
 def _best_rolls(found: Evaluated, rolls: Array) -> Arrays:
     """For each point of a chunk the candidate with the largest Kxx, and what was dropped."""
     shape = (-1, len(rolls))
     status = found.status.reshape(shape)
-    good = status == PoseStatus.GOOD
-    stiffness = np.full(found.status.shape, -np.inf)
-    stiffness[found.good] = axis_stiffness_blocked(found.compliance[found.good])[:, 0]
-    stiffness = stiffness.reshape(shape)
-    best = stiffness.max(axis=1, keepdims=True)
-    with np.errstate(invalid="ignore"):
-        candidate = good & (stiffness >= best - TIE * np.abs(best))
-    chosen = candidate.argmax(axis=1)
-    any_good = good.any(axis=1)
+    chosen, outcome = stiffest_roll(found, len(rolls))
     row = np.arange(len(chosen))
     points = len(chosen)
-    lost = ~any_good
+    lost = outcome != PoseStatus.GOOD
     result: Arrays = {
-        "status": np.where(any_good, PoseStatus.GOOD, status.max(axis=1)).astype(np.int8),
+        "status": outcome,
         "roll": np.where(lost, np.nan, rolls[chosen]),
         "condition_number": np.where(lost, np.nan, found.condition.reshape(shape)[row, chosen]),
         "compliance": found.compliance.reshape(points, -1, 6, 6)[row, chosen],

@@ -29,6 +29,19 @@ Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object, in SI units, and nothing else.")
 ]
 
+Target = Annotated[
+    str,
+    typer.Argument(metavar="FILE_OR_MACHINE", help="A model file, or a machine by its name."),
+]
+Ratio = Annotated[
+    float | None,
+    typer.Option("--modal-ratio", help="Damping ratio of every mode, for the file's damping."),
+]
+Loss = Annotated[
+    float | None,
+    typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
+]
+
 
 class Ranges(StrEnum):
     """Joints whose ranges a pose must keep."""
@@ -135,6 +148,85 @@ def map_stiffness(
         workers=workers,
         json=json,
     )
+
+
+@app.command()
+def modes(
+    target: Target,
+    count: Annotated[
+        int, typer.Option("--count", "-n", min=1, help="Modes, rigid-body modes included.")
+    ] = 10,
+    out: Annotated[
+        str | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Write them there as a universal file."),
+    ] = None,
+    modal_ratio: Ratio = None,
+    loss_factor: Loss = None,
+    json: Json = False,
+) -> None:
+    """Find the lowest natural frequencies, with their shapes and damping ratios."""
+    from reports.cli import modes as work
+
+    work.run(target, count, out, modal_ratio=modal_ratio, loss_factor=loss_factor, json=json)
+
+
+@app.command()
+def frf(
+    target: Target,
+    given: Annotated[
+        str,
+        typer.Option("--input", metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
+    ],
+    low: Annotated[float, typer.Option("--from", help="Start of the band, Hz.")],
+    high: Annotated[float, typer.Option("--to", help="End of the band, Hz.")],
+    output: Annotated[
+        str | None,
+        typer.Option("--output", metavar="NODE:DIR", help="What moves; the input by default."),
+    ] = None,
+    lines: Annotated[
+        int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
+    ] = 1000,
+    out: Annotated[
+        str | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Write it there as UFF-58 and CSV."),
+    ] = None,
+    modal_ratio: Ratio = None,
+    loss_factor: Loss = None,
+    json: Json = False,
+) -> None:
+    """Compute a frequency response, and the exact least dynamic stiffness in its band."""
+    from reports.cli import frf as work
+
+    work.run(
+        target,
+        given,
+        output,
+        (low, high),
+        lines,
+        out,
+        modal_ratio=modal_ratio,
+        loss_factor=loss_factor,
+        json=json,
+    )
+
+
+@app.command()
+def compare(
+    computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
+    measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
+    window: Annotated[
+        float, typer.Option(help="Pairs differ by at most this share of the frequency.")
+    ] = 0.3,
+    least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = 0.5,
+    doublet: Annotated[
+        float, typer.Option(help="Neighbours within this share are one span.")
+    ] = 0.01,
+    json: Json = False,
+) -> None:
+    """Compare computed modes and responses with measured ones."""
+    from reports.cli import compare as work
+
+    work.run(computed, measured, window=window, least=least, doublet=doublet, json=json)
 
 
 @app.command()

@@ -16,6 +16,7 @@ def test_every_entry_makes_its_machine() -> None:
         "eclipse-3pprs",
         "alizade-3prps",
         "glozman-3prrs",
+        "prototype-3ppprs",
     ]
     for name, entry in CATALOGUE.items():
         machine = entry.factory()

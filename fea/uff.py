@@ -1,0 +1,248 @@
+"""What a universal file (UFF) holds: measured or computed functions, modes and the nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fea.frf import FrequencyResponse
+from fea.modes import Modes
+from fea.ports import Port
+from kinematics import DIRECTIONS
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+
+Motion = Literal["displacement", "velocity", "acceleration"]
+
+#: Motions by rising power of iω.
+MOTIONS: tuple[Motion, ...] = ("displacement", "velocity", "acceleration")
+
+#: ISO 7626 names of motion per force.
+FUNCTION_NAMES: Mapping[Motion, str] = MappingProxyType(
+    {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
+)
+
+
+@dataclass(frozen=True)
+class FrfRecord:
+    """One frequency response function.
+
+    Parameters
+    ----------
+    output, input : (str, str)
+        Node and direction of the motion and of the force.
+    frequencies : (f,)
+        Hz, ascending.
+    values : (f,)
+        Complex motion per force, SI.
+    motion : "displacement", "velocity" or "acceleration"
+
+    Raises
+    ------
+    ModelError
+        An unknown direction or motion, lengths that differ, frequencies that do not rise, a
+        number that is not finite.
+    """
+
+    output: tuple[str, str]
+    input: tuple[str, str]
+    frequencies: Array
+    values: Array
+    motion: Motion = "displacement"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "frequencies", np.asarray(self.frequencies, dtype=float))
+        object.__setattr__(self, "values", np.asarray(self.values, dtype=complex))
+        problem = remedy = ""
+        if self.frequencies.ndim != 1 or self.frequencies.shape != self.values.shape:
+            problem = f"has {self.frequencies.size} frequencies and {self.values.size} values."
+            remedy = "Give one value a frequency."
+        elif len(self.frequencies) < 2:
+            problem, remedy = "has fewer than two lines.", "Give a frequency axis."
+        elif not (np.all(np.isfinite(self.frequencies)) and np.all(np.isfinite(self.values))):
+            problem = "holds a number that is not finite."
+            remedy = "Repair or leave out the lines that have no value."
+        elif self.frequencies[0] < 0 or np.any(np.diff(self.frequencies) <= 0):
+            problem, remedy = "has frequencies that do not rise.", "Sort its lines."
+        elif self.motion not in MOTIONS:
+            problem, remedy = f'has the motion "{self.motion}".', ", ".join(MOTIONS) + "."
+        elif not {self.output[1], self.input[1]} <= set(DIRECTIONS):
+            problem = f'has the directions "{self.output[1]}" and "{self.input[1]}".'
+            remedy = "Directions are " + ", ".join(DIRECTIONS) + "."
+        if problem:
+            raise ModelError(f"function {self.name}", problem, remedy)
+
+    def __repr__(self) -> str:
+        return (
+            f"<FrfRecord {self.name}: {FUNCTION_NAMES[self.motion]}, {len(self.frequencies)} lines>"
+        )
+
+    @property
+    def name(self) -> str:
+        """Output and input, as in `TCP:x / TCP:x`."""
+        return f"{':'.join(self.output)} / {':'.join(self.input)}"
+
+    def as_motion(self, motion: Motion) -> Array:
+        """Values brought to another motion, (f,).
+
+        Raises
+        ------
+        ModelError
+            A line at zero frequency that would have to be divided by zero.
+        """
+        power = MOTIONS.index(motion) - MOTIONS.index(self.motion)
+        if power < 0 and self.frequencies[0] == 0:
+            raise ModelError(
+                f"function {self.name}",
+                f"has a line at 0 Hz, where {self.motion} tells nothing of {motion}.",
+                "Leave that line out.",
+            )
+        return np.asarray(self.values * (2j * np.pi * self.frequencies) ** power)
+
+
+@dataclass(frozen=True)
+class ModeRecord:
+    """One mode at some nodes.
+
+    Parameters
+    ----------
+    frequency : float
+        Hz.
+    damping_ratio : float or None
+        Viscous ζ; None where the source has none.
+    nodes : tuple of str
+    shape : (n, 6)
+        Real or complex; directions that the source does not have are zero.
+
+    Raises
+    ------
+    ModelError
+        A shape of another size, or a number that is not finite.
+    """
+
+    frequency: float
+    damping_ratio: float | None
+    nodes: tuple[str, ...]
+    shape: Array
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "shape", np.asarray(self.shape))
+        numbers = [self.frequency, *([] if self.damping_ratio is None else [self.damping_ratio])]
+        if self.shape.shape != (len(self.nodes), 6):
+            raise ModelError(
+                f"mode at {self.frequency:g} Hz",
+                f"has {len(self.nodes)} nodes and a shape of {self.shape.shape}.",
+                "Give six numbers a node.",
+            )
+        if not (np.all(np.isfinite(numbers)) and np.all(np.isfinite(self.shape))):
+            raise ModelError(
+                f"mode at {self.frequency:g} Hz",
+                "holds a number that is not finite.",
+                "Repair the source or leave the mode out.",
+            )
+
+    def __repr__(self) -> str:
+        return f"<ModeRecord: {self.frequency:.4g} Hz, {len(self.nodes)} nodes>"
+
+
+@dataclass(frozen=True)
+class UniversalFile:
+    """Content of a universal file.
+
+    Parameters
+    ----------
+    functions : tuple of FrfRecord
+        Data sets 58 and 58b.
+    modes : tuple of ModeRecord
+        Data sets 55 and 2414.
+    positions : mapping of node to (3,)
+        Data set 2411, m.
+    lines : tuple of (str, str)
+        Data set 2412 as lines for drawing.
+    ignored : tuple of str
+        Data sets that were there and are not used, in words.
+    """
+
+    functions: tuple[FrfRecord, ...] = ()
+    modes: tuple[ModeRecord, ...] = ()
+    positions: Mapping[str, Array] = field(default_factory=lambda: MappingProxyType({}))
+    lines: tuple[tuple[str, str], ...] = ()
+    ignored: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return (
+            f"<UniversalFile: {len(self.functions)} functions, {len(self.modes)} modes, "
+            f"{len(self.positions)} nodes>"
+        )
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """Every node that is named, each once."""
+        named: list[str] = [*self.positions]
+        named += [node for line in self.lines for node in line]
+        named += [node for f in self.functions for node, _ in (f.output, f.input)]
+        named += [node for mode in self.modes for node in mode.nodes]
+        return tuple(dict.fromkeys(named))
+
+
+def response_records(response: FrequencyResponse) -> tuple[FrfRecord, ...]:
+    """Receptances of a computed response of one pose, one record a pair of ports.
+
+    Raises
+    ------
+    ModelError
+        Several poses, or a port that is no single direction of one node.
+    """
+    if response.receptance.ndim != 3:
+        raise ModelError("frequency response", "is of several poses.", "Choose one.")
+    return tuple(
+        FrfRecord(
+            _degree(output), _degree(given), response.frequencies, response.receptance[:, o, i]
+        )
+        for o, output in enumerate(response.outputs)
+        for i, given in enumerate(response.inputs)
+    )
+
+
+def _degree(port: Port) -> tuple[str, str]:
+    if port.against is not None or not isinstance(port.direction, str):
+        raise ModelError(
+            f"port {port}",
+            "is no single direction of one node, which is all that a universal file knows.",
+            "Write it as CSV.",
+        )
+    return port.node, port.direction
+
+
+def mode_file(modes: Modes, damping_ratios: Sequence[float | None] | None = None) -> UniversalFile:
+    """Content of a universal file from computed modes of one pose, with the mesh for drawing.
+
+    Raises
+    ------
+    ModelError
+        Several poses.
+    """
+    if modes.placed.batch != ():
+        raise ModelError("modes", "are of several poses.", "Choose one.")
+    structure = modes.placed.structure
+    names = structure.mesh_nodes
+    ratios = damping_ratios or [None] * len(modes.frequencies)
+    return UniversalFile(
+        modes=tuple(
+            ModeRecord(float(f), ratio, names, shape)
+            for f, ratio, shape in zip(modes.frequencies, ratios, modes.shapes, strict=True)
+        ),
+        positions=node_positions(names, modes.placed.positions),
+        lines=tuple((names[a], names[b]) for _, a, b in structure.segments),
+    )
+
+
+def node_positions(names: Iterable[str], positions: ArrayLike) -> Mapping[str, Array]:
+    """Positions (n, 3) by node name."""
+    return dict(zip(names, np.asarray(positions, dtype=float).reshape(-1, 3), strict=True))

@@ -1,0 +1,70 @@
+"""`strutwork compare`: computed modes and responses against measured ones."""
+
+from __future__ import annotations
+
+from fea.compare_files import compare_files
+from fea.comparison import Comparison
+from fea.uff_read import read_universal
+from reports.cli.output import console, print_json, table
+
+
+def run(
+    computed: str, measured: str, *, window: float, least: float, doublet: float, json: bool
+) -> None:
+    """Compare two universal files and print what they have in common."""
+    found = compare_files(
+        read_universal(computed),
+        read_universal(measured),
+        window=window,
+        least=least,
+        doublet=doublet,
+    )
+    if json:
+        print_json(found.to_dict())
+    else:
+        _print(found)
+
+
+def _print(found: Comparison) -> None:
+    out = console()
+    if found.modes:
+        rows = [
+            (
+                p.computed + 1,
+                p.measured + 1,
+                p.computed_frequency,
+                p.measured_frequency,
+                f"{p.difference_percent:+.2f}",
+                _percent(p.computed_damping),
+                _percent(p.measured_damping),
+                f"{p.mac:.3f}",
+                f"{p.group} modes" if p.group > 1 else "",
+            )
+            for p in found.modes
+        ]
+        columns = [
+            *("computed", "measured", "computed, Hz", "measured, Hz", "difference, %"),
+            *("computed ζ, %", "measured ζ, %", "MAC", "as a span of"),
+        ]
+        out.print(table("Paired modes", columns, rows, names=0))
+    for what, rest in (("computed", found.only_computed), ("measured", found.only_measured)):
+        if rest:
+            frequencies = ", ".join(f"{f:.4g}" for f in rest)
+            out.print(f"Only {what}, Hz: {frequencies}", markup=False)
+    if found.functions:
+        lines = [
+            (
+                f.output,
+                f.input,
+                f"{f.found.frac:.3f}",
+                f"{f.found.scale:.4f}" + (" (end of search)" if f.found.at_limit else ""),
+                f"{f.found.scaled_frac:.3f}",
+            )
+            for f in found.functions
+        ]
+        columns = ["output", "input", "FRAC", "best frequency scale", "FRAC at it"]
+        out.print(table("Responses", columns, lines, names=2))
+
+
+def _percent(ratio: float | None) -> str:
+    return "" if ratio is None else f"{100 * ratio:.3g}"

@@ -1,0 +1,328 @@
+"""Modes and frequency responses of a model file or a machine, by the names the user gave."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fea import (
+    Damping,
+    FrequencyResponse,
+    LossFactor,
+    ModalRatio,
+    Modes,
+    PartDamping,
+    Port,
+    Rayleigh,
+    frequency_response,
+    modes,
+)
+from fea.coupled import AnyDamping
+from fea.dynamic_stiffness import check_band
+from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from fea.mode_damping import damping_ratios
+from fea.uff import UniversalFile, mode_file, node_positions, response_records
+from fea.uff_write import write_universal
+from machines.model import Model
+from msa import PlacedStructure
+from reports.data_files import csv_file
+from strutwork.errors import ModelError
+from strutwork.files import write_whole
+
+Array = NDArray[Any]
+
+#: Names that stand for the tool where no node bears them.
+TOOL_NAMES = ("TCP", "tcp", "tool")
+
+
+@dataclass(frozen=True)
+class Target:
+    """A structure that vibrates, at one pose.
+
+    Parameters
+    ----------
+    title : str
+    stem : str
+        For names of files.
+    placed : PlacedStructure
+    nodes : tuple of str
+        Those the user knows.
+    damping : damping of any kind or None
+    """
+
+    title: str
+    stem: str
+    placed: PlacedStructure
+    nodes: tuple[str, ...]
+    damping: AnyDamping | None
+
+    def port(self, text: str) -> Port:
+        """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
+
+        Raises
+        ------
+        ModelError
+            Text of another shape, or an unknown node.
+        """
+        node, colon, direction = text.rpartition(":")
+        tool = self.placed.structure.linkage.tool
+        known = self.placed.structure.mesh_index
+        if node in TOOL_NAMES and node not in known:
+            if tool is None:
+                raise ModelError(
+                    f'port "{text}"',
+                    "means the tool, and the model has none.",
+                    'Add a table [tool] with tcp = "NODE", or name a node.',
+                )
+            return Port.parse(f"{tool}{colon}{direction}", (tool,))
+        port = Port.parse(text, tuple(known))
+        for name in (port.node, port.against):
+            if name is not None and name not in known:
+                some = ", ".join(self.nodes[:8]) + (", ..." if len(self.nodes) > 8 else "")
+                raise ModelError(f'port "{text}"', f'has no node "{name}".', f"Nodes: {some}.")
+        return port
+
+    def require_damping(self) -> AnyDamping:
+        """The damping.
+
+        Raises
+        ------
+        ModelError
+            None is given.
+        """
+        if self.damping is None:
+            raise ModelError(
+                "damping",
+                "is missing: without it the response has no height at a resonance.",
+                "Add exactly one to the model file, as in [damping] with modal_ratio = 0.01 "
+                "(or loss_factor, or rayleigh), or give --modal-ratio or --loss-factor.",
+            )
+        return self.damping
+
+
+def vibration_target(
+    name: str, modal_ratio: float | None = None, loss_factor: float | None = None
+) -> Target:
+    """The structure that a model file or a machine's name stands for.
+
+    A machine stands at home as the dynamic model of its paper has it.
+
+    Parameters
+    ----------
+    name : str
+        Path of a model file, or a machine of the catalogue.
+    modal_ratio, loss_factor : float or None
+        Damping in place of the file's; joints' dashpots stay.
+
+    Raises
+    ------
+    ModelError
+        No such machine or file, a wrong model, both kinds of damping.
+    """
+    from machines.catalogue import CATALOGUE, Machine
+    from machines.model_file import read_model
+
+    if modal_ratio is not None and loss_factor is not None:
+        raise ModelError(
+            "damping", "is given as a modal ratio and as a loss factor.", "Give one of them."
+        )
+    given: Damping | None = None
+    if modal_ratio is not None:
+        given = ModalRatio(modal_ratio)
+    elif loss_factor is not None:
+        given = LossFactor(loss_factor)
+    if name in CATALOGUE:
+        from machines.azulay_dynamic import DYNAMIC_SETS, dynamic_machine
+        from machines.three_legs import ThreeLegs
+
+        entry = CATALOGUE[name]
+        machine: Machine = entry.factory()
+        title = entry.title
+        # a machine whose structure has no platform vibrates as its dynamic model
+        if isinstance(machine, ThreeLegs) and not machine.structure.masses:
+            machine = dynamic_machine(name)
+            title += f"; calibrated set: {DYNAMIC_SETS['calibrated']}"
+        placed = machine.structure.at(machine.place(machine.home()))
+        return Target(title, name, placed, placed.structure.linkage.nodes, given)
+    if Path(name).suffix != ".toml" and not Path(name).exists():
+        raise ModelError(
+            name,
+            "is no machine of the catalogue and no model file.",
+            "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
+        )
+    model = read_model(name)
+    damping = model_damping(model, given)
+    return Target(model.title or "Model", Path(name).stem, model.placed, model.nodes, damping)
+
+
+def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | None:
+    """Damping of a model: its [damping] or `given`, and the dashpots of its joints.
+
+    The materials' loss factors act where no damping of the whole is given, which would hold
+    them already. None where nothing damps.
+    """
+    found = given
+    table = model.damping
+    if found is None and table is not None:
+        if table.modal_ratio is not None:
+            found = ModalRatio(table.modal_ratio)
+        elif table.loss_factor is not None:
+            found = LossFactor(table.loss_factor)
+        elif table.rayleigh is not None:
+            found = Rayleigh(*table.rayleigh)
+    structure = model.structure
+    dashpots = any(any(j.damping.values()) for j in structure.linkage.joints)
+    materials = found is None and any(b.material.loss_factor for b in structure.beams)
+    if dashpots or materials:
+        return PartDamping(found, materials=materials, dashpots=dashpots)
+    return found
+
+
+@dataclass(frozen=True)
+class TargetModes:
+    """Modes of a target.
+
+    Parameters
+    ----------
+    target : Target
+    modes : Modes
+    ratios : (m,) or None
+        Damping ratios; None without damping.
+    """
+
+    target: Target
+    modes: Modes
+    ratios: Array | None
+
+    def __repr__(self) -> str:
+        return f"<TargetModes of {self.target.title}: {self.modes!r}>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers in SI, shapes at the nodes the user knows."""
+        found = self.modes
+        index = found.placed.structure.mesh_index
+        return {
+            "frequencies": found.frequencies.tolist(),
+            "rigid_body_modes": int(found.rigid_body_modes),
+            "shapes": [
+                {n: shape[index[n]].tolist() for n in self.target.nodes} for shape in found.shapes
+            ],
+            "effective_mass": found.effective_mass.tolist(),
+            "damping_ratios": self._ratios(),
+        }
+
+    def write(self, folder: Path) -> tuple[Path, ...]:
+        """Write the modes with their mesh as a universal file."""
+        content = mode_file(self.modes, self._ratios())
+        return (write_universal(folder / f"{self.target.stem}-modes.uff", content),)
+
+    def _ratios(self) -> list[float | None]:
+        if self.ratios is None:
+            return [None] * len(self.modes.frequencies)
+        return [float(r) for r in self.ratios]
+
+
+def target_modes(target: Target, count: int) -> TargetModes:
+    """Lowest modes of a target, with damping ratios where it has damping."""
+    found = modes(target.placed, count)
+    ratios = None if target.damping is None else damping_ratios(found, target.damping)
+    return TargetModes(target, found, ratios)
+
+
+@dataclass(frozen=True)
+class TargetResponse:
+    """Receptance between two ports of a target, and its least dynamic stiffness.
+
+    Parameters
+    ----------
+    target : Target
+    response : FrequencyResponse
+        One output, one input.
+    least : LeastStiffness
+    """
+
+    target: Target
+    response: FrequencyResponse
+    least: LeastStiffness
+
+    def __repr__(self) -> str:
+        return f"<TargetResponse of {self.target.title}: {self.least!r}>"
+
+    @property
+    def is_relative(self) -> bool:
+        """Whether a port moves or loads one node against another."""
+        return any(p.against is not None for p in (self.least.input, self.least.output))
+
+    @property
+    def receptance(self) -> Array:
+        """Complex, (f,)."""
+        return np.asarray(self.response.receptance[:, 0, 0])
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers in SI."""
+        return {
+            "frequencies": self.response.frequencies.tolist(),
+            "receptance": {
+                "real": self.receptance.real.tolist(),
+                "imag": self.receptance.imag.tolist(),
+            },
+            "minimum_dynamic_stiffness": {
+                "value": self.least.value,
+                "frequency": self.least.frequency,
+            },
+            "static_stiffness": self.least.static,
+        }
+
+    def write(self, folder: Path) -> tuple[Path, ...]:
+        """Write the response as CSV, and as a universal file (58) unless a port is relative."""
+        unit = receptance_unit(self.least.output, self.least.input)
+        table = csv_file(
+            f"{self.target.stem}-frf.csv",
+            "frequency response",
+            ["frequency, Hz", f"real part, {unit}", f"imaginary part, {unit}"],
+            np.column_stack(
+                [self.response.frequencies, self.receptance.real, self.receptance.imag]
+            ).tolist(),
+        )
+        written = write_whole(folder / table.name, table.write)
+        if self.is_relative:
+            return (written,)
+        placed = self.target.placed
+        everywhere = node_positions(placed.structure.mesh_nodes, placed.positions)
+        ends = {p.node for p in (self.least.input, self.least.output)}
+        content = UniversalFile(
+            response_records(self.response),
+            positions={node: everywhere[node] for node in everywhere if node in ends},
+        )
+        return (write_universal(folder / f"{self.target.stem}-frf.uff", content), written)
+
+
+def receptance_unit(output: Port, given: Port) -> str:
+    """Unit of the receptance between two ports."""
+    turns, twists = (str(p.direction).startswith("r") for p in (output, given))
+    return f"{'rad' if turns else 'm'}/{'(N·m)' if twists else 'N'}"
+
+
+def target_response(
+    target: Target, given: Port, output: Port, band: tuple[float, float], lines: int
+) -> TargetResponse:
+    """Receptance with all modes at evenly spaced lines, and the exact minimum of 1/|H|.
+
+    Raises
+    ------
+    ModelError
+        An empty band, fewer than two lines, no damping, a port that cannot move.
+    """
+    check_band(*band)
+    damping = target.require_damping()
+    if lines < 2:
+        raise ModelError("lines", f"{lines} asked for.", "Ask for at least two.")
+    response = frequency_response(
+        target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
+    )
+    least = least_dynamic_stiffness(target.placed, given, output, damping, band)
+    return TargetResponse(target, response, least)
