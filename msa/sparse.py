@@ -97,7 +97,7 @@ def _orthonormal_blocks(
         block = a[rows]
         columns = np.unique(block.indices)
         left, singular, right = np.linalg.svd(block[:, columns].toarray(), full_matrices=False)
-        rank = int(np.count_nonzero(singular > RANK_TOLERANCE * singular[0]))
+        rank = int(np.count_nonzero(singular > RANK_TOLERANCE * singular.max(initial=0.0)))
         scaled = gaps[rows] / size[rows, None]
         met = left[:, :rank] @ (left[:, :rank].T @ scaled)
         if np.abs(met - scaled).max(initial=0.0) > CONSISTENCY * max(
