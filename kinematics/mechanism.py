@@ -8,7 +8,6 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial.transform import Rotation
 
 from kinematics.jacobians import jacobians
 from kinematics.linkage import Linkage
@@ -77,6 +76,9 @@ class Poses:
 
     def moved(self, twist: ArrayLike) -> Poses:
         """Poses after a small motion, translation then rotation vector, (..., 6)."""
+        # imported late: it takes a third of a small command's start
+        from scipy.spatial.transform import Rotation  # noqa: PLC0415
+
         t = np.asarray(twist, dtype=float)
         flat = t[..., 3:].reshape(-1, 3)
         turn = Rotation.from_rotvec(flat).as_matrix().reshape(*t.shape[:-1], 3, 3)

@@ -82,6 +82,9 @@ class ConstraintRows:
         rows = np.zeros((*self.axes.shape[:-1], 6 * bodies), dtype=self.axes.dtype)
         owner = linkage.body_of_node
         for r, pair in enumerate(self.nodes):
+            if owner[pair[0]] == owner[pair[1]]:
+                # nothing to hold: only the rounding of the coordinates would be left
+                continue
             for node, sign in zip(pair, (-1.0, 1.0), strict=True):
                 body = owner[node]
                 if body < 0:
@@ -138,11 +141,15 @@ def body_references(linkage: Linkage, placement: Placement) -> Array:
 
 
 def characteristic_length(placement: Placement) -> float:
-    """Length that makes rotations comparable with translations, m: the machine's half extent."""
+    """Length that makes rotations comparable with translations, m.
+
+    The largest distance of a node from the centre of all nodes, which no turn of the machine
+    changes; the median over the reachable poses.
+    """
     points = placement.positions.real
     good = points[placement.reachable]
     if good.size == 0:
         return 1.0
-    span = (good.max(axis=-2) - good.min(axis=-2)).max(axis=-1)
-    size = float(np.median(span)) / 2
+    reach = np.linalg.norm(good - good.mean(axis=-2, keepdims=True), axis=-1).max(axis=-1)
+    size = float(np.median(reach))
     return size if size > 0 else 1.0

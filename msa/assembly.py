@@ -193,6 +193,8 @@ class System:
         maps = rigid_map(self.placed.arms[:, nodes])
         values = np.einsum("pri,prkij->prkj", rows.axes, maps)
         values[:, :, 0] *= -1.0
+        # both sides on one cluster: only the rounding of its coordinates would be left
+        values[:, vertex[:, 0] == vertex[:, 1]] = 0.0
         return vertex, values
 
     @cached_property

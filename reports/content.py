@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any, ClassVar, Literal
 
 from reports.data_files import DataFile
@@ -58,11 +59,21 @@ class Facts:
 
 @dataclass(frozen=True)
 class Column:
-    """Heading of a table's column; numbers stand to the right."""
+    """Heading of a table's column; numbers stand to the right.
+
+    Parameters
+    ----------
+    title : str
+    unit : str
+    numeric : bool
+    group : str
+        Heading over neighbouring columns of the same group.
+    """
 
     title: str
     unit: str = ""
     numeric: bool = True
+    group: str = ""
 
 
 @dataclass(frozen=True)
@@ -92,6 +103,12 @@ class Table:
     rows: Sequence[Sequence[str | Cell]]
     data: str = ""
     kind: ClassVar[str] = "table"
+
+    @property
+    def groups(self) -> list[tuple[str, int]]:
+        """Headings over the columns and how many each spans; none where no column has one."""
+        found = [(name, len(list(some))) for name, some in groupby(c.group for c in self.columns)]
+        return found if any(name for name, _ in found) else []
 
     @property
     def cells(self) -> list[list[Cell]]:

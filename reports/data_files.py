@@ -1,4 +1,4 @@
-"""Data files beside a report: every plotted or tabulated number, unrounded, in SI where not said."""
+"""Data files beside a report: every plotted or tabulated number, unrounded."""
 
 from __future__ import annotations
 

@@ -41,9 +41,7 @@ def machine_chapters(
     if study.lengths:
         chapters.append(lengths_chapter(study))
     chapters.append(assumptions_chapter(study))
-    chapters.append(
-        closing_chapter(name, settings(study), content(study), chapters)
-    )
+    chapters.append(closing_chapter(name, settings(study), content(study), chapters))
     return (
         f"{study.entry.title}: static stiffness",
         f"{study.entry.topology} · {study.entry.paper.citation}",

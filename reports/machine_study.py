@@ -19,6 +19,7 @@ from studies import (
     PublishedRow,
     Summary,
     budget_map,
+    compare_azulay,
     link_lengths,
     published_rows,
     stiffness_map,
@@ -26,6 +27,7 @@ from studies import (
     variant,
 )
 from studies.comparison import Model
+from studies.comparison import machines as published_machines
 from studies.progress import silent
 
 #: Given the name of a part of the work, returns what is told how far it is.
@@ -127,6 +129,41 @@ def study_machine(name: str, progress: Teller | None = None) -> MachineStudy:
     )
 
 
-def table_rows(comparison: AzulayComparison, table: str) -> dict[Model, tuple[PublishedRow, ...]]:
-    """Rows of a published table by joint model."""
-    return {model: comparison.rows[table, model] for model in MODEL_NAMES}
+@dataclass(frozen=True)
+class Comparison:
+    """The four machines of the paper side by side.
+
+    Parameters
+    ----------
+    azulay : AzulayComparison
+    machines : mapping of (name, model) to ThreeLegs
+    budgets : mapping of (name, model) to Dataset
+    """
+
+    azulay: AzulayComparison
+    machines: Mapping[tuple[str, Model], ThreeLegs]
+    budgets: Mapping[tuple[str, Model], xr.Dataset]
+
+    def __repr__(self) -> str:
+        return f"<Comparison of {', '.join(self.names)}>"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The machines in the catalogue's order."""
+        return tuple(dict.fromkeys(name for name, _ in self.machines))
+
+    def rows(self, table: str) -> dict[Model, tuple[PublishedRow, ...]]:
+        """Rows of a published table by joint model."""
+        return {model: self.azulay.rows[table, model] for model in MODEL_NAMES}
+
+
+def study_comparison(progress: Teller | None = None) -> Comparison:
+    """Compute everything the comparison of the four machines shows."""
+    azulay = compare_azulay(FILTERS, progress=progress)
+    machines = {
+        (name, model): variant(name, model)
+        for name in published_machines()
+        for model in MODEL_NAMES
+    }
+    budgets = {key: budget_map(machine, azulay.maps[key]) for key, machine in machines.items()}
+    return Comparison(azulay, machines, budgets)

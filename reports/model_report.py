@@ -37,4 +37,8 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
         if solution.compliance is not None:
             chapters.append(budget_chapter(model))
     chapters.append(closing_chapter(path.name, settings, {"title": model.title}, chapters))
-    return model.title or path.stem, f"Static analysis of the model file {path.name}", tuple(chapters)
+    return (
+        model.title or path.stem,
+        f"Static analysis of the model file {path.name}",
+        tuple(chapters),
+    )

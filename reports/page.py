@@ -28,11 +28,15 @@ def render(page: Page) -> str:
     -------
     str
     """
-    return _environment().get_template("report.html").render(
-        page=page,
-        style=_asset("style.css"),
-        script=_asset("report.js"),
-        plotly=Markup(_closed(get_plotlyjs())),  # noqa: S704 - the library's own text
+    return (
+        _environment()
+        .get_template("report.html")
+        .render(
+            page=page,
+            style=_asset("style.css"),
+            script=_asset("report.js"),
+            plotly=Markup(_closed(get_plotlyjs())),  # noqa: S704 - the library's own text
+        )
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal
@@ -15,7 +15,7 @@ from strutwork.errors import ModelError
 from studies.azulay_notes import note_of, status_of
 from studies.filters import AS_IN_AZULAY, Filters
 from studies.link_lengths import LINK_LENGTHS
-from studies.progress import Progress, share
+from studies.progress import Progress, silent
 from studies.published_table import PublishedRow
 from studies.statistics import Summary, summary
 from studies.stiffness_map import stiffness_map
@@ -128,7 +128,7 @@ def compare_azulay(
     filters: Filters = AS_IN_AZULAY,
     *,
     workers: int | None = None,
-    progress: Progress | None = None,
+    progress: Callable[[str], Progress] | None = None,
 ) -> AzulayComparison:
     """Compute the paper's static comparison with both joint models.
 
@@ -139,7 +139,7 @@ def compare_azulay(
     workers : int, optional
         Threads; default one a processor.
     progress : callable, optional
-        Told how many candidates of how many are done.
+        Given the name of a part of the work, returns what is told how far it is.
 
     Returns
     -------
@@ -158,16 +158,13 @@ def compare_azulay(
             for length in LINK_LENGTHS
         ]
     distinct: dict[Machine, xr.Dataset] = {}
-    count = len({machine for _, _, machine in plan})
     maps: dict[tuple[str, Model], xr.Dataset] = {}
     for row, model, machine in plan:
         # Table 2's machine of 216 mm is Table 4's: computed once
         if machine not in distinct:
+            tell = progress(f"{row}, {MODELS[model]}") if progress else silent
             distinct[machine] = stiffness_map(
-                machine,
-                filters=filters,
-                workers=workers,
-                progress=share(progress, len(distinct), count),
+                machine, filters=filters, workers=workers, progress=tell
             )
         maps[row, model] = distinct[machine]
     summaries = {key: summary(dataset) for key, dataset in maps.items()}

@@ -45,7 +45,7 @@ class Filters:
     condition_limit : float or None
         A pose counts as near-singular where the condition number of its inverse Jacobian,
         angles multiplied by `length`, reaches this. None: not looked at. The default is ours:
-        on the hemisphere of Azulay et al. it takes out the ring of their Fig. 4, some 3 % of
+        on the hemisphere of Azulay et al. it takes out the ring of their Fig. 4, 3 to 4 % of
         the candidates, and changes no mean by more than 1 %, but for the Glozman machine,
         which is near-singular more often.
     length : float or None

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import xarray as xr
 
-from machines import Proposed3PPRS
+from machines import Proposed3PPRS, ThreeLegs
 from strutwork.errors import ModelError
 from studies.filters import AS_IN_AZULAY, Filters
 from studies.progress import Progress, share
@@ -18,7 +19,7 @@ LINK_LENGTHS = (0.196, 0.216, 0.236)
 
 
 def link_lengths(
-    machine: Proposed3PPRS | None = None,
+    machine: ThreeLegs | None = None,
     lengths: Sequence[float] = LINK_LENGTHS,
     filters: Filters = AS_IN_AZULAY,
     *,
@@ -32,9 +33,9 @@ def link_lengths(
 
     Parameters
     ----------
-    machine : Proposed3PPRS, optional
-        Everything but the link length; its `apparent()` for the model that the paper's
-        numbers suggest.
+    machine : ThreeLegs, optional
+        Everything but the link length; default the proposed machine, true spherical joints.
+        Its `apparent()` for the model that the paper's numbers suggest.
     lengths : sequence of float
         m.
     filters : Filters
@@ -50,17 +51,23 @@ def link_lengths(
     Raises
     ------
     ModelError
-        No lengths, or one with which the machine cannot stand at home.
+        No lengths, one with which the machine cannot stand at home, or a machine without a
+        link length.
     """
     if not lengths:
         raise ModelError("link lengths", "are none.", "Give at least one, m.")
     base = machine or Proposed3PPRS()
-    return {
-        length: stiffness_map(
-            replace(base, link_length=length),
+    if not hasattr(base, "link_length"):
+        raise ModelError(
+            f"machine {type(base).__name__}", "has no link length.", "Choose another machine."
+        )
+    maps = {}
+    for number, length in enumerate(lengths):
+        change: dict[str, Any] = {"link_length": length}
+        maps[length] = stiffness_map(
+            replace(base, **change),
             filters=filters,
             workers=workers,
             progress=share(progress, number, len(lengths)),
         )
-        for number, length in enumerate(lengths)
-    }
+    return maps

@@ -34,21 +34,51 @@ def method_table(filters: Filters) -> Table:
     return _table(
         "Method",
         [
-            ("Hemisphere of the check points", "radius 4 mm, 317 points", PAPER,
-             "section 3; which points is not printed: ours are the lattice i² + j² ≤ 100, "
-             "projected up"),
-            ("Roll γ about the normal", "24 steps over 120°", OURS,
-             "the best of them is taken at each point by the largest Kxx (section 3.3.1)"),
-            ("Joint ranges kept", kinds, OURS,
-             "with the other ranges of Table 3 the published means are out of reach"),
-            ("Near-singular poses dropped", f"condition number ≥ {limit}", OURS,
-             "the paper drops them by condition number but gives no limit"),
-            ("Stiffness along an axis", "(C⁻¹)_ii, other directions blocked", OURS,
-             "this meaning agrees with the paper's tables"),
-            ("Deformation of the links", "bending, torsion, axial", PAPER,
-             "Euler-Bernoulli beams; section 3.3.1 lists bending and axial deformation only"),
-            ("Passive joints, platform, carriages", "rigid", OURS,
-             "free directions free, the others without compliance"),
+            (
+                "Hemisphere of the check points",
+                "radius 4 mm, 317 points",
+                PAPER,
+                (
+                    "section 3; which points is not printed: ours are the lattice i² + j² ≤ 100, "
+                    "projected up"
+                ),
+            ),
+            (
+                "Roll γ about the normal",
+                "24 steps over 120°",
+                OURS,
+                "the best of them is taken at each point by the largest Kxx (section 3.3.1)",
+            ),
+            (
+                "Joint ranges kept",
+                kinds,
+                OURS,
+                "with the other ranges of Table 3 the published means are out of reach",
+            ),
+            (
+                "Near-singular poses dropped",
+                f"condition number ≥ {limit}",
+                OURS,
+                "the paper drops them by condition number but gives no limit",
+            ),
+            (
+                "Stiffness along an axis",
+                "(C⁻¹)_ii, other directions blocked",
+                OURS,
+                "this meaning agrees with the paper's tables",
+            ),
+            (
+                "Deformation of the links",
+                "bending, torsion, axial",
+                PAPER,
+                "Euler-Bernoulli beams; section 3.3.1 lists bending and axial deformation only",
+            ),
+            (
+                "Passive joints, platform, carriages",
+                "rigid",
+                OURS,
+                "free directions free, the others without compliance",
+            ),
             ("Guide", "rigid", OURS, "only the drives yield along it"),
         ],
     )
@@ -64,12 +94,21 @@ def models_table() -> Table:
             Column("as the paper's numbers suggest (comparison)", "", False),
         ),
         (
-            ("last link at the platform", "spherical joint, free to rotate",
-             "clamped: it cannot rotate against the platform"),
-            ("carriage on the guide", "follows the guide and turns as it slides",
-             "slides along the tangent and does not turn"),
-            ("what it is for", "the machine as it is drawn and described",
-             "comes closest to the paper's tables; not a prediction"),
+            (
+                "last link at the platform",
+                "spherical joint, free to rotate",
+                "clamped: it cannot rotate against the platform",
+            ),
+            (
+                "carriage on the guide",
+                "follows the guide and turns as it slides",
+                "slides along the tangent and does not turn",
+            ),
+            (
+                "what it is for",
+                "the machine as it is drawn and described",
+                "comes closest to the paper's tables; not a prediction",
+            ),
         ),
     )
 
@@ -81,10 +120,18 @@ def _common(machine: ThreeLegs) -> list[Line]:
         ("Base radius R_b", _mm(machine.base_radius), PAPER, "Table 3"),
         ("Platform radius R_p", _mm(machine.platform_radius), PAPER, "Table 3"),
         ("Links", f"{machine.section.name} mm", PAPER, "section 3.3.1"),
-        ("Material", f"{material.name}, E {material.youngs_modulus / 1e9:.0f} GPa", PAPER,
-         "section 3.3.1 names the steel; the modulus is a handbook's"),
-        ("Stiffness of a drive", "3 N/µm on both drives of a leg", PAPER,
-         "section 3.3.1 gives the value; that both drives have it is our reading"),
+        (
+            "Material",
+            f"{material.name}, E {material.youngs_modulus / 1e9:.0f} GPa",
+            PAPER,
+            "section 3.3.1 names the steel; the modulus is a handbook's",
+        ),
+        (
+            "Stiffness of a drive",
+            "3 N/µm on both drives of a leg",
+            PAPER,
+            "section 3.3.1 gives the value; that both drives have it is our reading",
+        ),
         ("Range of the passive revolute joint", f"{low:.0f}° to {high:.0f}°", PAPER, "Table 3"),
         ("Tool centre point", "centre of the spherical joints", OURS, "not printed"),
     ]
@@ -94,29 +141,53 @@ def _own(machine: ThreeLegs) -> list[Line]:
     if isinstance(machine, Proposed3PPRS):
         return [
             ("Link length L", _mm(machine.link_length), PAPER, "Table 1"),
-            ("First link", "cantilever from the guide to the slider, |d − R_b| long", OURS,
-             "its length changes with the pose; the paper does not say how it is modelled"),
-            ("Inverse kinematics", "d = √(Px² + Py²) + √(L² − Pz²)", PAPER,
-             "eq. 4 read so that it agrees with eq. 6"),
+            (
+                "First link",
+                "cantilever from the guide to the slider, |d − R_b| long",
+                OURS,
+                "its length changes with the pose; the paper does not say how it is modelled",
+            ),
+            (
+                "Inverse kinematics",
+                "d = √(Px² + Py²) + √(L² − Pz²)",
+                PAPER,
+                "eq. 4 read so that it agrees with eq. 6",
+            ),
         ]
     if isinstance(machine, Eclipse3PPRS):
         return [
             ("Link length L", _mm(machine.link_length), PAPER, "Table 3"),
-            ("Free length of the column", _mm(machine.column_length), CALIBRATED,
-             "not printed; meets Table 4 best"),
+            (
+                "Free length of the column",
+                _mm(machine.column_length),
+                CALIBRATED,
+                "not printed; meets Table 4 best",
+            ),
         ]
     if isinstance(machine, Alizade3PRPS):
         return [
-            ("Hinge to joint centre, middle of the stroke", _mm(machine.middle_length), PAPER,
-             "Table 3, section 4"),
-            ("Length of the flexible strut", _mm(machine.strut_length), CALIBRATED,
-             "not printed; meets Table 4 best"),
+            (
+                "Hinge to joint centre, middle of the stroke",
+                _mm(machine.middle_length),
+                PAPER,
+                "Table 3, section 4",
+            ),
+            (
+                "Length of the flexible strut",
+                _mm(machine.strut_length),
+                CALIBRATED,
+                "not printed; meets Table 4 best",
+            ),
         ]
     if isinstance(machine, Glozman3PRRS):
         return [
             ("Length of each of the two links", _mm(machine.link_length), PAPER, "section 4"),
-            ("Second drive", "a spring along the radius at the shoulder", CALIBRATED,
-             "how 3 N/µm act on a turning drive is not printed; this meets Table 4 best"),
+            (
+                "Second drive",
+                "a spring along the radius at the shoulder",
+                CALIBRATED,
+                "how 3 N/µm act on a turning drive is not printed; this meets Table 4 best",
+            ),
         ]
     return []
 
@@ -126,10 +197,18 @@ def _pole(machine: ThreeLegs, apparent: ThreeLegs) -> Line:
     if apparent.pole_height != machine.pole_height:
         height += f"; {_mm(apparent.pole_height)} as the paper's numbers suggest"
     if isinstance(machine, Eclipse3PPRS):
-        return ("Pole of the hemisphere above the guide", height, OURS,
-                "changes no stiffness of this machine")
-    return ("Pole of the hemisphere above the guide", height, CALIBRATED,
-            "not printed; fitted to Table 4")
+        return (
+            "Pole of the hemisphere above the guide",
+            height,
+            OURS,
+            "changes no stiffness of this machine",
+        )
+    return (
+        "Pole of the hemisphere above the guide",
+        height,
+        CALIBRATED,
+        "not printed; fitted to Table 4",
+    )
 
 
 def _mm(length: float) -> str:

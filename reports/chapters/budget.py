@@ -8,7 +8,19 @@ import xarray as xr
 from reports.content import Block, Chapter, Figure, Row, Text
 from reports.data_files import DataFile, csv_file
 from reports.figures.charts import stacked_shares
+from reports.figures.theme import PALETTE
 from reports.machine_study import MODEL_NAMES, MachineStudy
+
+#: The same part has the same colour in every machine.
+PART_COLOURS = {
+    "first link": PALETTE[0],
+    "column": PALETTE[0],
+    "link": PALETTE[1],
+    "strut": PALETTE[1],
+    "guide drive": PALETTE[2],
+    "slide drive": PALETTE[3],
+    "shoulder drive": PALETTE[3],
+}
 
 
 def budget_chapter(study: MachineStudy) -> Chapter:
@@ -21,7 +33,7 @@ def budget_chapter(study: MachineStudy) -> Chapter:
                 f"budget-{model}",
                 f"{label[0].upper()}{label[1:]}: share of each kind of part, all three legs, in "
                 "the deflection along the force.",
-                stacked_shares(categories, shares, "share of the deflection"),
+                stacked_shares(categories, shares, "share of the deflection", PART_COLOURS),
                 "Stacked bars of the shares of links and drives in the tool's deflection along x, "
                 f"y and z at the best, median and worst pose, {label}.",
                 f"budget-{model}.csv",
@@ -37,7 +49,9 @@ def budget_chapter(study: MachineStudy) -> Chapter:
         ),
         Row(tuple(figures), 420),
     ]
-    files = tuple(budget_file(study.budgets[m], f"budget-{m}.csv", n) for m, n in MODEL_NAMES.items())
+    files = tuple(
+        budget_file(study.budgets[m], f"budget-{m}.csv", n) for m, n in MODEL_NAMES.items()
+    )
     return Chapter("budget", "Compliance budget", tuple(blocks), files)
 
 
@@ -49,8 +63,10 @@ def by_kind(budget: xr.Dataset) -> tuple[list[str], dict[str, list[float]]]:
     for i, part in enumerate(parts):
         word, _, name = part.partition(" ")
         name = name.split("/", 1)[-1]
-        kind = f"{name} (link)" if word == "beam" else f"{name.split(':')[0]} ({word})"
-        kinds[kind] = kinds.get(kind, 0.0) + 100.0 * share[..., i].reshape(-1)
+        if word != "beam":
+            # a spring across a guide stands for its drive, whatever direction it acts in
+            name = f"{name.split(':')[0]} drive"
+        kinds[name] = kinds.get(name, 0.0) + 100.0 * share[..., i].reshape(-1)
     categories = [
         f"{force}, {rank}"
         for force in budget["force"].to_numpy()
@@ -69,11 +85,28 @@ def budget_file(budget: xr.Dataset, name: str, label: str) -> DataFile:
                 float(budget[v].to_numpy()[f, r]) for v in ("roll", "stiffness", "deflection")
             ]
             rows += [
-                [force, rank, *place, *values, str(part), float(budget["share"].to_numpy()[f, r, p])]
+                [
+                    force,
+                    rank,
+                    *place,
+                    *values,
+                    str(part),
+                    float(budget["share"].to_numpy()[f, r, p]),
+                ]
                 for p, part in enumerate(budget["part"].to_numpy())
             ]
     columns = (
-        "force", "rank", "x_m", "y_m", "z_m", "roll_rad", "stiffness_blocked_N_per_m",
-        "deflection_m_per_N", "part", "share",
+        "force",
+        "rank",
+        "x_m",
+        "y_m",
+        "z_m",
+        "roll_rad",
+        "stiffness_blocked_N_per_m",
+        "deflection_m_per_N",
+        "part",
+        "share",
     )
-    return csv_file(name, f"share of every part at the best, median and worst pose, {label}", columns, rows)
+    return csv_file(
+        name, f"share of every part at the best, median and worst pose, {label}", columns, rows
+    )

@@ -14,7 +14,10 @@ from studies.description import versions
 
 
 def closing_chapter(
-    target: str, settings: Mapping[str, Any], content: Mapping[str, Any], chapters: Sequence[Chapter]
+    target: str,
+    settings: Mapping[str, Any],
+    content: Mapping[str, Any],
+    chapters: Sequence[Chapter],
 ) -> Chapter:
     """What made the report and what lies beside it.
 
@@ -35,7 +38,10 @@ def closing_chapter(
         "numbers of the tables unrounded, settings and versions, SI",
         {"target": target, "settings": settings, "versions": made_with, **content},
     )
-    rows = [[name, value if isinstance(value, str) else json.dumps(value)] for name, value in settings.items()]
+    rows = [
+        [name, value if isinstance(value, str) else json.dumps(value)]
+        for name, value in settings.items()
+    ]
     files = [f for chapter in chapters for f in chapter.files] + [file]
     return Chapter(
         "files",

@@ -18,6 +18,11 @@ from reports.numbers import micro, percent, significant
 
 AXES = ("x", "y", "z")
 
+DRAWING = (
+    "Drag to turn, scroll to zoom; names show under the pointer. Lengths are in mm and links at "
+    "their true diameter; joint symbols are not to scale. Black arrows show the driven motions."
+)
+
 
 def summary_chapter(study: MachineStudy) -> Chapter:
     """The machine in a sentence and its headline numbers."""
@@ -25,7 +30,7 @@ def summary_chapter(study: MachineStudy) -> Chapter:
     linkage = study.machines["spherical"].linkage
     text = (
         f"{study.entry.title}: three legs on one circular guide carry the platform, each leg, from "
-        f"the guide up, {study.entry.topology} (P prismatic, R revolute, S spherical; driven joints "
+        f"the guide up, {study.entry.topology} (P prismatic, R revolute, S spherical; driven ones "
         f"in brackets), {len(linkage.driven)} drives in all. Its static stiffness at the tool was "
         f"computed at {found.points_kept} of {found.points} check points on a hemisphere, at each "
         "of them with the roll that makes Kxx largest."
@@ -40,8 +45,9 @@ def summary_chapter(study: MachineStudy) -> Chapter:
                 f"Mean K{axis * 2}",
                 micro(mean),
                 "N/µm",
-                f"published {significant(published, 4)} ({percent(100 * (mean / 1e6 / published - 1))}); "
-                f"as the paper's numbers suggest {micro(apparent)}",
+                f"{percent(100 * (mean / 1e6 / published - 1))} against the published "
+                f"{significant(published, 4)}; the model that the paper's numbers suggest: "
+                f"{micro(apparent)}",
             )
         )
     worst = min((found.axis(a) for a in AXES), key=lambda a: a.worst.value)
@@ -75,7 +81,7 @@ def drawing_chapter(study: MachineStudy) -> Chapter:
     return Chapter(
         "drawing",
         "The machine",
-        (machine_figure(machine, study.name, study.entry.title, height=600),),
+        (Text(DRAWING), machine_figure(machine, study.name, study.entry.title, height=600)),
         (drawing_file(machine, study.name),),
     )
 
@@ -84,9 +90,7 @@ def machine_figure(machine: ThreeLegs, name: str, title: str, height: int) -> Fi
     """A machine at home, rotatable."""
     return Figure(
         f"drawing-{name}",
-        f"{title} at home, in mm. Drag to turn, scroll to zoom; names show under the pointer. "
-        "Links are drawn at their true diameter, joint symbols are not to scale; black arrows "
-        "show the driven motions.",
+        f"{title} at home.",
         machine_view(machine, home_placement(machine)),
         f"Three-dimensional drawing of {title}: circular guide, three legs, platform, joints by "
         "type and drives.",
@@ -113,13 +117,19 @@ def drawing_file(machine: ThreeLegs, name: str) -> DataFile:
         },
         "lines": [list(pair) for pair in machine.skeleton()],
         "joints": {
-            j.name: {"type": j.style, "at": j.at.tolist(), "axes_as_columns": j.frame.tolist(),
-                     "driven": bool(j.driven)}
+            j.name: {
+                "type": j.style,
+                "at": j.at.tolist(),
+                "axes_as_columns": j.frame.tolist(),
+                "driven": bool(j.driven),
+            }
             for j in drawn_joints(machine, placement)
         },
         "tool": machine.linkage.tool,
     }
-    return json_file(f"drawing-{name}.json", "what the drawing shows: nodes, links, joints", content)
+    return json_file(
+        f"drawing-{name}.json", "what the drawing shows: nodes, links, joints", content
+    )
 
 
 def assumptions_chapter(study: MachineStudy) -> Chapter:

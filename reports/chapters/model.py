@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from machines.model import Model
+from msa import axis_stiffness_blocked, axis_stiffness_free
 from reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
 from reports.data_files import json_file
 from reports.figures.model import model_view
 from reports.model_check import ModelCheck
 from reports.model_solution import ModelSolution
-from reports.numbers import clean, count, significant
-from machines.model import Model
-from msa import axis_stiffness_blocked, axis_stiffness_free
+from reports.numbers import MINUS, clean, count, significant
 
 #: Rows of motions and self-stress states a reader is shown; the file has all.
 SHOWN = 12
@@ -26,7 +26,9 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
         count(len(model.supports), "supported node"),
         count(len(model.cases), "load case"),
     ]
-    text = f"A structure of {', '.join(parts[:-1])} and {parts[-1]}, in one configuration."
+    present = [part for part in parts if not part.startswith("0 ")]
+    listed = " and ".join(filter(None, [", ".join(present[:-1]), present[-1]]))
+    text = f"A structure of {listed}, in one configuration."
     facts = [
         Fact("Degrees of freedom", str(check.degrees_of_freedom), "", "of the flexible structure"),
         Fact(
@@ -41,12 +43,16 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
         facts.append(Fact("Mass", significant(check.mass.total), "kg"))
     if solution is not None and solution.compliance is not None:
         free = axis_stiffness_free(solution.compliance)
-        blocked = None if solution.stiffness is None else axis_stiffness_blocked(solution.compliance)
+        blocked = (
+            None if solution.stiffness is None else axis_stiffness_blocked(solution.compliance)
+        )
         for i, axis in enumerate("xyz"):
             detail = "other directions free, 1/C_ii"
             if blocked is not None:
                 detail += f"; blocked, (C⁻¹)_ii: {significant(blocked[i] / 1e6)} N/µm"
-            facts.append(Fact(f"Tool stiffness along {axis}", significant(free[i] / 1e6), "N/µm", detail))
+            facts.append(
+                Fact(f"Tool stiffness along {axis}", significant(free[i] / 1e6), "N/µm", detail)
+            )
     return Chapter("summary", "Summary", (Text(text), Facts(tuple(facts))))
 
 
@@ -91,9 +97,11 @@ def check_chapter(check: ModelCheck) -> Chapter:
         ["mobility, driven directions free", str(found.mobility)],
         ["mobility, driven directions held", str(found.mobility_locked)],
         ["redundant constraints, driven directions held", str(found.redundant)],
-        ["Grübler's count, which knows no geometry", str(found.gruebler)],
+        ["Grübler's count, which knows no geometry", str(found.gruebler).replace("-", MINUS)],
     ]
-    if check.mass is not None:
+    if check.mass is None:
+        rows.append(["mass", "not known: a density is missing"])
+    else:
         rows.append(["mass, kg", significant(check.mass.total, 4)])
         if check.mass.center is not None:
             middle = clean([1e3 * v for v in check.mass.center], 4)
@@ -114,9 +122,7 @@ def check_chapter(check: ModelCheck) -> Chapter:
             columns = (Column("", "", False), Column("motion", "", False))
             blocks.append(Table(title, columns, lines, "check.json"))
     if found.self_stress:
-        lines = [
-            [str(i), ", ".join(s.joints)] for i, s in enumerate(found.self_stress[:SHOWN], 1)
-        ]
+        lines = [[str(i), ", ".join(s.joints)] for i, s in enumerate(found.self_stress[:SHOWN], 1)]
         columns = (Column("", "", False), Column("joints that take part", "", False))
         blocks.append(Table("States of self-stress", columns, lines, "check.json"))
         blocks.append(

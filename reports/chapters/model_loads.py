@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from kinematics import DIRECTIONS
 from reports.content import Block, Chapter, Column, Figure, Note, Table, Text
 from reports.data_files import DataFile, csv_file, json_file
 from reports.figures.model import deformed_shape, deformed_view, model_size
@@ -46,7 +45,9 @@ def loads_chapter(solution: ModelSolution) -> Chapter:
             f"Reactions on the structure, case “{name}”", "node", _FORCE, case["reactions"]
         )
     files = [
-        json_file("solution.json", "displacements, reactions and forces of every case, SI", answers),
+        json_file(
+            "solution.json", "displacements, reactions and forces of every case, SI", answers
+        ),
         csv_file(
             "deformed-shapes.csv",
             "the drawn shapes: true position and displacement, m; lines are parted by empty rows",
@@ -106,9 +107,7 @@ def _six(
 def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Figure | Note | None:
     model, statics = solution.model, solution.statics
     case = model.cases[number]
-    largest = float(
-        np.linalg.norm(statics.displacements[:, :3, number], axis=-1).max(initial=0.0)
-    )
+    largest = float(np.linalg.norm(statics.displacements[:, :3, number], axis=-1).max(initial=0.0))
     size = model_size(model)
     if largest < 1e-15 * size:
         return Note(f"Nothing moves in case “{case.name}”.")
@@ -121,15 +120,13 @@ def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Fi
         [case.name, *(float(v) for v in point), float(m), factor]
         for point, m in zip(still, moved, strict=True)
     ]
+    forces = ", red the forces" if any(any(w[:3]) for _, w in case.wrenches) else ""
+    times = f"{factor:,g}".replace(",", "\N{NARROW NO-BREAK SPACE}")
     return Figure(
         f"deformed-{number + 1}",
-        f"Case “{case.name}”: displacements drawn {factor:,g} times as large as they are. The "
-        f"largest of a node is {significant(1e6 * largest, 4)} µm; colour gives the true "
-        "displacement, grey the structure at rest, red the forces.".replace(",", "\u202f", 1)
-        if factor >= 1000
-        else f"Case “{case.name}”: displacements drawn {factor:g} times as large as they are. The "
-        f"largest of a node is {significant(1e6 * largest, 4)} µm; colour gives the true "
-        "displacement, grey the structure at rest, red the forces.",
+        f"Case “{case.name}”: displacements drawn {times} times as large as they are. The largest "
+        f"of a node is {significant(1e6 * largest, 4)} µm. Colour gives the true displacement, "
+        f"between nodes as the beams' ends bend them; grey is the structure at rest{forces}.",
         deformed_view(model, shape, moved, case, "displacement (µm)"),
         f"Three-dimensional drawing of the deformed structure in case {case.name}.",
         "deformed-shapes.csv",
@@ -146,6 +143,3 @@ def round_factor(value: float) -> float:
     power = 10.0 ** floor(log10(value))
     step = next(s for s in (5.0, 2.0, 1.0) if s * power <= value * (1 + 1e-12))
     return float(f"{step * power:.6g}")
-
-
-__all__ = ["DIRECTIONS", "forces_chapter", "loads_chapter", "round_factor"]

@@ -46,8 +46,8 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         rows.append([direction, unit, significant(scale * float(free[i]), 4), held])
     blocks: list[Block] = [
         Text(
-            f"At node “{solution.model.tool}”, global axes, drives held. Along an axis stiffness has "
-            "two meanings: with the other five directions free to follow, and with them blocked."
+            f"At node “{solution.model.tool}”, global axes, drives held. Along an axis stiffness "
+            "has two meanings: with the five others free to follow, and with them blocked."
         ),
         Table(
             "Stiffness along each axis",
@@ -103,9 +103,13 @@ def budget_chapter(model: Model) -> Chapter:
         [parts[i], *(share(value / 100) for value in shares[:, i])] for i in order[: 3 * LARGEST]
     ]
     columns: Sequence[Column] = (
-        Column("part", "", False), *(Column(f"along {axis}", "share") for axis in "xyz")
+        Column("part", "", False),
+        *(Column(f"along {axis}", "share") for axis in "xyz"),
     )
-    deflections = ["deflection, µm/N", *(significant(1e6 * float(b.deflection), 4) for b in budgets)]
+    deflections = [
+        "deflection, µm/N",
+        *(significant(1e6 * float(b.deflection), 4) for b in budgets),
+    ]
     blocks: list[Block] = [
         Text(
             "A force at the tool does work on the parts in proportion to their strain energy; the "
@@ -138,7 +142,12 @@ def _matrix(title: str, matrix: Array) -> Table:
     scale = np.sqrt(np.abs(np.diag(matrix)))
     small = np.abs(matrix) < 1e-9 * np.outer(scale, scale)
     rows = [
-        [direction, *("0" if low else significant(float(v), 4) for v, low in zip(row, lows, strict=True))]
+        [
+            direction,
+            *("0" if low else significant(float(v), 4) for v, low in zip(row, lows, strict=True)),
+        ]
         for direction, row, lows in zip(DIRECTIONS, matrix, small, strict=True)
     ]
-    return Table(title, (Column("", "", False), *(Column(d) for d in DIRECTIONS)), rows, "tool.json")
+    return Table(
+        title, (Column("", "", False), *(Column(d) for d in DIRECTIONS)), rows, "tool.json"
+    )

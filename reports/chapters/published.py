@@ -21,9 +21,9 @@ CLOSE, FAIR = 5.0, 15.0
 READING = (
     "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
     "other five directions are held. This is the meaning that agrees with the paper. “Predicted” "
-    "was computed from the paper's data and our stated choices, “calibrated” was fitted to these "
-    "very tables or belongs to a model chosen for its fit, and “not reproducible” cannot be met by "
-    "any model tried; it is shown beside ours and not rescaled."
+    "was computed from the paper's data and our stated choices; “calibrated” has something fitted "
+    "to means of Table 4, or belongs to the model that was chosen for its fit; “not reproducible” "
+    "is a variance that no model tried meets within a factor of two. Nothing is rescaled."
 )
 
 
@@ -36,15 +36,21 @@ def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], Dat
     rows : mapping of model to tuple of PublishedRow
         The same rows in the same order for every model.
     """
-    columns = [Column("row", "", False), Column("quantity", "", False), Column("published")]
+    columns = [Column("row", "", False), Column("quantity", "", False), Column("unit", "", False)]
+    columns.append(Column("published"))
     for name in MODEL_NAMES.values():
-        columns += [Column(name, "ours"), Column("difference"), Column("status", "", False)]
+        columns += [
+            Column("ours", "", True, name),
+            Column("difference", "", True, name),
+            Column("status", "", False, name),
+        ]
     lines: list[list[str | Cell]] = []
     for row in zip(*(rows[model] for model in MODEL_NAMES), strict=True):
         first = row[0]
         line: list[str | Cell] = [
             first.row,
-            f"{first.quantity}, {_pretty(first.unit)}",
+            first.quantity,
+            _pretty(first.unit),
             significant(first.published, 4),
         ]
         for entry in row:
@@ -55,7 +61,7 @@ def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], Dat
         f"{', '.join(sorted(about))}: {note}." for note, about in _notes(rows).items()
     )
     blocks: list[Block] = [
-        Table(f"{table.paper.key}, {_label(table)}: {table.title}", columns, lines, file)
+        Table(f"{_label(table)} of the paper: {table.title}", columns, lines, file)
     ]
     if table.note:
         blocks.append(Text(table.note))
@@ -89,7 +95,8 @@ def _pretty(unit: str) -> str:
 def _difference(row: PublishedRow) -> Cell:
     size = abs(row.difference_percent)
     return Cell(
-        percent(row.difference_percent), "good" if size < CLOSE else "fair" if size < FAIR else "poor"
+        percent(row.difference_percent),
+        "good" if size < CLOSE else "fair" if size < FAIR else "poor",
     )
 
 

@@ -16,12 +16,11 @@ from reports.figures.maps import hemisphere_map
 from reports.machine_study import MODEL_NAMES, MachineStudy
 from reports.numbers import count, micro, share, significant
 from studies import QUANTILES, PoseStatus, PoseValue, Summary, write_csv, write_netcdf
-from studies.comparison import Model
 
 VIEW = (
     "Seen from above, one cell for each check point: the middle of a disc is the pole, its rim the "
     "equator of the hemisphere, where the platform stands upright. Each disc has its own scale; "
-    "▼ marks the worst point, ▲ the best."
+    "▽ marks the worst point, ▲ the best."
 )
 
 
@@ -58,8 +57,8 @@ def map_figure(
     roll = np.degrees(dataset["roll"].to_numpy())
     middle = [float(v) for v in 1e3 * position.mean(axis=0)[:2]]
     hover = [
-        f"K{axis * 2} {value:.3f} N/µm<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f}, z {1e3 * p[2]:.1f} mm"
-        f"<br>tilt {tilt(n):.0f}°, roll {r:.0f}°"
+        f"K{axis * 2} {value:.3f} N/µm<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f}, "
+        f"z {1e3 * p[2]:.1f} mm<br>tilt {tilt(n):.0f}°, roll {r:.0f}°"
         if np.isfinite(value)
         else f"no pose counts<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f} mm"
         for value, p, n, r in zip(values, position, normal, roll, strict=True)
@@ -102,8 +101,8 @@ def distribution_chapter(study: MachineStudy) -> Chapter:
         figures.append(
             Figure(
                 f"distribution-{model}",
-                f"{label[0].upper()}{label[1:]}: every check point, quartiles, extremes and "
-                "the mean, dashed.",
+                f"{label[0].upper()}{label[1:]}: every check point; box at the quartiles, "
+                "line at the median, dashed at the mean, whiskers to 1.5 times the box's height.",
                 spec,
                 f"Boxes of Kxx, Kyy and Kzz over the check points, {label}.",
                 f"stiffness-map-{model}.csv",
@@ -179,9 +178,15 @@ def poses_chapter(study: MachineStudy) -> Chapter:
 def pose_columns(first: str) -> list[Column]:
     """Columns of `pose_rows`."""
     return [
-        Column(first, "", False), Column("axis", "", False), Column("", "", False),
-        Column("stiffness", "N/µm"), Column("x", "mm"), Column("y", "mm"), Column("z", "mm"),
-        Column("tilt", "deg"), Column("roll", "deg"),
+        Column(first, "", False),
+        Column("axis", "", False),
+        Column("", "", False),
+        Column("stiffness", "N/µm"),
+        Column("x", "mm"),
+        Column("y", "mm"),
+        Column("z", "mm"),
+        Column("tilt", "deg"),
+        Column("roll", "deg"),
     ]
 
 
@@ -192,8 +197,15 @@ def pose_rows(label: str, dataset: xr.Dataset, found: Summary) -> list[list[str]
     def row(axis: str, word: str, pose: PoseValue) -> list[str]:
         places = [f"{1e3 * v:.2f}".replace("-", "−") for v in pose.position]
         roll = "" if pose.roll is None else f"{np.degrees(pose.roll):.0f}"
-        return [label, f"K{axis * 2}", word, micro(pose.value), *places,
-                f"{tilt(normal[pose.index]):.0f}", roll]
+        return [
+            label,
+            f"K{axis * 2}",
+            word,
+            micro(pose.value),
+            *places,
+            f"{tilt(normal[pose.index]):.0f}",
+            roll,
+        ]
 
     return [
         row(axis, word, pose)
@@ -213,7 +225,12 @@ def dropped_table(maps: Mapping[str, xr.Dataset], first: str) -> Table:
         lost = dataset.sizes["point"] - int(dataset.attrs["points_kept"])
         if lost:
             rows.append([label, f"{count(lost, 'check point')} without any candidate left", "", ""])
-    columns = (Column(first, "", False), Column("", "", False), Column("candidates"), Column("share"))
+    columns = (
+        Column(first, "", False),
+        Column("", "", False),
+        Column("candidates"),
+        Column("share"),
+    )
     return Table("Candidate poses, by what became of them", columns, rows, "report.json")
 
 
@@ -232,17 +249,14 @@ def ranges_table(study: MachineStudy) -> Table:
             word = "kept" if kept == "all" or kind in kept else "not kept"
             rows.append([label, f"{kind} joints", word, *_of(int(number), total)])
     columns = (
-        Column("model", "", False), Column("ranges of the", "", False), Column("", "", False),
-        Column("candidates outside"), Column("share"),
+        Column("model", "", False),
+        Column("ranges of the", "", False),
+        Column("", "", False),
+        Column("candidates outside"),
+        Column("share"),
     )
     return Table("Candidates outside the joint ranges of Table 3", columns, rows, "report.json")
 
 
 def _of(number: int, total: int) -> list[str]:
     return [str(number), share(number / total)]
-
-
-__all__ = [
-    "Model", "axis_values", "distribution_chapter", "dropped_table", "map_chapter", "map_figure",
-    "map_files", "pose_columns", "pose_rows", "poses_chapter", "statistics_table",
-]

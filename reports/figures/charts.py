@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.figures.theme import AXIS_COLOURS, INK, PALETTE, axis, layout, rounded
+from reports.figures.theme import AXIS_COLOURS, INK, LEGEND, PALETTE, axis, layout, rounded
+from reports.numbers import significant
 from reports.page import plain
 
 Array = NDArray[Any]
@@ -92,9 +94,9 @@ def grouped(categories: Sequence[str], bars: Sequence[Bars], title: str) -> dict
             "name": plain(b.name),
             "x": [plain(c) for c in categories],
             "y": rounded(b.values),
-            "text": [f"{v:.3g}" for v in np.asarray(b.values, dtype=float)],
+            "text": [significant(float(v)) for v in np.asarray(b.values, dtype=float)],
             "textposition": "outside",
-            "textangle": 0,
+            "textangle": -90,
             "textfont": {"size": 11},
             "cliponaxis": False,
             "marker": {
@@ -109,13 +111,20 @@ def grouped(categories: Sequence[str], bars: Sequence[Bars], title: str) -> dict
     return {
         "data": traces,
         "layout": layout(
-            barmode="group", bargap=0.25, yaxis=axis(title, rangemode="tozero"), xaxis=axis("")
+            barmode="group",
+            bargap=0.2,
+            xaxis=axis(""),
+            # room for the numbers on top
+            yaxis=axis(title, range=[0, 1.18 * max(float(np.max(b.values)) for b in bars)]),
         ),
     }
 
 
 def stacked_shares(
-    categories: Sequence[str], shares: Mapping[str, ArrayLike], title: str
+    categories: Sequence[str],
+    shares: Mapping[str, ArrayLike],
+    title: str,
+    colours: Mapping[str, str] = MappingProxyType({}),
 ) -> dict[str, Any]:
     """Horizontal bars of 100 %, one for each category, parted by cause.
 
@@ -126,6 +135,8 @@ def stacked_shares(
         Percent.
     title : str
         Of the axis.
+    colours : mapping of cause to str
+        Where a cause has its own colour in every chart.
     """
     patterns = ("", "/", "", ".", "", "\\", "", "x")
     traces = []
@@ -143,7 +154,9 @@ def stacked_shares(
                 "insidetextanchor": "middle",
                 "textangle": 0,
                 "marker": {
-                    "color": OTHERS if name == REST else PALETTE[i % len(PALETTE)],
+                    "color": colours.get(
+                        name, OTHERS if name == REST else PALETTE[i % len(PALETTE)]
+                    ),
                     "line": {"color": "#ffffff", "width": 1},
                     "pattern": {
                         "shape": patterns[(i // len(PALETTE)) % len(patterns)],
@@ -161,6 +174,7 @@ def stacked_shares(
             bargap=0.3,
             xaxis=axis(title, range=[0, 100], ticksuffix=" %"),
             yaxis=axis("", autorange="reversed", ticks=""),
+            legend=LEGEND | {"traceorder": "normal"},
         ),
     }
 

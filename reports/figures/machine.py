@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from kinematics import Placement
 from machines import ThreeLegs
-from machines.legs import full, seat
+from machines.legs import seat
 from reports.figures.shapes import Shape, ball, cylinder, mesh, plate
 from reports.figures.solid import (
     DrawnJoint,
@@ -49,7 +49,8 @@ def machine_view(machine: ThreeLegs, placement: Placement) -> dict[str, Any]:
     corners = np.array([at[seat(i)] for i in (1, 2, 3)])
     beams = {frozenset(b.nodes) for b in machine.structure.beams}
     rigid = [
-        (at[a], at[b]) for a, b in machine.skeleton()
+        (at[a], at[b])
+        for a, b in machine.skeleton()
         if frozenset((a, b)) not in beams and not np.allclose(at[a], at[b])
     ]
     traces = [
@@ -73,7 +74,7 @@ def drawn_joints(machine: ThreeLegs, placement: Placement) -> list[DrawnJoint]:
     drawn = []
     for joint, frame in zip(machine.linkage.joints, placement.frames, strict=True):
         point = at[joint.between[1]]
-        leg, _, kind = joint.name.partition("/")
+        _leg, _, kind = joint.name.partition("/")
         if kind == "guide":
             point = machine.base_radius * frame[:, 0]
             start = np.arctan2(point[1], point[0])

@@ -60,7 +60,7 @@ def hemisphere_map(
         "colorbar": {
             "orientation": "h",
             "x": 0.5,
-            "y": -0.02 if small else -0.17,
+            "y": -0.02 if small else -0.24,
             "yanchor": "top",
             "len": 0.95,
             "thickness": 10 if small else 14,
@@ -82,16 +82,16 @@ def hemisphere_map(
     bare: dict[str, Any] = {"showgrid": False, "zeroline": False}
     if small:
         bare |= {"visible": False}
-    span = 1.06 * float(np.hypot(x, y).max())
+    span = 1.1 * float(np.hypot(x, y).max())
     return {
         "data": marks,
         "layout": layout(
             xaxis=axis("x (mm)", constrain="domain", range=[-span, span], **bare),
-            yaxis=axis(
-                "y (mm)", scaleanchor="x", constrain="domain", range=[-span, span], **bare
-            ),
-            margin={"l": 6, "r": 6, "t": 24, "b": 62} if small else {"l": 52, "r": 10, "t": 30, "b": 110},
-            legend={"orientation": "h", "x": 0.5, "xanchor": "center", "y": 1.0, "yanchor": "bottom"},
+            yaxis=axis("y (mm)", scaleanchor="x", constrain="domain", range=[-span, span], **bare),
+            margin={"l": 6, "r": 6, "t": 24, "b": 62}
+            if small
+            else {"l": 52, "r": 10, "t": 30, "b": 122},
+            legend={"orientation": "h", "x": -0.1, "y": 1.01, "yanchor": "bottom"},
             showlegend=not small,
         ),
     }
@@ -109,6 +109,7 @@ def _marks(
         "name": name,
         "text": hover,
         "hoverinfo": "text" if hover else "skip",
+        "cliponaxis": False,
         "marker": {
             "symbol": symbol,
             "size": size,

@@ -20,7 +20,7 @@ from reports.figures.solid import (
     straight,
     turning,
 )
-from reports.figures.theme import rounded
+from reports.figures.theme import LEGEND, rounded
 from reports.page import plain
 
 Array = NDArray[Any]
@@ -50,10 +50,16 @@ def model_view(model: Model) -> dict[str, Any]:
         traces.append(segments(spokes, "rigid body", "#3d4854", 5))
     pairs = [tuple(at[n] for n in s.nodes) for s in structure.springs if len(s.nodes) == 2]
     if pairs:
-        traces.append(segments(pairs, "spring", "#7a5cc0", 5, line={"color": "#7a5cc0", "dash": "dot", "width": 5}))
+        traces.append(
+            segments(
+                pairs, "spring", "#7a5cc0", 5, line={"color": "#7a5cc0", "dash": "dot", "width": 5}
+            )
+        )
     grounded = [s for s in structure.springs if len(s.nodes) == 1]
     if grounded:
-        shapes = [ball(at[s.nodes[0]], 0.6 * symbol, f"{s.name}: spring to ground") for s in grounded]
+        shapes = [
+            ball(at[s.nodes[0]], 0.6 * symbol, f"{s.name}: spring to ground") for s in grounded
+        ]
         traces.append(mesh(shapes, "spring to ground", "#7a5cc0"))
     traces += joint_traces(_joints(model, at, symbol), symbol)
     if model.tool is not None:
@@ -63,7 +69,9 @@ def model_view(model: Model) -> dict[str, Any]:
     return scene(traces)
 
 
-def deformed_view(model: Model, shape: Array, moved: Array, case: LoadCase, label: str) -> dict[str, Any]:
+def deformed_view(
+    model: Model, shape: Array, moved: Array, case: LoadCase, label: str
+) -> dict[str, Any]:
     """The undeformed lines in grey and the exaggerated ones, coloured by displacement.
 
     Parameters
@@ -87,23 +95,34 @@ def deformed_view(model: Model, shape: Array, moved: Array, case: LoadCase, labe
         "width": 8,
         "showscale": True,
         "colorbar": {
-            "title": {"text": label, "side": "right"},
+            "orientation": "h",
+            "title": {"text": label, "side": "top"},
             "thickness": 14,
             "len": 0.8,
-            "x": 1.0,
+            "x": 0.5,
+            "y": 0.0,
+            "yanchor": "top",
             "outlinewidth": 0,
         },
     }
     texts = [f"{m * 1e6:.4g} µm" if np.isfinite(m) else "" for m in moved]
-    bent = path(shape, "deformed", "#000000", 8, line=scale, hoverinfo="text", text=texts, showlegend=False)
+    bent = path(
+        shape, "deformed", "#000000", 8, line=scale, hoverinfo="text", text=texts, showlegend=False
+    )
     traces = [segments(resting, "undeformed", "#8a94a0", 3), bent]
     arrows = _arrows(model, case, at)
     if arrows is not None:
         traces.append(path(arrows, "force", "#a02c2c", 5))
-    return scene(traces)
+    figure = scene(traces)
+    # room below for the colour bar, above the legend
+    figure["layout"]["margin"] = figure["layout"]["margin"] | {"b": 100}
+    figure["layout"]["legend"] = LEGEND
+    return figure
 
 
-def deformed_shape(model: Model, solution: StaticSolution, case: int, factor: float) -> tuple[Array, Array]:
+def deformed_shape(
+    model: Model, solution: StaticSolution, case: int, factor: float
+) -> tuple[Array, Array]:
     """Points of the deformed lines, (n, 3) in m, and the true displacement there, (n,) in m.
 
     Along a beam element between the cubic (Hermite) shape of its end displacements and
@@ -171,7 +190,8 @@ def _rigid_groups(model: Model) -> list[tuple[str, ...]]:
     flexible = structure.flexible_bodies
     names = structure.linkage.body_names
     bodies = [
-        b for b in structure.linkage.bodies
+        b
+        for b in structure.linkage.bodies
         if b.name in names and names.index(b.name) not in flexible
     ]
     return [b.nodes for b in (*structure.rigid, *bodies) if len(b.nodes) > 1]
@@ -192,7 +212,9 @@ def _joints(model: Model, at: dict[str, Array], symbol: float) -> list[DrawnJoin
     for joint, frame in zip(model.structure.linkage.joints, model.placement.frames, strict=True):
         point = at[joint.between[1]]
         driven = tuple(
-            (turning if d.startswith("r") else straight)(point, frame[:, "xyz".index(d[-1])], symbol)
+            (turning if d.startswith("r") else straight)(
+                point, frame[:, "xyz".index(d[-1])], symbol
+            )
             for d in joint.driven
         )
         style = "support" if joint.name in held else joint.type
@@ -207,8 +229,14 @@ def _nodes(model: Model, at: dict[str, Array]) -> dict[str, Any]:
         for n in model.nodes
     ]
     return {
-        "type": "scatter3d", "mode": "markers", "name": "node",
-        "x": rounded(x), "y": rounded(y), "z": rounded(z), "text": labels, "hoverinfo": "text",
+        "type": "scatter3d",
+        "mode": "markers",
+        "name": "node",
+        "x": rounded(x),
+        "y": rounded(y),
+        "z": rounded(z),
+        "text": labels,
+        "hoverinfo": "text",
         "marker": {"size": 3, "color": "#1b2430"},
     }
 

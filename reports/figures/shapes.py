@@ -99,12 +99,7 @@ def plate(corners: Array, thickness: float, label: str = "") -> Shape:
     k = len(corners)
     vertices = np.concatenate([corners - shift, corners + shift])
     caps = [t for i in range(1, k - 1) for t in ((0, i + 1, i), (k, k + i, k + i + 1))]
-    walls = [
-        t
-        for i in range(k)
-        for j in [(i + 1) % k]
-        for t in ((i, j, i + k), (j, j + k, i + k))
-    ]
+    walls = [t for i in range(k) for j in [(i + 1) % k] for t in ((i, j, i + k), (j, j + k, i + k))]
     return Shape(vertices, np.array(caps + walls), label)
 
 
@@ -112,9 +107,7 @@ def mesh(shapes: Sequence[Shape], name: str, colour: str, **changes: Any) -> dic
     """Shapes of one colour as one trace, mm."""
     starts = np.cumsum([0, *(len(s.vertices) for s in shapes)])
     x, y, z = 1e3 * np.concatenate([s.vertices for s in shapes]).T
-    i, j, k = np.concatenate(
-        [s.faces + start for s, start in zip(shapes, starts, strict=False)]
-    ).T
+    i, j, k = np.concatenate([s.faces + start for s, start in zip(shapes, starts, strict=False)]).T
     labels = [plain(s.label or name) for s in shapes for _ in range(len(s.vertices))]
     trace: dict[str, Any] = {
         "type": "mesh3d",

@@ -15,6 +15,9 @@ from reports.figures.theme import FONT, LINE, SOFT, layout, rounded
 
 Array = NDArray[Any]
 
+#: Diagonal and longest side of a scene's box in the units of its camera, at most.
+DIAGONAL, LONGEST_SIDE = 1.85, 1.55
+
 
 @dataclass(frozen=True)
 class JointStyle:
@@ -69,9 +72,7 @@ def joint_traces(drawn: Sequence[DrawnJoint], size: float) -> list[dict[str, Any
     """Joints by type as solid symbols of about `size` m, driven motions as arrows."""
     traces = []
     for key, style in JOINT_STYLES.items():
-        shapes = [
-            _symbol(j, style, size) for j in drawn if j.style == key
-        ]
+        shapes = [_symbol(j, style, size) for j in drawn if j.style == key]
         if shapes:
             traces.append(mesh(shapes, style.label, style.colour, legendgroup=key))
     arrows = [path for joint in drawn for path in joint.driven]
@@ -84,7 +85,7 @@ def joint_traces(drawn: Sequence[DrawnJoint], size: float) -> list[dict[str, Any
 def _symbol(joint: DrawnJoint, style: JointStyle, size: float) -> Shape:
     label = f"{joint.name}: {style.label}{', driven' if joint.driven else ''}"
     if style.shape == "ball":
-        return ball(joint.at, 0.8 * size, label)
+        return ball(joint.at, 0.62 * size, label)
     if style.shape == "pin":
         reach = 1.5 * size * joint.frame[:, 2]
         return cylinder(joint.at - reach, joint.at + reach, 0.32 * size, label)
@@ -92,8 +93,9 @@ def _symbol(joint: DrawnJoint, style: JointStyle, size: float) -> Shape:
 
 
 def straight(at: Array, direction: Array, size: float) -> Array:
-    """Path of a translation for `DrawnJoint.driven`, (n, 3)."""
-    return np.stack([at - 3.0 * size * direction, at + 3.0 * size * direction])
+    """Path of a translation for `DrawnJoint.driven`, beside the joint, (n, 3)."""
+    beside = at + 1.4 * size * across(direction)[0]
+    return np.stack([beside - 2.5 * size * direction, beside + 2.5 * size * direction])
 
 
 def turning(at: Array, axis: Array, size: float) -> Array:
@@ -161,12 +163,26 @@ def triad(origin: Array, rotation: Array, size: float) -> list[dict[str, Any]]:
     return [lines, letters]
 
 
-def scene(traces: Sequence[dict[str, Any]], **changes: Any) -> dict[str, Any]:
-    """A rotatable view of traces, the same scale on all axes."""
+def _bounds(traces: Sequence[dict[str, Any]]) -> tuple[Array, Array]:
+    """Box about everything drawn, with some air and no side that is flat, mm."""
+    drawn = [np.array([t[a] for a in "xyz"], dtype=float) for t in traces]
+    points = np.concatenate(drawn, axis=1)
+    low, high = np.nanmin(points, axis=1), np.nanmax(points, axis=1)
+    size = np.maximum(1.08 * (high - low), 0.2 * max(float((high - low).max()), 1e-3))
+    return (low + high - size) / 2, (low + high + size) / 2
 
-    def side(title: str) -> dict[str, Any]:
+
+def scene(traces: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """A rotatable view of traces, the same scale on all axes."""
+    low, high = _bounds(traces)
+    ratio = (high - low) * min(
+        DIAGONAL / np.linalg.norm(high - low), LONGEST_SIDE / (high - low).max()
+    )
+
+    def side(axis: int) -> dict[str, Any]:
         return {
-            "title": {"text": title},
+            "title": {"text": f"{'xyz'[axis]} (mm)"},
+            "range": [float(low[axis]), float(high[axis])],
             "backgroundcolor": "#f7f9fb",
             "gridcolor": LINE,
             "showbackground": True,
@@ -176,16 +192,21 @@ def scene(traces: Sequence[dict[str, Any]], **changes: Any) -> dict[str, Any]:
         }
 
     view = {
-        "aspectmode": "data",
+        # plotly's own equal scale lets a long structure run out of the view
+        "aspectmode": "manual",
+        "aspectratio": dict(zip("xyz", ratio.tolist(), strict=True)),
         "dragmode": "orbit",
-        "xaxis": side("x (mm)"),
-        "yaxis": side("y (mm)"),
-        "zaxis": side("z (mm)"),
-        "camera": {"eye": {"x": 1.35, "y": -1.6, "z": 1.0}, "center": {"x": 0, "y": 0, "z": -0.12}},
+        "xaxis": side(0),
+        "yaxis": side(1),
+        "zaxis": side(2),
+        "camera": {
+            "eye": {"x": 1.24, "y": -1.47, "z": 0.95},
+            "center": {"x": 0, "y": 0, "z": -0.15},
+        },
     }
     margin = {"l": 0, "r": 0, "t": 8, "b": 8}
     legend = {"orientation": "h", "x": 0, "y": 0, "yanchor": "top", "itemsizing": "constant"}
     return {
         "data": list(traces),
-        "layout": layout(scene=view, margin=margin, legend=legend, **changes),
+        "layout": layout(scene=view, margin=margin, legend=legend),
     }

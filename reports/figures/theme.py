@@ -18,6 +18,9 @@ PALETTE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#6
 AXIS_COLOURS = {"x": "#0072b2", "y": "#d55e00", "z": "#009e73"}
 MAP_SCALE = "Viridis"
 
+#: Below the plot: above it the buttons would cover it.
+LEGEND = {"orientation": "h", "x": 0, "y": 0, "yanchor": "bottom", "yref": "container"}
+
 
 def layout(**changes: Any) -> dict[str, Any]:
     """Layout of a plot, with `changes` on top."""
@@ -27,8 +30,7 @@ def layout(**changes: Any) -> dict[str, Any]:
         "paper_bgcolor": "#ffffff",
         "plot_bgcolor": "#ffffff",
         "margin": {"l": 60, "r": 16, "t": 34, "b": 52},
-        # below the plot: above it the buttons would cover it
-        "legend": {"orientation": "h", "x": 0, "y": 0, "yanchor": "bottom", "yref": "container"},
+        "legend": LEGEND,
         "hoverlabel": {"font": {"family": FONT, "size": 13}},
         "colorway": list(PALETTE),
     }

@@ -26,6 +26,12 @@
     const drawing = figure.querySelector(".drawing");
     try {
       const spec = JSON.parse(figure.querySelector("script").textContent);
+      if (spec.layout.scene) {
+        // in a narrow window the view needs more room around it, or its labels are cut
+        const { eye } = spec.layout.scene.camera;
+        const away = Math.min(1.35, Math.max(1, 700 / drawing.clientWidth));
+        for (const side of ["x", "y", "z"]) eye[side] *= away;
+      }
       const modeBarButtons = spec.layout.scene ? solid : flat;
       await Plotly.newPlot(drawing, spec.data, spec.layout, { ...config, modeBarButtons });
       if (spec.layout.scene) {

@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -34,6 +35,22 @@ FLAGS = (
 )
 
 
+COUNT_COLOURS = """
+(async () => {
+  const picture = new Image();
+  picture.src = URL;
+  await picture.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = picture.width;
+  canvas.height = picture.height;
+  const context = canvas.getContext("2d");
+  context.drawImage(picture, 0, 0);
+  const data = context.getImageData(0, 0, picture.width, picture.height).data;
+  return new Set(new Uint32Array(data.buffer)).size;
+})()
+"""
+
+
 class Browser:
     """One tab, with everything it logs and asks for."""
 
@@ -51,9 +68,7 @@ class Browser:
     def send(self, method: str, **parameters: Any) -> dict[str, Any]:
         """Send a command and wait for its answer; events that come between are kept."""
         self._number += 1
-        self._socket.send(
-            json.dumps({"id": self._number, "method": method, "params": parameters})
-        )
+        self._socket.send(json.dumps({"id": self._number, "method": method, "params": parameters}))
         while True:
             message = json.loads(self._socket.recv())
             if message.get("id") == self._number:
@@ -76,7 +91,8 @@ class Browser:
         self.requests.clear()
         self.resize(width, height)
         url = page.resolve().as_uri()
-        self.send("Page.navigate", url=url)
+        answer = self.send("Page.navigate", url=url)
+        assert "errorText" not in answer, (url, answer["errorText"])
         # the old document answers until the new one has begun
         arrived = f"location.href === {json.dumps(url)} && document.readyState === 'complete'"
         self.wait_for(f"{arrived} && document.documentElement.dataset.plots !== undefined")
@@ -103,10 +119,24 @@ class Browser:
         answer = self.send("Page.captureScreenshot", format="png", **parameters)
         return base64.b64decode(answer["data"])
 
+    def colours(self, selector: str) -> int:
+        """How many colours an element shows on the screen."""
+        box = self.evaluate(
+            f"(() => {{ const box = document.querySelector({json.dumps(selector)})"
+            ".getBoundingClientRect(); return { x: box.x + scrollX, y: box.y + scrollY,"
+            " width: box.width, height: box.height }; })()"
+        )
+        picture = self.screenshot(clip=box | {"scale": 1}, captureBeyondViewport=True)
+        url = json.dumps("data:image/png;base64," + base64.b64encode(picture).decode())
+        number: int = self.evaluate(COUNT_COLOURS.replace("URL", url))
+        return number
+
     @property
     def network(self) -> list[str]:
         """Addresses asked for that are neither files nor in the page itself."""
-        return [url for url in self.requests if urlsplit(url).scheme not in ("file", "data", "blob")]
+        return [
+            url for url in self.requests if urlsplit(url).scheme not in ("file", "data", "blob")
+        ]
 
     def _note(self, message: dict[str, Any]) -> None:
         method, values = message.get("method"), message.get("params", {})
@@ -157,8 +187,6 @@ def _port(profile: Path, process: subprocess.Popen[bytes]) -> int:
 
 def _tab(port: int) -> str:
     """Address of the first tab's DevTools socket."""
-    import urllib.request
-
     with urllib.request.urlopen(f"http://127.0.0.1:{port}/json/list", timeout=60) as answer:
         tabs = json.load(answer)
     address: str = next(t["webSocketDebuggerUrl"] for t in tabs if t["type"] == "page")

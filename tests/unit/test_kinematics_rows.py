@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from kinematics import (
     GROUND,
@@ -84,9 +85,12 @@ def test_a_rigid_motion_of_everything_moves_only_what_holds_the_ground() -> None
     np.testing.assert_allclose(read[3:6], frames[0].T @ turn, atol=1e-15)
 
 
-def test_characteristic_length_is_half_the_extent_of_the_reachable_poses() -> None:
-    placement = Placement(np.array([[0, 0, 0], [4.0, 1, 1]]), np.zeros((0, 3, 3)), np.zeros(0))
-    assert characteristic_length(placement) == 2.0
+def test_characteristic_length_is_the_reach_from_the_centre_and_no_turn_changes_it() -> None:
+    points = np.array([[0, 0, 0], [4.0, 1, 1]])
+    turned = points @ Rotation.from_rotvec([0.3, -0.8, 1.1]).as_matrix().T + 5.0
+    for positions in (points, turned):
+        placement = Placement(positions, np.zeros((0, 3, 3)), np.zeros(0))
+        assert characteristic_length(placement) == pytest.approx(np.sqrt(18) / 2, rel=1e-14)
 
 
 def test_nodes_of_a_joint_that_do_not_meet_are_named_with_their_distance_and_pose() -> None:

@@ -69,15 +69,15 @@ def test_a_rigid_group_in_a_flexible_body_is_the_limit_of_a_stiff_beam() -> None
         if rigid:
             result.rigid("block", "a", "b")
         else:
-            hard = type(STEEL).isotropic(205e9 * 1e5, 0.29)
+            hard = type(STEEL).isotropic(205e9 * 1e4, 0.29)
             result.beam("block", "a", "b", BAR, hard)
         result.support("root")
         return result
 
     exact, nearly = tool_compliance(model(True).place()), tool_compliance(model(False).place())
     scale = np.sqrt(np.outer(np.diag(exact), np.diag(exact)))
-    assert np.abs((nearly - exact) / scale).max() < 2e-5
-    assert np.abs((nearly - exact) / scale).max() > 1e-9
+    # the block's own flexibility is about 1e-4 of its neighbours'
+    assert 1e-9 < np.abs((nearly - exact) / scale).max() < 4e-4
 
 
 def test_both_ends_of_a_beam_in_one_rigid_body_carry_nothing() -> None:
@@ -216,7 +216,7 @@ def test_a_joint_inside_one_rigid_body_has_nothing_to_hold() -> None:
     """Its rows vanish up to the rounding of coordinates that nearly coincide."""
     model = Model("tool")
     model.ground(base=(0, 0, 0))
-    model.nodes(tool=(1, 0, 0), other=(1, 0, 1e-10))
+    model.nodes(tool=(1, 0, 0), other=(1, 1e-10, 0))
     model.joint("hold", "revolute", ("base", "root"), (0, 0, 1), stiffness={"rz": 100.0})
     model.joint("idle", "spherical", ("tool", "other"))
     model.rigid("body", "root", "tool", "other")

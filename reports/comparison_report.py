@@ -1,0 +1,66 @@
+"""The report that compares the four machines of Azulay et al. 2014."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from machines.published_azulay import AZULAY_2014
+from reports.chapters.closing import closing_chapter
+from reports.chapters.comparison import (
+    assumptions_chapter,
+    budget_chapter,
+    drawings_chapter,
+    maps_chapter,
+    poses_chapter,
+    published_chapter,
+    rankings_chapter,
+    reasons_chapter,
+    summary_chapter,
+)
+from reports.content import Chapter
+from reports.machine_study import FILTERS, MODEL_NAMES, Comparison, Teller, study_comparison
+from studies.description import parameters, plain
+
+
+def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[Chapter, ...]]:
+    """Title, subtitle and chapters of the comparison."""
+    study = study_comparison(progress)
+    chapters = [
+        summary_chapter(study),
+        drawings_chapter(study),
+        rankings_chapter(study),
+        published_chapter(study),
+        reasons_chapter(study),
+        maps_chapter(study),
+        budget_chapter(study),
+        poses_chapter(study),
+        assumptions_chapter(study),
+    ]
+    chapters.append(closing_chapter("azulay-2014", _settings(), _content(study), chapters))
+    return (
+        "Four parallel machines on a circular guide: static stiffness",
+        AZULAY_2014.citation,
+        tuple(chapters),
+    )
+
+
+def _settings() -> dict[str, Any]:
+    kinds = "all" if FILTERS.joint_kinds is None else ", ".join(FILTERS.joint_kinds)
+    return {
+        "check points": "317 on a hemisphere of 4 mm",
+        "rolls": "24 over 120 deg",
+        "joint ranges kept": kinds,
+        "condition limit": f"{FILTERS.condition_limit:g}",
+        "drives": "held by their stiffness",
+    }
+
+
+def _content(study: Comparison) -> dict[str, Any]:
+    return {
+        "filters": plain(FILTERS),
+        "parameters": {
+            f"{name}, {MODEL_NAMES[model]}": parameters(machine)
+            for (name, model), machine in study.machines.items()
+        },
+        **study.azulay.to_dict(),
+    }

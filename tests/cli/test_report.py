@@ -1,0 +1,46 @@
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from tests.cli.conftest import Program
+from tests.model_files import EXAMPLES, SAMPLE, Content, put, sample
+
+
+def test_report_of_a_model_file(strutwork: Program, tmp_path: Path) -> None:
+    folder = tmp_path / "made" / "here"
+    found = strutwork("report", EXAMPLES[0], "-o", folder, "--json").result
+    assert set(found) == {"report", "data"}
+    assert Path(found["report"]).parent == folder
+    assert Path(found["report"]).suffix == ".html"
+    assert found["data"]
+    written = set(folder.iterdir())
+    assert written == {Path(found["report"]), *map(Path, found["data"])}
+
+
+def test_path_for_people(strutwork: Program, tmp_path: Path) -> None:
+    run = strutwork("report", EXAMPLES[0], "-o", tmp_path)
+    assert run.status == 0
+    assert f"Report: {tmp_path / 'report.html'}" in run.out
+
+
+def test_nothing_is_written_for_a_wrong_target(
+    strutwork: Program, write: Callable[[Content], Path], tmp_path: Path
+) -> None:
+    folder = tmp_path / "out"
+    wrong = write(sample(put("beams.0.section", "q")))
+    for target, expected in (("hexapod", "hexapod"), (str(wrong), '"q"')):
+        run = strutwork("report", target, "-o", folder, "--json")
+        assert (run.status, run.out) == (1, "")
+        assert expected in run.err
+        assert not folder.exists()
+
+
+def test_folder_that_is_a_file(
+    strutwork: Program, write: Callable[[Content], Path], tmp_path: Path
+) -> None:
+    blocked = tmp_path / "blocked"
+    blocked.write_text("", encoding="utf-8")
+    run = strutwork("report", write(SAMPLE), "-o", blocked, "--json")
+    assert (run.status, run.out) == (1, "")
+    assert "blocked" in run.err
