@@ -100,7 +100,7 @@ def reduce_system(system: System, geometric: Array | None = None) -> Reduced:
     """
     no_gaps = np.zeros((system.poses, len(system.row_labels), 0))
     basis, _ = joint_coordinates(system, no_gaps)
-    d = scales(system)[:, None]
+    d = scales(system)[..., None]
     closing = closing_rows(system)
     if len(closing):
         rows = system.rows[:, closing] @ basis
