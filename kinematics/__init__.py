@@ -18,6 +18,7 @@ from kinematics.rows import (
     ConstraintRows,
     body_references,
     characteristic_length,
+    characteristic_lengths,
     constraint_rows,
 )
 
@@ -41,6 +42,7 @@ __all__ = [
     "axes_frame",
     "body_references",
     "characteristic_length",
+    "characteristic_lengths",
     "check_coincidence",
     "constraint_rows",
     "cross_matrix",

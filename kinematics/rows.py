@@ -146,10 +146,12 @@ def characteristic_length(placement: Placement) -> float:
     The largest distance of a node from the centre of all nodes, which no turn of the machine
     changes; the median over the reachable poses.
     """
+    sizes = characteristic_lengths(placement)[placement.reachable]
+    return float(np.median(sizes)) if sizes.size else 1.0
+
+
+def characteristic_lengths(placement: Placement) -> Array:
+    """`characteristic_length` of every pose by itself, (...), m: no pose sees its neighbours."""
     points = placement.positions.real
-    good = points[placement.reachable]
-    if good.size == 0:
-        return 1.0
-    reach = np.linalg.norm(good - good.mean(axis=-2, keepdims=True), axis=-1).max(axis=-1)
-    size = float(np.median(reach))
-    return size if size > 0 else 1.0
+    reach = np.linalg.norm(points - points.mean(axis=-2, keepdims=True), axis=-1).max(axis=-1)
+    return np.asarray(np.where(reach > 0, reach, 1.0))

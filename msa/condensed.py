@@ -47,7 +47,7 @@ def solve_condensed(system: System, load: Array, gaps: Array) -> Unknowns:
     check_consistent(system, rows, gaps)
     free = free_unknowns(system)
     check_held(system, free, load)
-    d = scales(system)[:, None]
+    d = scales(system)[..., None]
     basis, particular = joint_coordinates(system, gaps)
     closing = closing_rows(system)
     a = system.rows[:, closing]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import body_references, characteristic_length, constraint_rows
+from kinematics import body_references, characteristic_lengths, constraint_rows
 from kinematics.mobility import RANK_TOLERANCE
 from msa.assembly import System
 from msa.structure import rigid_map
@@ -56,10 +56,14 @@ class Rows:
 
 
 def scales(system: System) -> Array:
-    """Scales D of the unknowns, (n,): one for translations, 1/length for rotations."""
-    length = characteristic_length(system.placed.placement)
-    block = np.repeat([1.0, 1.0 / length], 3)
-    return np.tile(block, system.topology.size // 6)
+    """Scales D of the unknowns, (p, n): one for translations, 1/length for rotations.
+
+    Every pose has its own length, so that the forces of redundant joints, which depend on
+    it, do not depend on the other poses of a batch.
+    """
+    turn = np.repeat(1.0 / characteristic_lengths(system.placed.placement)[:, None], 3, axis=1)
+    block = np.concatenate([np.ones_like(turn), turn], axis=1)
+    return np.tile(block, (1, system.topology.size // 6))
 
 
 def orthonormal_rows(system: System) -> Rows:
@@ -67,7 +71,7 @@ def orthonormal_rows(system: System) -> Rows:
 
     Rank is decided on rows of unit size, at `kinematics.mobility.RANK_TOLERANCE`.
     """
-    scaled = system.rows * scales(system)
+    scaled = system.rows * scales(system)[:, None]
     size = np.linalg.norm(scaled, axis=-1)
     size = np.where(size == 0, 1.0, size)
     scaled = scaled / size[..., None]
@@ -129,7 +133,7 @@ def free_unknowns(system: System) -> Array:
     bodies = len(linkage.body_names)
     if bodies == 0:
         return np.zeros((system.poses, 0, 0))
-    length = characteristic_length(placement)
+    length = characteristic_lengths(placement)[:, None, None, None]
     references = body_references(linkage, placement)
     rows = [constraint_rows(linkage, placement).on_bodies(references)]
     owner, index = linkage.body_of_node, linkage.node_index
@@ -165,7 +169,7 @@ def free_unknowns(system: System) -> Array:
             continue
         arm = system.placed.positions[:, node] - references[:, b]
         result[:, v] = rigid_map(arm) @ twists[:, b]
-    scaled = result.reshape(system.poses, -1, k) / scales(system)[:, None]
+    scaled = result.reshape(system.poses, -1, k) / scales(system)[..., None]
     left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
     return np.asarray(left * (sizes > 1e-12 * np.maximum(sizes[:, :1], 1e-30))[:, None, :])
 

@@ -35,7 +35,7 @@ def check_held(system: System, free: Array, load: Array) -> None:
     """
     if free.shape[-1] == 0:
         return
-    scaled = load * scales(system)[:, None]
+    scaled = load * scales(system)[..., None]
     work = np.abs(np.swapaxes(free, -1, -2) @ scaled)
     size = np.linalg.norm(scaled, axis=1)[:, None, :]
     excited = work > WORK_TOLERANCE * np.maximum(size, 1e-300)

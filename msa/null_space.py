@@ -88,7 +88,7 @@ def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
     check_consistent(system, rows, gaps)
     free = free_unknowns(system)
     check_held(system, free, load)
-    d = scales(system)[:, None]
+    d = scales(system)[..., None]
     basis, particular = joint_coordinates(system, gaps)
     closing = closing_rows(system)
     stiffness = system.stiffness
@@ -182,6 +182,6 @@ def _definite_solve(system: System, matrix: Array, right: Array) -> Array:
 def multipliers(system: System, displacements: Array, load: Array) -> Array:
     """Multipliers that balance the structure: the least solution of Aᵀ λ = F − K u."""
     rows = orthonormal_rows(system)
-    d = scales(system)[:, None]
+    d = scales(system)[..., None]
     unbalanced = (load - system.stiffness @ displacements) * d
     return rows.multipliers(rows.basis @ unbalanced)

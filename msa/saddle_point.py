@@ -80,8 +80,8 @@ def solve_saddle_point(system: System, load: Array, gaps: Array) -> Unknowns:
     check_consistent(system, rows, gaps)
     free = free_unknowns(system)
     check_held(system, free, load)
-    d = scales(system)[:, None]
-    stiffness = system.stiffness * (d * d.T)
+    d = scales(system)[..., None]
+    stiffness = system.stiffness * (d * np.swapaxes(d, -1, -2))
     size = np.abs(stiffness).max(axis=(1, 2), initial=0.0)
     size = np.where(size == 0, 1.0, size)[:, None, None]
     extra = np.concatenate([rows.basis, np.swapaxes(free, -1, -2)], axis=1)
@@ -131,7 +131,7 @@ def checked(
     system: System, displacements: Array, multipliers: Array, load: Array, gaps: Array
 ) -> Unknowns:
     """The solution with its residuals checked: K u + Aᵀ λ − F, and A u − g."""
-    d = scales(system)[:, None]
+    d = scales(system)[..., None]
     inner = system.stiffness @ displacements
     held = np.swapaxes(system.rows, -1, -2) @ multipliers
     residual = np.abs((inner + held - load) * d).max(axis=(1, 2), initial=0.0)

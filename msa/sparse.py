@@ -35,7 +35,7 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
         raise ModelError("sparse solver", f"got {system.poses} poses.", "Give it one at a time.")
     free = free_unknowns(system)
     check_held(system, free, load)
-    d = scales(system)
+    d = scales(system)[0]
     k = sp.diags_array(d) @ system.sparse_stiffness @ sp.diags_array(d)
     size = abs(k).max() if k.nnz else 1.0
     basis, weights, target = _orthonormal_blocks(system, gaps[0], d)

@@ -214,7 +214,7 @@ def moves_freely(placed: PlacedStructure) -> NDArray[np.bool_]:
     result = np.zeros(placed.batch, dtype=bool)
     for start in range(0, len(result), JACOBIAN_PIECE):
         system = system_of(placed[start : start + JACOBIAN_PIECE])
-        scale = scales(system)[:, None]
+        scale = scales(system)[..., None]
         load = system.tool_load() * scale
         work = np.abs(np.swapaxes(free_unknowns(system), -1, -2) @ load)
         size = np.linalg.norm(load, axis=1, keepdims=True)
