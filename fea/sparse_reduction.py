@@ -175,7 +175,7 @@ def _rigid(system: System, basis: sp.csc_array) -> Array:
     free = free_unknowns(system)[0]
     if not free.shape[-1]:
         return np.zeros((basis.shape[1], 0))
-    scaled = sp.csc_array(sp.diags_array(1.0 / scales(system)) @ basis)
+    scaled = sp.csc_array(sp.diags_array(1.0 / scales(system)[0]) @ basis)
     normal = factorize(sp.csc_array(scaled.T @ scaled))
     found = normal.solve(scaled.T @ free)
     return np.asarray(found + normal.solve(scaled.T @ (free - scaled @ found)))

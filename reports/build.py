@@ -18,6 +18,9 @@ from strutwork.errors import ModelError
 #: The comparison of the four machines of the paper.
 COMPARISON = "azulay-2014"
 
+#: A machine of which nothing is printed to stand beside.
+PROTOTYPE = "prototype-3ppprs"
+
 PAGE = "report.html"
 
 
@@ -76,6 +79,10 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
         from reports.comparison_report import comparison_chapters
 
         make = partial(comparison_chapters, progress)
+    elif target == PROTOTYPE:
+        from reports.prototype_report import prototype_chapters
+
+        make = partial(prototype_chapters, progress)
     elif target in CATALOGUE:
         from reports.machine_report import machine_chapters
 

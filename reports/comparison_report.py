@@ -17,6 +17,7 @@ from reports.chapters.comparison import (
     reasons_chapter,
     summary_chapter,
 )
+from reports.chapters.vibration_azulay import comparison_vibration
 from reports.content import Chapter
 from reports.machine_study import FILTERS, MODEL_NAMES, Comparison, Teller, study_comparison
 from studies.description import parameters, plain
@@ -34,11 +35,12 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         maps_chapter(study),
         budget_chapter(study),
         poses_chapter(study),
+        comparison_vibration(study.names),
         assumptions_chapter(study),
     ]
     chapters.append(closing_chapter("azulay-2014", _settings(), _content(study), chapters))
     return (
-        "Four parallel machines on a circular guide: static stiffness",
+        "Four parallel machines on a circular guide: static stiffness and vibration",
         AZULAY_2014.citation,
         tuple(chapters),
     )

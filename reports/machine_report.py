@@ -12,6 +12,7 @@ from reports.chapters.lengths import lengths_chapter
 from reports.chapters.machine import assumptions_chapter, drawing_chapter, summary_chapter
 from reports.chapters.published import READING, published_table
 from reports.chapters.stiffness import distribution_chapter, map_chapter, poses_chapter
+from reports.chapters.vibration_azulay import machine_vibration
 from reports.content import Chapter, Text
 from reports.machine_study import MODEL_NAMES, MachineStudy, Teller, study_machine
 from studies.description import parameters
@@ -40,10 +41,11 @@ def machine_chapters(
     ]
     if study.lengths:
         chapters.append(lengths_chapter(study))
+    chapters.append(machine_vibration(name))
     chapters.append(assumptions_chapter(study))
     chapters.append(closing_chapter(name, settings(study), content(study), chapters))
     return (
-        f"{study.entry.title}: static stiffness",
+        f"{study.entry.title}: static stiffness and vibration",
         f"{study.entry.topology} · {study.entry.paper.citation}",
         tuple(chapters),
     )

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from machines.model_file import read_model
 from reports.chapters.closing import closing_chapter
 from reports.chapters.model import check_chapter, structure_chapter, summary_chapter
 from reports.chapters.model_loads import forces_chapter, loads_chapter
 from reports.chapters.model_tool import budget_chapter, tool_chapter
+from reports.chapters.vibration import vibration_chapter
 from reports.content import Chapter
 from reports.model_check import check_model
 from reports.model_solution import solve_model
+from reports.vibration_study import has_mass, study_model_vibration
 
 
 def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
@@ -27,6 +30,7 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
     solution = solve_model(model) if model.cases or model.tool is not None else None
     chapters = [summary_chapter(model, check, solution), structure_chapter(model)]
     chapters.append(check_chapter(check))
+    content: dict[str, Any] = {"title": model.title}
     settings = {"model file": path.name}
     if solution is not None:
         settings["solver"] = solution.statics.method
@@ -36,9 +40,13 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
             chapters.append(tool_chapter(solution))
         if solution.compliance is not None:
             chapters.append(budget_chapter(model))
-    chapters.append(closing_chapter(path.name, settings, {"title": model.title}, chapters))
+    if model.damping is not None and has_mass(model):
+        study = study_model_vibration(model, "vibration")
+        chapters.append(vibration_chapter(study))
+        content["vibration"] = study.to_dict()
+    chapters.append(closing_chapter(path.name, settings, content, chapters))
     return (
         model.title or path.stem,
-        f"Static analysis of the model file {path.name}",
+        f"Analysis of the model file {path.name}",
         tuple(chapters),
     )

@@ -64,7 +64,7 @@ def block_on_springs(**stiffness: float) -> Model:
 def saddle_point_matrices(placed: PlacedStructure) -> tuple[Array, Array, Array]:
     """K, M and independent rows A of one pose on all unknowns, scaled to one unit."""
     system = system_of(placed)
-    d = scales(system)
+    d = scales(system)[0]
     rows = orthonormal_rows(system).basis[0]
     rows = rows[np.any(rows, axis=1)]
     outer = np.outer(d, d)

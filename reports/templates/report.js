@@ -20,6 +20,54 @@
   };
   const flat = [["toImage"], ["zoom2d", "pan2d", "resetScale2d"]];
   const solid = [["toImage"], ["orbitRotation", "zoom3d", "pan3d", "resetCameraDefault3d"]];
+  const still = window.matchMedia("(prefers-reduced-motion: reduce)");
+  // a mode swings about the shape at rest; with reduced motion each press shows the other extreme
+  const swing = (figure, drawing, { trace, rest, modes }) => {
+    const choice = figure.querySelector(".modes select");
+    const button = figure.querySelector(".modes button");
+    let phase = Math.PI / 2;
+    let before = null;
+    const show = () => {
+      const mode = modes[choice.value];
+      const turn = Math.sin(phase);
+      const at = (side) => rest[side].map((v, i) => (v === null ? null : v + turn * mode[side][i]));
+      return Plotly.restyle(drawing, { x: [at("x")], y: [at("y")], z: [at("z")] }, [trace]);
+    };
+    const stop = () => {
+      before = null;
+      button.textContent = still.matches ? "Other extreme" : "Play";
+    };
+    const frame = async (now) => {
+      if (before === null) return;
+      if (now - before >= 40) {
+        phase += (2 * Math.PI * Math.min(now - before, 100)) / 2000;
+        before = now;
+        await show();
+      }
+      requestAnimationFrame(frame);
+    };
+    button.addEventListener("click", () => {
+      if (still.matches) {
+        phase = phase > 0 && phase < Math.PI ? -Math.PI / 2 : Math.PI / 2;
+        show();
+      } else if (before === null) {
+        before = performance.now();
+        button.textContent = "Pause";
+        requestAnimationFrame(frame);
+      } else {
+        stop();
+      }
+    });
+    choice.addEventListener("change", async () => {
+      if (before === null) phase = Math.PI / 2;
+      await show();
+      if (before === null) photograph(drawing);
+    });
+    still.addEventListener("change", stop);
+    // nobody sees it: let the processor rest
+    new IntersectionObserver(([seen]) => seen.isIntersecting || stop()).observe(drawing);
+    stop();
+  };
   const solids = [];
   const failures = [];
   for (const figure of document.querySelectorAll("figure.plot")) {
@@ -38,6 +86,7 @@
         drawing.classList.add("solid");
         solids.push(drawing);
       }
+      if (spec.motion) swing(figure, drawing, spec.motion);
     } catch (error) {
       drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
       failures.push(figure.id);

@@ -118,7 +118,7 @@ def test_null_space_equals_saddle_point(name: str, eta: float, line: float) -> N
     # the tool stands for its cluster
     assert not np.any(placed.arms[node])
     k, m, rows = saddle_point_matrices(placed)
-    assert np.all(scales(system_of(placed))[6 * vertex + np.arange(3)] == 1.0)
+    assert np.all(scales(system_of(placed))[0, 6 * vertex + np.arange(3)] == 1.0)
     load = np.zeros((len(k) + len(rows), 3))
     load[6 * vertex + np.arange(3), np.arange(3)] = 1.0
     size = np.abs(k).max()

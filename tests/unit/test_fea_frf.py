@@ -109,7 +109,7 @@ def saddle_point_response(
     """Translational receptances of a node by the complex saddle-point system of one pose."""
     system = system_of(placed)
     k, m, rows = saddle_point_matrices(placed)
-    d = scales(system)
+    d = scales(system)[0]
     outer = np.outer(d, d)
     vertex = placed.structure.vertex_of_node[placed.structure.mesh_index[node]]
     assert not np.any(system.placed.arms[0, placed.structure.mesh_index[node]])

@@ -1,0 +1,260 @@
+"""Modes, frequency responses at the tool and the exact least dynamic stiffness."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fea.uff import UniversalFile, node_positions, response_records
+from fea.uff_write import write_universal
+from reports.content import Block, Cell, Chapter, Column, Figure, Note, Points, Table, Text
+from reports.data_files import DataFile, csv_file
+from reports.figures.theme import AXIS_COLOURS
+from reports.figures.vibration import drawn_amplitude, mode_lines, mode_view, responses
+from reports.numbers import count, micro, percent, significant
+from reports.vibration_study import AXES, VibrationStudy
+from studies.dynamic import GRID_STEP
+
+#: Parts of a mode's strain energy that the table names, and the least share it names, %.
+NAMED, LEAST_SHARE = 3, 3.0
+
+
+def vibration_chapter(
+    study: VibrationStudy,
+    before: Sequence[Block] = (),
+    after: Sequence[Block] = (),
+    files: Sequence[DataFile] = (),
+    assumptions: Sequence[str] = (),
+) -> Chapter:
+    """The vibration of one structure, with what a machine of the literature adds."""
+    blocks: list[Block] = [*before, modes_table(study)]
+    if study.modes.note:
+        blocks.append(Note(study.modes.note))
+    blocks += [Text(swing_text(study)), mode_figure(study)]
+    if study.response is not None:
+        blocks += [
+            response_figure(study),
+            minima_table([("", study)], f"{study.key}-minima.csv"),
+            Text(GRID_TEXT),
+        ]
+    else:
+        blocks.append(Note(f"No frequency response: {_missing(study)}."))
+    blocks += after
+    if assumptions:
+        blocks.append(Points(tuple(assumptions)))
+    return Chapter("vibration", "Vibration", tuple(blocks), (*vibration_files(study), *files))
+
+
+GRID_TEXT = (
+    "The minimum of 1/|H| over the band is that of the continuous curve, not of drawn points, and "
+    f"proved where the table says so. A harmonic sweep in steps of {GRID_STEP:g} Hz would have "
+    "shown the number in its column: always more, and the more so the narrower the resonance."
+)
+
+
+def swing_text(study: VibrationStudy) -> str:
+    """How the moving picture is to be read."""
+    return (
+        "The shapes are exaggerated: whatever the mode, its largest motion is drawn as "
+        f"{significant(1e3 * drawn_amplitude(study), 2)} mm, and every mode at the same slow pace. "
+        "Modes of one frequency may be mixed at will; the shapes shown are one choice."
+    )
+
+
+def modes_table(study: VibrationStudy, caption: str = "") -> Table:
+    """Frequencies, damping and what bends."""
+    modes, ratios = study.modes, study.found.ratios
+    rows = []
+    for i, frequency in enumerate(modes.frequencies):
+        damping = "none given" if ratios is None else f"{100 * ratios[i]:.3g} %"
+        rows.append([str(i + 1), significant(float(frequency), 4), damping, bends(study, i)])
+    rigid = int(modes.rigid_body_modes)
+    text = caption or "Natural frequencies"
+    if rigid:
+        text += f"; {count(rigid, 'rigid-body mode')} at 0 Hz"
+    return Table(
+        text,
+        (
+            Column("mode", "", False),
+            Column("frequency", "Hz"),
+            Column("equivalent damping ratio"),
+            Column("what bends: largest shares of the strain energy", "", False),
+        ),
+        rows,
+        f"{study.key}-modes.csv",
+    )
+
+
+def bends(study: VibrationStudy, mode: int) -> str:
+    """The kinds of parts that hold most of a mode's strain energy, equal legs together."""
+    shares: dict[str, float] = {}
+    for name, share in zip(study.modes.energy_parts, study.modes.energy_shares[mode], strict=True):
+        kind = re.sub(r"^(beam|joint|spring) (?:leg\d+/)?", "", name)
+        shares[kind] = shares.get(kind, 0.0) + 100.0 * float(share)
+    ordered = sorted(shares.items(), key=lambda item: -item[1])[:NAMED]
+    named = [f"{kind} {share:.0f} %" for kind, share in ordered if share >= LEAST_SHARE]
+    return ", ".join(named) or "nothing: it moves as a rigid body"
+
+
+def mode_figure(study: VibrationStudy, height: int = 560) -> Figure:
+    """Mode shapes, swinging at a button."""
+    labels = [
+        f"Mode {i + 1}, {significant(float(f), 4)} Hz"
+        for i, f in enumerate(study.modes.frequencies)
+    ]
+    return Figure(
+        f"modes-{study.key}",
+        f"{study.title}: mode shapes, grey at rest. Choose a mode and press the button.",
+        mode_view(study, labels),
+        f"Three-dimensional drawing of the mode shapes of {study.title}.",
+        f"{study.key}-mode-shapes.csv",
+        height,
+    )
+
+
+def response_figure(study: VibrationStudy) -> Figure:
+    """Driving-point receptances at the tool along x, y and z."""
+    response = study.response
+    assert response is not None  # noqa: S101 - callers have looked
+    dashes = {"x": "solid", "y": "dash", "z": "solid"}
+    curves = {
+        f"along {a}": (np.abs(response.receptance[:, i, i]), AXIS_COLOURS[a], dashes[a])
+        for i, a in enumerate(AXES)
+    }
+    marks = [
+        (f"least along {a}", one.frequency, one.value, AXIS_COLOURS[a])
+        for a, one in zip(AXES, study.least, strict=True)
+    ]
+    peaks = "; ".join(
+        f"{a} {significant(1e6 / one.value)} µm/N at {significant(one.frequency, 4)} Hz"
+        for a, one in zip(AXES, study.least, strict=True)
+    )
+    return Figure(
+        f"frf-{study.key}",
+        "Displacement of the tool per force in the same direction, amplitude per amplitude. "
+        f"Diamonds mark the exact least dynamic stiffness, the highest peak: {peaks}.",
+        responses(response.frequencies, curves, marks),
+        f"Lines of the receptance at the tool of {study.title} along x, y and z; {peaks}.",
+        f"{study.key}-frf.csv",
+    )
+
+
+def minima_table(studies: Sequence[tuple[str, VibrationStudy]], data: str) -> Table:
+    """Exact minima beside the static stiffness and a grid's minimum."""
+    columns = [
+        Column("axis", "", False),
+        Column("static", "N/µm"),
+        Column("least, exact", "N/µm"),
+        Column("at", "Hz"),
+        Column("peak", "µm/N"),
+        Column(f"on a {GRID_STEP:g} Hz grid", "N/µm"),
+        Column("grid too high by"),
+        Column("proof", "", False),
+    ]
+    if len(studies) > 1:
+        columns.insert(0, Column("", "", False))
+    rows: list[list[str | Cell]] = []
+    for name, study in studies:
+        for axis, one, grid in zip(AXES, study.least, study.grid, strict=True):
+            excess = 100.0 * (float(grid) / one.value - 1.0)
+            line: list[str | Cell] = [
+                axis,
+                "none" if one.static is None else micro(one.static),
+                micro(one.value),
+                significant(one.frequency, 5),
+                significant(1e6 / one.value),
+                micro(float(grid)) if np.isfinite(grid) else "no line",
+                Cell(percent(excess), "poor" if excess > 5 else "plain")
+                if np.isfinite(grid)
+                else "no line",
+                "finished" if one.certified else Cell("not finished", "poor"),
+            ]
+            rows.append([name, *line] if len(studies) > 1 else line)
+    low, high = studies[0][1].band
+    return Table(
+        f"Least dynamic stiffness 1/|H| at the tool from {significant(low)} to "
+        f"{significant(high)} Hz, other directions free",
+        columns,
+        rows,
+        data,
+    )
+
+
+def vibration_files(study: VibrationStudy) -> tuple[DataFile, ...]:
+    """Every plotted and tabulated number, and the responses as a universal file."""
+    modes, key, what = study.modes, study.key, study.title
+    ratios = study.found.ratios
+    files = [
+        csv_file(
+            f"{key}-modes.csv",
+            f"{what}: frequencies, damping ratios, shares of the strain energy",
+            ["mode", "frequency_Hz", "damping_ratio", *(f"share_{p}" for p in modes.energy_parts)],
+            [
+                [i + 1, float(f), None if ratios is None else float(ratios[i]), *shares.tolist()]
+                for i, (f, shares) in enumerate(
+                    zip(modes.frequencies, modes.energy_shares, strict=True)
+                )
+            ],
+        ),
+        _shape_file(study),
+    ]
+    response = study.response
+    if response is None:
+        return tuple(files)
+    diagonal = np.einsum("fii->fi", response.receptance)
+    heads = [f"{part}_{a}_m/N" for a in AXES for part in ("real", "imaginary")]
+    columns = [c for i in range(3) for c in (diagonal[:, i].real, diagonal[:, i].imag)]
+    everywhere = node_positions(study.placed.structure.mesh_nodes, study.placed.positions)
+    tool = response.outputs[0].node
+    content = UniversalFile(response_records(response), positions={tool: everywhere[tool]})
+
+    def write(path: Path) -> object:
+        return write_universal(path, content)
+
+    files += [
+        csv_file(
+            f"{key}-frf.csv",
+            f"{what}: receptances at the tool",
+            ["frequency_Hz", *heads],
+            np.column_stack([response.frequencies, *columns]).tolist(),
+        ),
+        DataFile(f"{key}-frf.uff", f"{what}: the same, all nine, as a universal file (58)", write),
+        csv_file(
+            f"{key}-minima.csv",
+            f"{what}: exact least dynamic stiffness and that of a frequency grid",
+            ["axis", "static_N/m", "least_N/m", "frequency_Hz", "peak_m/N", "grid_N/m", "proof"],
+            [
+                [a, o.static, o.value, o.frequency, 1 / o.value, float(g), o.certified]
+                for a, o, g in zip(AXES, study.least, study.grid, strict=True)
+            ],
+        ),
+    ]
+    return tuple(files)
+
+
+def _shape_file(study: VibrationStudy) -> DataFile:
+    points, motion = mode_lines(study)
+    drawn = drawn_amplitude(study) * motion
+    rows: list[list[Any]] = [
+        [m + 1, *map(float, point), *map(float, shift)]
+        for m, shifts in enumerate(drawn)
+        for point, shift in zip(points, shifts, strict=True)
+    ]
+    return csv_file(
+        f"{study.key}-mode-shapes.csv",
+        f"{study.title}: the drawn lines and their exaggerated motion; empty rows part lines",
+        ["mode", "x_m", "y_m", "z_m", "motion_x_m", "motion_y_m", "motion_z_m"],
+        rows,
+    )
+
+
+def _missing(study: VibrationStudy) -> str:
+    if study.placed.structure.linkage.tool is None:
+        return "the model has no tool"
+    if study.found.target.damping is None:
+        return "the model file gives no damping"
+    return "no mode has a frequency"

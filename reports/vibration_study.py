@@ -1,0 +1,159 @@
+"""What a vibration chapter shows of one structure: modes, responses at the tool, exact minima."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
+from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from machines.catalogue import Machine
+from machines.model import Model
+from msa import PlacedStructure
+from reports.vibration import Target, TargetModes, model_damping, target_modes
+from studies.dynamic import BAND, GRID_STEP, MODES, ONE_PERCENT, at_home
+
+Array = NDArray[Any]
+AXES = ("x", "y", "z")
+
+#: Frequency lines of a drawn response, beside those of its minima.
+LINES = 600
+
+
+@dataclass(frozen=True)
+class VibrationStudy:
+    """A structure's vibration at one pose.
+
+    Parameters
+    ----------
+    key : str
+        For names of figures and files.
+    title : str
+    found : TargetModes
+    lines : tuple of (str, str)
+        Pairs of nodes that rigid parts connect.
+    band : (float, float)
+        Hz; of the minima.
+    response : FrequencyResponse or None
+        Receptances at the tool along x, y, z; None without a tool or damping.
+    least : tuple of LeastStiffness
+        One an axis.
+    grid : (3,)
+        Least 1/|H_ii| on the multiples of `GRID_STEP`, N/m.
+    """
+
+    key: str
+    title: str
+    found: TargetModes
+    lines: tuple[tuple[str, str], ...]
+    band: tuple[float, float]
+    response: FrequencyResponse | None
+    least: tuple[LeastStiffness, ...]
+    grid: Array
+
+    def __repr__(self) -> str:
+        return f"<VibrationStudy of {self.title}: {self.modes!r}>"
+
+    @property
+    def modes(self) -> Modes:
+        """Lowest modes."""
+        return self.found.modes
+
+    @property
+    def placed(self) -> PlacedStructure:
+        """The structure."""
+        return self.found.target.placed
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers in SI."""
+        return {
+            **self.found.to_dict(),
+            "damping": str(self.found.target.damping),
+            "band": list(self.band),
+            "minima": {
+                axis: {
+                    "value": least.value,
+                    "frequency": least.frequency,
+                    "static": least.static,
+                    "certified": least.certified,
+                    "grid": float(grid),
+                }
+                for axis, least, grid in zip(AXES, self.least, self.grid, strict=False)
+            },
+        }
+
+
+def study_machine_vibration(
+    key: str, title: str, machine: Machine, damping: ModalRatio = ONE_PERCENT
+) -> VibrationStudy:
+    """A machine at home.
+
+    Raises
+    ------
+    ModelError
+        No mass or no tool.
+    """
+    placed = at_home(machine)
+    target = Target(title, key, placed, placed.structure.linkage.nodes, damping)
+    beams = {frozenset(b.nodes) for b in placed.structure.beams}
+    lines = [(a, b) for a, b in machine.skeleton() if frozenset((a, b)) not in beams]
+    return _study(target, lines, BAND)
+
+
+def study_model_vibration(model: Model, key: str) -> VibrationStudy:
+    """A model file's structure.
+
+    Raises
+    ------
+    ModelError
+        No mass, or all locked.
+    """
+    target = Target(model.title or key, key, model.placed, model.nodes, model_damping(model))
+    known = set(model.placed.structure.mesh_nodes)
+    beams = {frozenset(b.nodes) for b in model.structure.beams}
+    lines = [
+        (body.nodes[0], other)
+        for body in model.structure.linkage.bodies
+        for other in body.nodes[1:]
+        if {body.nodes[0], other} <= known and frozenset((body.nodes[0], other)) not in beams
+    ]
+    return _study(target, lines, None)
+
+
+def has_mass(model: Model) -> bool:
+    """Whether a model's structure has mass to vibrate."""
+    structure = model.structure
+    return bool(structure.masses) or any(b.material.density for b in structure.beams)
+
+
+def _study(
+    target: Target, lines: Sequence[tuple[str, str]], band: tuple[float, float] | None
+) -> VibrationStudy:
+    found = target_modes(target, MODES)
+    elastic = found.modes.frequencies[found.modes.frequencies > 0]
+    tool = target.placed.structure.linkage.tool
+    if band is None and elastic.size:
+        band = (float(elastic[0]) / 20.0, 2.0 * float(elastic[-1]))
+    if tool is None or target.damping is None or band is None:
+        span = band or (0.0, 0.0)
+        return VibrationStudy(
+            target.stem, target.title, found, tuple(lines), span, None, (), np.empty(0)
+        )
+    ports = tuple(Port(tool, axis) for axis in AXES)
+    least = tuple(least_dynamic_stiffness(target.placed, p, p, target.damping, band) for p in ports)
+    drawn = np.unique(
+        np.concatenate([np.geomspace(*band, LINES), [one.frequency for one in least]])
+    )
+    steps = np.arange(np.ceil(band[0] / GRID_STEP), np.floor(band[1] / GRID_STEP) + 1) * GRID_STEP
+    response = frequency_response(target.placed, ports, ports, drawn, target.damping, "all_modes")
+    coarse = np.full(len(AXES), np.nan)
+    if steps.size:
+        at = frequency_response(target.placed, ports, ports, steps, target.damping, "all_modes")
+        coarse = (1.0 / np.abs(np.einsum("fii->fi", at.receptance))).min(axis=0)
+    return VibrationStudy(
+        target.stem, target.title, found, tuple(lines), band, response, least, coarse
+    )
