@@ -31,6 +31,9 @@ Array = NDArray[Any]
 #: as load in the residual of a case with misfits.
 CANCELLED = 1e-5
 
+#: A refinement that changes displacements by less than this share leaves them trusted.
+TRUSTED = 1e-7
+
 
 @dataclass(frozen=True)
 class Unknowns:
@@ -86,11 +89,11 @@ def solve_saddle_point(system: System, load: Array, gaps: Array) -> Unknowns:
     size = np.where(size == 0, 1.0, size)[:, None, None]
     extra = np.concatenate([rows.basis, np.swapaxes(free, -1, -2)], axis=1)
     matrix, right = bordered(stiffness / size, extra, load * d / size, rows, gaps)
-    solution = refined_solve(system, matrix, right)
+    solution, trusted = refined_solve(system, matrix, right)
     n, r = system.topology.size, rows.basis.shape[1]
     displacements = solution[:, :n] * d
     multipliers = rows.multipliers(solution[:, n : n + r] * size)
-    return checked(system, displacements, multipliers, load, gaps)
+    return checked(system, displacements, multipliers, load, gaps, trusted)
 
 
 def bordered(
@@ -111,8 +114,16 @@ def bordered(
     return matrix, right
 
 
-def refined_solve(system: System, matrix: Array, right: Array) -> Array:
+def refined_solve(system: System, matrix: Array, right: Array) -> tuple[Array, NDArray[np.bool_]]:
     """Solve a stack of systems with one step of iterative refinement.
+
+    Returns
+    -------
+    solution : (p, n, m)
+    trusted : (p,)
+        True where the refinement hardly changed the displacements: `TRUSTED` of the largest at
+        most. Its size is that of the error of the first solution, so a pose next to a
+        mechanism is never trusted, and one whose stiffnesses only differ much is.
 
     Raises
     ------
@@ -121,21 +132,36 @@ def refined_solve(system: System, matrix: Array, right: Array) -> Array:
     """
     try:
         solution = np.linalg.solve(matrix, right)
-        solution += np.linalg.solve(matrix, right - matrix @ solution)
+        change = np.linalg.solve(matrix, right - matrix @ solution)
     except np.linalg.LinAlgError as error:
         raise mechanism_error(system, _singular_pose(matrix)) from error
-    return solution
+    n = system.topology.size
+    moved = np.abs(solution[:, :n]).max(axis=1, initial=0.0)
+    trusted = (np.abs(change[:, :n]).max(axis=1, initial=0.0) <= TRUSTED * moved).all(axis=-1)
+    return solution + change, trusted
 
 
 def checked(
-    system: System, displacements: Array, multipliers: Array, load: Array, gaps: Array
+    system: System,
+    displacements: Array,
+    multipliers: Array,
+    load: Array,
+    gaps: Array,
+    trusted: NDArray[np.bool_] | None = None,
 ) -> Unknowns:
-    """The solution with its residuals checked: K u + Aᵀ λ − F, and A u − g."""
+    """The solution with its residuals checked: K u + Aᵀ λ − F, and A u − g.
+
+    Where a misfit drives the structure, or the solution is `trusted`, the residual may be as
+    large as the rounding of the terms that cancel in K u.
+    """
     d = scales(system)[..., None]
     inner = system.stiffness @ displacements
     held = np.swapaxes(system.rows, -1, -2) @ multipliers
     residual = np.abs((inner + held - load) * d).max(axis=(1, 2), initial=0.0)
-    forced = displacements * np.any(gaps, axis=1)[:, None]
+    cancels = np.any(gaps, axis=1)
+    if trusted is not None:
+        cancels = cancels | trusted[:, None]
+    forced = displacements * cancels[:, None]
     terms = CANCELLED * np.abs(system.stiffness) @ np.abs(forced)
     size = np.maximum.reduce(
         [np.abs(part * d).max(axis=(1, 2), initial=0.0) for part in (inner, held, load, terms)]
