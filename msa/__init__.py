@@ -1,6 +1,6 @@
 """Matrix structural analysis: beams, joints and springs; the saddle-point system; the tool."""
 
-from msa.assembly import System, Topology, system_of
+from msa.assembly import System, system_of
 from msa.beam import Beam
 from msa.budget import ComplianceBudget, compliance_budget
 from msa.loads import LineLoad, LoadCase
@@ -17,6 +17,7 @@ from msa.tool import (
     tool_compliance,
     tool_stiffness,
 )
+from msa.topology import Topology
 
 __all__ = [
     "METHODS",

@@ -17,40 +17,12 @@ from numpy.typing import NDArray
 
 from kinematics import DIRECTIONS, State, constraint_rows
 from msa.beam import fixed_end_loads
-from msa.forest import Forest, spanning_forest
 from msa.loads import LoadCase
-from msa.structure import PlacedStructure, Structure, rigid_map
+from msa.structure import PlacedStructure, rigid_map
+from msa.topology import Topology
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
-
-
-@dataclass(frozen=True)
-class Topology:
-    """What a structure's assembly needs and no coordinate changes."""
-
-    structure: Structure
-
-    @cached_property
-    def forest(self) -> Forest:
-        """Spanning forest of the joints."""
-        return spanning_forest(self.structure)
-
-    @cached_property
-    def size(self) -> int:
-        """Number of unknowns before joints."""
-        return 6 * self.structure.vertex_count
-
-    @cached_property
-    def locked(self) -> NDArray[np.bool_]:
-        """Joint directions that are constraint rows, (j, 6)."""
-        return np.asarray(self.structure.linkage.states() == State.LOCKED)
-
-    @cached_property
-    def elastic_joints(self) -> tuple[int, ...]:
-        """Joints with at least one elastic direction."""
-        states = self.structure.linkage.states()
-        return tuple(int(j) for j in np.flatnonzero((states == State.ELASTIC).any(axis=1)))
 
 
 @dataclass(frozen=True)

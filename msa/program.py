@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import State
-from msa.assembly import Topology
 from msa.structure import Structure
+from msa.topology import Topology
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -52,7 +52,7 @@ def vibration_chapter(
 GRID_TEXT = (
     "The minimum of 1/|H| over the band is that of the continuous curve, not of drawn points, and "
     f"proved where the table says so. A harmonic sweep in steps of {GRID_STEP:g} Hz would have "
-    "shown the number in its column: always more, and the more so the narrower the resonance."
+    "shown the number in its column: never less, and the farther off the narrower the resonance."
 )
 
 
@@ -165,7 +165,7 @@ def minima_table(studies: Sequence[tuple[str, VibrationStudy]], data: str) -> Ta
                 axis,
                 "none" if one.static is None else micro(one.static),
                 micro(one.value),
-                significant(one.frequency, 5),
+                significant(one.frequency, 5) + _end(one.frequency, study.band),
                 significant(1e6 / one.value),
                 micro(float(grid)) if np.isfinite(grid) else "no line",
                 Cell(percent(excess), "poor" if excess > 5 else "plain")
@@ -182,6 +182,11 @@ def minima_table(studies: Sequence[tuple[str, VibrationStudy]], data: str) -> Ta
         rows,
         data,
     )
+
+
+def _end(frequency: float, band: tuple[float, float]) -> str:
+    """A word where no peak but the end of the band is the least."""
+    return ", end of band" if min(abs(frequency - b) for b in band) <= 1e-9 * band[1] else ""
 
 
 def vibration_files(study: VibrationStudy) -> tuple[DataFile, ...]:

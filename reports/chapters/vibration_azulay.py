@@ -9,6 +9,7 @@ import xarray as xr
 
 from machines import DYNAMIC_SETS, VibratingLegs, dynamic_machine, get
 from machines.published_azulay import TABLE_5
+from reports.chapters.comparison import SHORT
 from reports.chapters.vibration import (
     GRID_TEXT,
     minima_table,
@@ -51,8 +52,8 @@ INTRODUCTION = (
 
 ASSUMPTIONS = (
     (
-        "Damping: 1 % of critical in every mode, viscous; the paper prints “equivalent damping ratio "
-        "of 1 %”. Read as a loss factor it would be half as much."
+        "Damping: 1 % of critical in every mode, viscous; the paper prints “equivalent damping "
+        "ratio of 1 %”. Read as a loss factor it would be half as much."
     ),
     (
         "Roots of the links clamped to the guide, drives rigid: no stiffness of guide, carriage or "
@@ -96,7 +97,7 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
     for i, a in enumerate(AXES):
         curves, marks = {}, []
         for k, (n, study) in enumerate(studies.items()):
-            label, response = get(n).title.split(",")[0], study.response
+            label, response = SHORT[n], study.response
             if response is None:
                 continue
             # each machine has lines of its own at its peaks: draw them on those of all
@@ -120,15 +121,13 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
                 "Diamonds: exact least dynamic stiffness.",
                 spec,
                 f"Lines of the receptance along {a} of the four machines.",
-                "vibration-minima.csv",
+                "vibration-frf.csv",
                 440,
             )
         )
     blocks += [Row(tuple(figures), 420)]
     blocks += [
-        minima_table(
-            [(get(n).title.split(",")[0], s) for n, s in studies.items()], "vibration-minima.csv"
-        ),
+        minima_table([(SHORT[n], s) for n, s in studies.items()], "vibration-minima.csv"),
         Text(GRID_TEXT),
         *_frequencies(dynamics, names),
     ]
@@ -151,8 +150,21 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
             for a, o, g in zip(AXES, s.least, s.grid, strict=True)
         ],
     )
+    magnitudes = csv_file(
+        "vibration-frf.csv",
+        "receptances of the four machines as drawn; real and imaginary parts in their own files",
+        ["machine", "frequency_Hz", *(f"receptance_{a}_m/N" for a in AXES)],
+        [
+            [n, float(f), *np.abs(np.diagonal(h)).tolist()]
+            for n, s in studies.items()
+            if s.response is not None
+            for f, h in zip(s.response.frequencies, s.response.receptance, strict=True)
+        ],
+    )
     own = [f for s in studies.values() for f in vibration_files(s)]
-    return Chapter("vibration", "Vibration", tuple(blocks), (*files, minima, *own, *some, *more))
+    return Chapter(
+        "vibration", "Vibration", tuple(blocks), (*files, minima, magnitudes, *own, *some, *more)
+    )
 
 
 def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block], list[DataFile]]:
@@ -191,14 +203,14 @@ def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block]
     for row in kept:
         # the first remark says what the set is, which the assumptions say too
         for part in row.note.split("; ")[1:]:
-            about = row.row.replace(", ", " (") + f") {row.quantity[:3]}"
+            name, which = row.row.rsplit(", ", 1)
+            about = SHORT[name] if "Kxx = Kyy" in part else f"{SHORT[name]} {row.quantity[:3]}"
+            if "no platform mass" in part:
+                about = which
+            elif "Kxx = Kyy" not in part:
+                about += f", {which}"
             notes.setdefault(part, []).append(about)
-    remarks = tuple(
-        f"{part[0].upper()}{part[1:]}."
-        if len(about) > 6 and "Kxx = Kyy" not in part
-        else f"{', '.join(dict.fromkeys(about))}: {part}."
-        for part, about in notes.items()
-    )
+    remarks = tuple(f"{'; '.join(dict.fromkeys(about))}: {part}." for part, about in notes.items())
     blocks: list[Block] = [
         Table(f"Table 5 of the paper: {TABLE_5.title}, N/µm", columns, lines, file.name),
         Text(
@@ -233,17 +245,21 @@ def _rankings(dynamics: AzulayDynamics) -> Table:
     rows: list[list[str | Cell]] = []
     for a in AXES:
         published = published_dynamic_ranking(a)
-        rows.append([f"K{a * 2}", "published", " > ".join(published), ""])
+        rows.append([f"K{a * 2}", "published", _order(published), ""])
         for which in dynamics.studies:
             found = dynamics.ranking(a, which)
             same = Cell("same order", "good") if found == published else Cell("another", "poor")
-            rows.append([f"K{a * 2}", which, " > ".join(found), same])
+            rows.append([f"K{a * 2}", which, _order(found), same])
     return Table(
         "Order of the machines by least dynamic stiffness",
         [Column(h, "", False) for h in ("axis", "", "the stiffest first", "")],
         rows,
         VIBRATION_DATA,
     )
+
+
+def _order(names: Sequence[str]) -> str:
+    return " > ".join(SHORT[name] for name in names)
 
 
 def link_length_blocks() -> tuple[list[Block], list[DataFile]]:
@@ -388,7 +404,7 @@ def _curves(
             f"-{a}",
             f" along {'x and y' if a == 'x' else a}",
             {
-                get(n).title.split(",")[0]: (
+                SHORT[n]: (
                     values.sel(machine=n, axis=a).to_numpy(),
                     PALETTE[i],
                     _DASHES[i],

@@ -65,6 +65,9 @@ force = ["100 N", "-50 N", 0]
 
 [tool]
 tcp = "TCP"
+
+[damping]
+modal_ratio = 0.02
 """
 
 
@@ -85,6 +88,11 @@ def comparison_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport
 
 
 @pytest.fixture(scope="session")
+def prototype_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
+    return write_report("prototype-3ppprs", tmp_path_factory.mktemp("prototype"))
+
+
+@pytest.fixture(scope="session")
 def model_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
     folder = tmp_path_factory.mktemp("model")
     file = folder / "arm & <co>.toml"
@@ -92,7 +100,7 @@ def model_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
     return write_report(str(file), folder / "report")
 
 
-@pytest.fixture(params=["machine", "comparison", "model"])
+@pytest.fixture(params=["machine", "comparison", "prototype", "model"])
 def any_report(request: pytest.FixtureRequest) -> WrittenReport:
     """Each kind of report in turn."""
     written: WrittenReport = request.getfixturevalue(f"{request.param}_report")
