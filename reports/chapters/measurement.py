@@ -102,10 +102,14 @@ def measurement_chapter(machine: Prototype3PPPRS) -> Chapter:
                 f"measured-{_axis(port)}",
                 f"Receptance at the tool along {_axis(port)}; orange, with noise: {LABEL}.",
                 responses(
-                    response.frequencies,
                     {
-                        "synthetic measurement": (both[0], PALETTE[1], "solid"),
-                        "computed": (both[1], PALETTE[0], "solid"),
+                        "synthetic measurement": (
+                            response.frequencies,
+                            both[0],
+                            PALETTE[1],
+                            "solid",
+                        ),
+                        "computed": (response.frequencies, both[1], PALETTE[0], "solid"),
                     },
                     [],
                 ),

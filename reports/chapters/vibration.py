@@ -34,7 +34,7 @@ def vibration_chapter(
     blocks: list[Block] = [*before, modes_table(study)]
     if study.modes.note:
         blocks.append(Note(study.modes.note))
-    blocks += [Text(swing_text(study)), mode_figure(study)]
+    blocks += [Text(SWING_TEXT), mode_figure(study)]
     if study.response is not None:
         blocks += [
             response_figure(study),
@@ -56,13 +56,12 @@ GRID_TEXT = (
 )
 
 
-def swing_text(study: VibrationStudy) -> str:
-    """How the moving picture is to be read."""
-    return (
-        "The shapes are exaggerated: whatever the mode, its largest motion is drawn as "
-        f"{significant(1e3 * drawn_amplitude(study), 2)} mm, and every mode at the same slow pace. "
-        "Modes of one frequency may be mixed at will; the shapes shown are one choice."
-    )
+#: How the moving picture is to be read.
+SWING_TEXT = (
+    "The shapes are exaggerated: each mode's largest motion is drawn as the length that the "
+    "caption states, and every mode at the same slow pace. Modes of one frequency may be mixed at "
+    "will; the shapes shown are one choice."
+)
 
 
 def modes_table(study: VibrationStudy, caption: str = "") -> Table:
@@ -93,7 +92,8 @@ def bends(study: VibrationStudy, mode: int) -> str:
     """The kinds of parts that hold most of a mode's strain energy, equal legs together."""
     shares: dict[str, float] = {}
     for name, share in zip(study.modes.energy_parts, study.modes.energy_shares[mode], strict=True):
-        kind = re.sub(r"^(beam|joint|spring) (?:leg\d+/)?", "", name)
+        word, _, part = name.partition(" ")
+        kind = re.sub(r"^leg\d+/", "", part) + ("" if word == "beam" else f" {word}")
         shares[kind] = shares.get(kind, 0.0) + 100.0 * float(share)
     ordered = sorted(shares.items(), key=lambda item: -item[1])[:NAMED]
     named = [f"{kind} {share:.0f} %" for kind, share in ordered if share >= LEAST_SHARE]
@@ -108,7 +108,9 @@ def mode_figure(study: VibrationStudy, height: int = 560) -> Figure:
     ]
     return Figure(
         f"modes-{study.key}",
-        f"{study.title}: mode shapes, grey at rest. Choose a mode and press the button.",
+        f"{study.title}: mode shapes, grey at rest, yellow where a mode moves "
+        "most; the largest motion drawn as "
+        f"{significant(1e3 * drawn_amplitude(study), 2)} mm. Choose a mode and press the button.",
         mode_view(study, labels),
         f"Three-dimensional drawing of the mode shapes of {study.title}.",
         f"{study.key}-mode-shapes.csv",
@@ -122,7 +124,12 @@ def response_figure(study: VibrationStudy) -> Figure:
     assert response is not None  # noqa: S101 - callers have looked
     dashes = {"x": "solid", "y": "dash", "z": "solid"}
     curves = {
-        f"along {a}": (np.abs(response.receptance[:, i, i]), AXIS_COLOURS[a], dashes[a])
+        f"along {a}": (
+            response.frequencies,
+            np.abs(response.receptance[:, i, i]),
+            AXIS_COLOURS[a],
+            dashes[a],
+        )
         for i, a in enumerate(AXES)
     }
     marks = [
@@ -137,7 +144,7 @@ def response_figure(study: VibrationStudy) -> Figure:
         f"frf-{study.key}",
         "Displacement of the tool per force in the same direction, amplitude per amplitude. "
         f"Diamonds mark the exact least dynamic stiffness, the highest peak: {peaks}.",
-        responses(response.frequencies, curves, marks),
+        responses(curves, marks),
         f"Lines of the receptance at the tool of {study.title} along x, y and z; {peaks}.",
         f"{study.key}-frf.csv",
     )

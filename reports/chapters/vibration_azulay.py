@@ -12,10 +12,10 @@ from machines.published_azulay import TABLE_5
 from reports.chapters.comparison import SHORT
 from reports.chapters.vibration import (
     GRID_TEXT,
+    SWING_TEXT,
     minima_table,
     mode_figure,
     modes_table,
-    swing_text,
     vibration_chapter,
     vibration_files,
 )
@@ -27,7 +27,6 @@ from reports.numbers import micro, percent, significant
 from reports.vibration_study import AXES, study_machine_vibration
 from studies import (
     AzulayDynamics,
-    PublishedRow,
     azulay_table_5,
     dynamic_link_lengths,
     file_name,
@@ -100,7 +99,6 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
             label, response = SHORT[n], study.response
             if response is None:
                 continue
-            # each machine has lines of its own at its peaks: draw them on those of all
             curves[label] = (
                 response.frequencies,
                 np.abs(response.receptance[:, i, i]),
@@ -109,17 +107,12 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
             )
             least = study.least[i]
             marks.append((f"{label}, least along {a}", least.frequency, least.value, PALETTE[k]))
-        spec = responses(
-            (), {label: (values, c, d) for label, (_, values, c, d) in curves.items()}, marks
-        )
-        for trace, (lines, _, _, _) in zip(spec["data"], curves.values(), strict=False):
-            trace["x"] = [float(f"{f:.6g}") for f in lines]
         figures.append(
             Figure(
                 f"frf-{a}",
                 f"Displacement of the tool along {a} per force along {a} (content of Fig. 10). "
                 "Diamonds: exact least dynamic stiffness.",
-                spec,
+                responses(curves, marks),
                 f"Lines of the receptance along {a} of the four machines.",
                 "vibration-frf.csv",
                 440,
@@ -133,8 +126,7 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
     ]
     blocks += [modes_table(s, f"{s.title}: natural frequencies") for s in studies.values()]
     blocks += [
-        Text(swing_text(next(iter(studies.values())))),
-        Text("The length drawn differs a little with the size of the machine."),
+        Text(SWING_TEXT),
         Row(tuple(mode_figure(s, 470) for s in studies.values()), 380),
     ]
     lengths, some = link_length_blocks()
@@ -177,7 +169,6 @@ def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block]
             Column("status", "", False, which),
         ]
     lines: list[list[str | Cell]] = []
-    kept: list[PublishedRow] = []
     for rows in zip(*dynamics.rows.values(), strict=True):
         first = rows[0]
         if first.row not in names:
@@ -203,12 +194,12 @@ def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block]
     for row in kept:
         # the first remark says what the set is, which the assumptions say too
         for part in row.note.split("; ")[1:]:
-            name, which = row.row.rsplit(", ", 1)
+            name, chosen = row.row.rsplit(", ", 1)
             about = SHORT[name] if "Kxx = Kyy" in part else f"{SHORT[name]} {row.quantity[:3]}"
             if "no platform mass" in part:
-                about = which
+                about = f"set {chosen}"
             elif "Kxx = Kyy" not in part:
-                about += f", {which}"
+                about += f", {chosen}"
             notes.setdefault(part, []).append(about)
     remarks = tuple(f"{'; '.join(dict.fromkeys(about))}: {part}." for part, about in notes.items())
     blocks: list[Block] = [
@@ -271,7 +262,12 @@ def link_length_blocks() -> tuple[list[Block], list[DataFile]]:
     for a in AXES:
         at = found.sel(axis=a)
         curves = {
-            label: (at["receptance_magnitude"].isel(machine=i).to_numpy(), PALETTE[i], _DASHES[i])
+            label: (
+                frequencies,
+                at["receptance_magnitude"].isel(machine=i).to_numpy(),
+                PALETTE[i],
+                _DASHES[i],
+            )
             for i, label in enumerate(labels)
         }
         marks = [
@@ -287,7 +283,7 @@ def link_length_blocks() -> tuple[list[Block], list[DataFile]]:
             Figure(
                 f"lengths-frf-{a}",
                 f"Receptance along {a} with three link lengths; diamonds: exact minima.",
-                responses(frequencies, curves, marks),
+                responses(curves, marks),
                 f"Lines of the receptance along {a} of the proposed machine, three link lengths.",
                 "vibration-link-lengths-frf.csv",
                 420,

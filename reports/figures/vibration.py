@@ -82,7 +82,11 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
     reach = np.concatenate([points + amplitude * sign * m for m in motion for sign in (-1, 1)])
     room = path(reach, "room", "#000000", 1, visible=False)
     resting = path(points, "at rest", "#a9b2bd", 3)
-    swung = path(points + amplitude * motion[0], "swinging", "#0072b2", 7)
+    sizes = [rounded(np.nan_to_num(np.linalg.norm(m, axis=-1)), 3) for m in motion]
+    scale = {"color": sizes[0], "colorscale": "Viridis", "cmin": 0.0, "cmax": 1.0, "width": 9}
+    swung = path(
+        points + amplitude * motion[0], "swinging", "#0072b2", 9, line=scale, showlegend=False
+    )
     figure = scene([resting, swung, room])
     # the invisible trace only sized the view
     figure["data"].pop()
@@ -90,27 +94,25 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
     modes = [
         {
             "label": label,
+            "size": size,
             **dict(zip("xyz", (rounded(1e3 * amplitude * c, 4) for c in m.T), strict=True)),
         }
-        for label, m in zip(labels, motion, strict=True)
+        for label, size, m in zip(labels, sizes, motion, strict=True)
     ]
     rest = dict(zip("xyz", (rounded(1e3 * c) for c in points.T), strict=True))
     return figure | {"motion": {"trace": 1, "rest": rest, "modes": modes}}
 
 
 def responses(
-    frequencies: ArrayLike,
-    curves: Mapping[str, tuple[ArrayLike, str, str]],
+    curves: Mapping[str, tuple[ArrayLike, ArrayLike, str, str]],
     marks: Sequence[tuple[str, float, float, str]],
 ) -> dict[str, Any]:
     """Receptance magnitudes over frequency, both logarithmic, with the exact minima marked.
 
     Parameters
     ----------
-    frequencies : (f,)
-        Hz.
-    curves : mapping of name to ((f,), str, str)
-        Magnitudes, m/N; colour and dash.
+    curves : mapping of name to ((f,), (f,), str, str)
+        Frequencies, Hz; magnitudes, m/N; colour and dash.
     marks : sequence of (str, float, float, str)
         Name, frequency (Hz), least dynamic stiffness (N/m) and colour of each minimum.
     """
@@ -124,7 +126,7 @@ def responses(
             "line": {"color": colour, "width": 2, "dash": dash},
             "hovertemplate": "%{x:.5g} Hz: %{y:.4g} µm/N<extra>" + plain(name) + "</extra>",
         }
-        for name, (values, colour, dash) in curves.items()
+        for name, (frequencies, values, colour, dash) in curves.items()
     ]
     traces += [
         {

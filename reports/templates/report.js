@@ -31,7 +31,8 @@
       const mode = modes[choice.value];
       const turn = Math.sin(phase);
       const at = (side) => rest[side].map((v, i) => (v === null ? null : v + turn * mode[side][i]));
-      return Plotly.restyle(drawing, { x: [at("x")], y: [at("y")], z: [at("z")] }, [trace]);
+      const moved = { x: [at("x")], y: [at("y")], z: [at("z")], "line.color": [mode.size] };
+      return Plotly.restyle(drawing, moved, [trace]);
     };
     const stop = () => {
       before = null;
