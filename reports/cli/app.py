@@ -133,9 +133,28 @@ def map_stiffness(
     workers: Annotated[
         int | None, typer.Option(min=1, help="Threads; one a processor by default.")
     ] = None,
+    vibration: Annotated[
+        bool,
+        typer.Option("--vibration", help="Frequencies and dynamic stiffness in place of statics."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Map the stiffness of a machine over the hemisphere of its check points."""
+    if vibration:
+        if apparent:
+            raise typer.BadParameter("--apparent is a model of the statics only.")
+        from reports.cli import vibration_map
+
+        vibration_map.run(
+            machine,
+            out,
+            ranges=ranges.value,
+            lattice=lattice,
+            rolls=rolls,
+            workers=workers,
+            json=json,
+        )
+        return
     from reports.cli import stiffness as work
 
     work.run(

@@ -1,0 +1,110 @@
+"""`strutwork map --vibration`: frequencies and least dynamic stiffness over the check points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from machines import dynamic_machine, get, roll_angles
+from machines.published_azulay import TABLE_5
+from reports.cli.output import console, print_json, table
+from reports.cli.progress import shown
+from reports.cli.stiffness import RANGES
+from studies import Filters, dynamic_map, hemisphere, write_csv, write_netcdf
+
+
+def run(
+    machine: str,
+    out: str | None,
+    *,
+    ranges: str,
+    lattice: int,
+    rolls: int,
+    workers: int | None,
+    json: bool,
+) -> None:
+    """Map the vibration and print its summary.
+
+    The machines of Azulay's Table 5 are their calibrated vibrating models: roots clamped,
+    drives held, 1 % of critical damping.
+    """
+    entry = get(machine)
+    calibrated = machine in {value.row for value in TABLE_5.values}
+    made = dynamic_machine(machine, "calibrated") if calibrated else entry.factory()
+    with shown() as started:
+        dataset = dynamic_map(
+            made,
+            hemisphere(made, lattice=lattice),
+            roll_angles(rolls),
+            Filters(joint_kinds=RANGES[ranges]),
+            workers=workers,
+            progress=started(f"vibration of {machine}"),
+        )
+    result = _result(machine, "calibrated" if calibrated else "as in the catalogue", dataset)
+    if out is not None:
+        name = f"{machine}-vibration-map"
+        written = [
+            write_netcdf(Path(out) / f"{name}.nc", dataset),
+            write_csv(Path(out) / f"{name}.csv", dataset),
+        ]
+        result["data"] = [str(path) for path in written]
+    if json:
+        print_json(result)
+    else:
+        _print(result)
+
+
+def _result(machine: str, model: str, dataset: xr.Dataset) -> dict[str, Any]:
+    least = dataset["minimum_dynamic_stiffness"]
+    first = dataset["natural_frequency"].isel(mode=0).to_numpy()
+    kept = np.isfinite(first)
+    dropped = dataset["dropped"].sum("point")
+    return {
+        "machine": machine,
+        "model": model,
+        "points": int(dataset.sizes["point"]),
+        "points_kept": int(kept.sum()),
+        "dropped": {str(r): int(dropped.sel(reason=r)) for r in dataset["reason"].to_numpy()},
+        "first_frequency": _spread(first[kept]),
+        "minimum_dynamic_stiffness": {
+            str(axis): _spread(least.sel(axis=axis).to_numpy()[kept])
+            for axis in dataset["axis"].to_numpy()
+        },
+        "data": [],
+    }
+
+
+def _spread(values: np.ndarray[Any, Any]) -> dict[str, float | None]:
+    if not values.size:
+        return {"worst": None, "mean": None, "best": None}
+    return {
+        "worst": float(values.min()),
+        "mean": float(values.mean()),
+        "best": float(values.max()),
+    }
+
+
+def _print(result: dict[str, Any]) -> None:
+    out = console()
+    out.print(
+        f"{result['machine']} ({result['model']}): {result['points_kept']} of "
+        f"{result['points']} points count",
+        markup=False,
+    )
+    names = ["worst", "mean", "best"]
+
+    def row(label: str, spread: dict[str, float | None], scale: float) -> tuple[Any, ...]:
+        numbers = [spread[n] for n in names]
+        return (label, *("-" if v is None else scale * v for v in numbers))
+
+    rows = [row("first frequency, Hz", result["first_frequency"], 1.0)]
+    rows += [
+        row(f"least dynamic stiffness along {axis}, N/µm", spread, 1e-6)
+        for axis, spread in result["minimum_dynamic_stiffness"].items()
+    ]
+    out.print(table("Vibration over the check points", ["", *names], rows))
+    for path in result["data"]:
+        out.print(path, markup=False, soft_wrap=True)
