@@ -38,6 +38,9 @@ Program = Callable[..., Run]
 def strutwork(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Program:
     """Runs the program in this process."""
 
+    # wide enough that no table folds its words, whatever terminal the tests run in
+    monkeypatch.setenv("COLUMNS", "240")
+
     def run(*arguments: str | Path) -> Run:
         monkeypatch.setattr(sys, "argv", ["strutwork", *map(str, arguments)])
         capsys.readouterr()
