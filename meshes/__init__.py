@@ -1,0 +1,1 @@
+"""Meshes: generated, imported and exported; surfaces and their mass properties."""

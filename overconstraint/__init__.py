@@ -1,0 +1,1 @@
+"""Forces that manufacturing errors lock into over-constrained mechanisms."""
