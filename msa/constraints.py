@@ -121,18 +121,16 @@ def check_consistent(system: System, rows: Rows, gaps: Array) -> None:
     )
 
 
-def free_unknowns(system: System) -> Array:
-    """Motions that cost no energy and break no constraint, (p, n, k), orthonormal in D⁻¹u.
+def rigid_rows(system: System) -> Array:
+    """Rows of the rigidified structure on the twists of its bodies, (p, r, 6 b), of unit size.
 
-    Found on the rigidified linkage: as only rigid motion of an element costs no energy, such
-    a motion moves every body as one and no locked, elastic or sprung direction. k is the
-    largest number over the poses; missing ones are zero columns.
+    One row for every joint direction that resists, in the order of `constraint_rows`, then one
+    for every direction of a spring; rotations in units of displacement at the pose's
+    `characteristic_length`.
     """
     structure, placement = system.placed.structure, system.placed.placement
     linkage = structure.linkage
     bodies = len(linkage.body_names)
-    if bodies == 0:
-        return np.zeros((system.poses, 0, 0))
     length = characteristic_lengths(placement)[:, None, None, None]
     references = body_references(linkage, placement)
     rows = [constraint_rows(linkage, placement).on_bodies(references)]
@@ -149,7 +147,24 @@ def free_unknowns(system: System) -> Array:
     matrix = np.concatenate(rows, axis=1)
     matrix.reshape(*matrix.shape[:2], bodies, 6)[..., 3:] /= length
     size = np.linalg.norm(matrix, axis=-1, keepdims=True)
-    matrix = matrix / np.where(size == 0, 1.0, size)
+    return np.asarray(matrix / np.where(size == 0, 1.0, size))
+
+
+def free_unknowns(system: System) -> Array:
+    """Motions that cost no energy and break no constraint, (p, n, k), orthonormal in D⁻¹u.
+
+    Found on the rigidified linkage: as only rigid motion of an element costs no energy, such
+    a motion moves every body as one and no locked, elastic or sprung direction. k is the
+    largest number over the poses; missing ones are zero columns.
+    """
+    structure = system.placed.structure
+    linkage = structure.linkage
+    bodies = len(linkage.body_names)
+    if bodies == 0:
+        return np.zeros((system.poses, 0, 0))
+    length = characteristic_lengths(system.placed.placement)[:, None, None, None]
+    references = body_references(linkage, system.placed.placement)
+    matrix = rigid_rows(system)
     if matrix.shape[1] < matrix.shape[2]:
         gap = matrix.shape[2] - matrix.shape[1]
         matrix = np.concatenate([matrix, np.zeros((system.poses, gap, matrix.shape[2]))], axis=1)

@@ -1,0 +1,239 @@
+"""Joint forces and tool displacement per unit misfit: F = S g, from the saddle-point system."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics import DIRECTIONS, Linkage, State
+from msa.assembly import system_of
+from msa.constraints import free_unknowns, scales
+from msa.diagnosis import mechanism_error
+from msa.loads import LoadCase
+from msa.solve import Method, solve
+from msa.structure import PlacedStructure
+from overconstraint.self_stress import redundancy
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+
+#: A free motion moves the tool when the tool's part of it exceeds this share.
+MOVES = 1e-9
+
+
+@dataclass(frozen=True)
+class Influence:
+    """What every misfit causes, at a batch of poses.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    columns : tuple of (joint name, direction)
+        The misfits: in joint axes, the displacement of the second side against the first that
+        closes the joint.
+    forces : (..., j, 6, g)
+        On the second node of every joint in joint axes, per unit misfit: N/m, N·m/m, N/rad and
+        N·m/rad.
+    tool : (..., 6, g)
+        Displacement and rotation of the tool per unit misfit, global axes.
+    redundant : (...) of int
+        States of self-stress; where there is none the forces are exactly zero.
+    residual : (...)
+        Of the equilibrium, as a share of the forces.
+    """
+
+    linkage: Linkage
+    columns: tuple[tuple[str, str], ...]
+    forces: Array
+    tool: Array
+    redundant: NDArray[np.intp]
+    residual: Array
+
+    def __repr__(self) -> str:
+        return (
+            f"<Influence: {len(self.linkage.joints)} joints, {len(self.columns)} misfits, "
+            f"batch {self.redundant.shape}, N/m>"
+        )
+
+    def __getitem__(self, index: Any) -> Influence:
+        return Influence(
+            self.linkage,
+            self.columns,
+            self.forces[index],
+            self.tool[index],
+            np.asarray(self.redundant[index]),
+            np.asarray(self.residual[index]),
+        )
+
+
+@dataclass(frozen=True)
+class AssemblyForces:
+    """What given misfits cause.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    forces : (..., j, 6)
+        On the second node of every joint in joint axes, N and N·m.
+    tool : (..., 6)
+        Displacement and rotation of the tool, global axes, m and rad.
+    """
+
+    linkage: Linkage
+    forces: Array
+    tool: Array
+
+    def __repr__(self) -> str:
+        return f"<AssemblyForces: {len(self.linkage.joints)} joints, N and N·m>"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Forces by joint and the tool's displacement, SI."""
+        return {
+            "joint_forces": {
+                joint.name: self.forces[..., j, :].tolist()
+                for j, joint in enumerate(self.linkage.joints)
+            },
+            "tool": self.tool.tolist(),
+        }
+
+
+def influence(
+    placed: PlacedStructure,
+    columns: Sequence[tuple[str, str]] | None = None,
+    method: Method | None = None,
+) -> Influence:
+    """Joint forces and tool displacement per unit misfit.
+
+    The saddle-point system with no load and the misfits on its right; the forces are its
+    multipliers, and the stiffness times what is left of the gap in elastic directions. With
+    S the whole matrix, ½ gᵀ S g is the energy locked in, so S is symmetric.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    columns : sequence of (joint, direction), optional
+        Default: every locked or elastic direction of a joint that is no support.
+    method : str, optional
+        Of `msa.solve`.
+
+    Returns
+    -------
+    Influence
+        Entries that no state of self-stress reaches are exactly zero.
+
+    Raises
+    ------
+    MechanismError
+        The structure moves freely with its drives held; names the joints.
+    InconsistentConstraintsError
+        A rigid loop that no elastic part closes: its misfit would take an infinite force.
+    ModelError
+        An unknown joint, or a free direction.
+    """
+    linkage = placed.structure.linkage
+    chosen = tuple(misfit_directions(linkage) if columns is None else columns)
+    check_held_still(placed)
+    batch = placed.batch
+    if not chosen:
+        empty = np.zeros((*batch, len(linkage.joints), 6, 0))
+        return Influence(
+            linkage, (), empty, empty[..., 0, :, :], redundancy(placed).count, np.zeros(batch)
+        )
+    cases = [LoadCase(f"misfit {j} {d}", gaps={(j, d): 1.0}) for j, d in chosen]
+    solution = solve(placed, cases, method)
+    found = redundancy(placed)
+    index = linkage.joint_index
+    active = np.stack(
+        [found.takes_part[..., index[j], DIRECTIONS.index(d)] for j, d in chosen], axis=-1
+    )
+    forces = np.where(
+        found.takes_part[..., None] & active[..., None, None, :], solution.joint_forces, 0.0
+    )
+    node = 0 if linkage.tool is None else linkage.node_index[linkage.tool]
+    tool = solution.displacements[..., node, :, :]
+    return Influence(
+        linkage,
+        chosen,
+        forces,
+        tool if linkage.tool is not None else np.zeros_like(tool),
+        found.count,
+        solution.residual,
+    )
+
+
+def assembly_forces(
+    found: Influence, misfits: Mapping[tuple[str, str], float] | Array
+) -> AssemblyForces:
+    """Forces and tool displacement for given misfits.
+
+    Parameters
+    ----------
+    found : Influence
+    misfits : mapping of (joint, direction) to float, or (..., g)
+        m or rad; an array in the order of the influence's columns, batch axes after the poses'.
+
+    Returns
+    -------
+    AssemblyForces
+
+    Raises
+    ------
+    ModelError
+        A misfit that is no column of the influence.
+    """
+    if isinstance(misfits, Mapping):
+        unknown = [key for key in misfits if key not in found.columns]
+        if unknown:
+            joint, direction = unknown[0]
+            raise ModelError(
+                f"joint {joint}",
+                f"has no column for a misfit in {direction}.",
+                "Compute the influence of this direction, if it is locked or elastic.",
+            )
+        gap = np.array([misfits.get(key, 0.0) for key in found.columns])
+    else:
+        gap = np.asarray(misfits, dtype=float)
+    return AssemblyForces(
+        found.linkage,
+        np.einsum("...jdg,...g->...jd", found.forces, gap),
+        np.einsum("...dg,...g->...d", found.tool, gap),
+    )
+
+
+def misfit_directions(linkage: Linkage) -> tuple[tuple[str, str], ...]:
+    """Locked or elastic directions of the joints that are no supports."""
+    return tuple(
+        (joint.name, d)
+        for joint in linkage.joints
+        if joint.type != "support"
+        for d, state in zip(DIRECTIONS, joint.states, strict=True)
+        if state != State.FREE
+    )
+
+
+def check_held_still(placed: PlacedStructure) -> None:
+    """Check that nothing moves freely that the tool depends on.
+
+    A motion that leaves the tool where it is, a strut that turns about itself between two balls,
+    changes no force and no position, and is let pass. Without a tool every free motion counts.
+
+    Raises
+    ------
+    MechanismError
+        Names the joints and directions that move, and the pose.
+    """
+    system = system_of(placed)
+    free = free_unknowns(system)
+    if free.shape[-1] == 0:
+        return
+    linkage = placed.structure.linkage
+    moved = system.expand(free * scales(system)[..., None])
+    if linkage.tool is not None:
+        moved = moved[:, [linkage.node_index[linkage.tool]]]
+    moves = (np.abs(moved) > MOVES).any(axis=(1, 2, 3))
+    if np.any(moves):
+        raise mechanism_error(system, int(np.flatnonzero(moves)[0]))

@@ -1,0 +1,149 @@
+"""The shapes of tolerance zones, at unit size.
+
+A zone's parameters z range over a convex set that is symmetric about zero. Its support function
+h(c) = max cᵀz says what the zone can do at worst to a quantity that is linear in z; the
+maximiser says how.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+
+class UnitSet(Protocol):
+    """A convex set of parameters, symmetric about zero."""
+
+    @property
+    def dimension(self) -> int:
+        """Number of parameters."""
+
+    def support(self, direction: Array) -> Array:
+        """Largest directionᵀz over the set, (..., d) to (...)."""
+
+    def extreme(self, direction: Array) -> Array:
+        """A z at which it is reached, (..., d); zero where the direction is zero."""
+
+    def inside(self, uniform: Array) -> Array:
+        """Points uniform in the set from numbers uniform in [0, 1], (..., d)."""
+
+    def surface(self, uniform: Array) -> Array:
+        """Points on the set's surface from numbers uniform in [0, 1], (..., d)."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """−1 ≤ z ≤ 1."""
+
+    dimension: int = 1
+
+    def support(self, direction: Array) -> Array:
+        """Largest directionᵀz over the set, (..., d) to (...)."""
+        return np.asarray(np.abs(direction[..., 0]))
+
+    def extreme(self, direction: Array) -> Array:
+        """A z at which it is reached, (..., d)."""
+        return np.sign(direction)
+
+    def inside(self, uniform: Array) -> Array:
+        """Points uniform in the set, (..., d)."""
+        return np.asarray(2 * uniform - 1)
+
+    def surface(self, uniform: Array) -> Array:
+        """Points on its surface, (..., d)."""
+        return np.where(uniform < 0.5, -1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Disc:
+    """|z| ≤ 1 in the plane: a tilted axis in its cone, a centre in its circle."""
+
+    dimension: int = 2
+
+    def support(self, direction: Array) -> Array:
+        """Largest directionᵀz over the set, (..., d) to (...)."""
+        return np.asarray(np.hypot(direction[..., 0], direction[..., 1]))
+
+    def extreme(self, direction: Array) -> Array:
+        """A z at which it is reached, (..., d)."""
+        return _unit(direction)
+
+    def inside(self, uniform: Array) -> Array:
+        """Points uniform in the set, (..., d)."""
+        return np.asarray(np.sqrt(uniform[..., 1:]) * self.surface(uniform))
+
+    def surface(self, uniform: Array) -> Array:
+        """Points on its surface, (..., d)."""
+        turn = 2 * np.pi * uniform[..., 0]
+        return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+
+
+@dataclass(frozen=True)
+class Ball:
+    """|z| ≤ 1 in space: a point in its sphere."""
+
+    dimension: int = 3
+
+    def support(self, direction: Array) -> Array:
+        """Largest directionᵀz over the set, (..., d) to (...)."""
+        return np.asarray(np.linalg.norm(direction, axis=-1))
+
+    def extreme(self, direction: Array) -> Array:
+        """A z at which it is reached, (..., d)."""
+        return _unit(direction)
+
+    def inside(self, uniform: Array) -> Array:
+        """Points uniform in the set, (..., d)."""
+        return np.asarray(np.cbrt(uniform[..., 2:]) * self.surface(uniform))
+
+    def surface(self, uniform: Array) -> Array:
+        """Points on its surface, (..., d)."""
+        turn, height = 2 * np.pi * uniform[..., 0], 2 * uniform[..., 1] - 1
+        radius = np.sqrt(np.maximum(1 - height**2, 0.0))
+        return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=-1)
+
+
+@dataclass(frozen=True)
+class PlaneZone:
+    """|z₁| + |z₂| + |z₃| ≤ 1: a plane between two parallel planes.
+
+    z₁ is the height of a rectangle's middle, z₂ and z₃ the heights that its two tilts add at its
+    edges, as shares of half the distance of the planes: its corners lie between them.
+    """
+
+    dimension: int = 3
+
+    def support(self, direction: Array) -> Array:
+        """Largest directionᵀz over the set, (..., d) to (...)."""
+        return np.asarray(np.abs(direction).max(axis=-1))
+
+    def extreme(self, direction: Array) -> Array:
+        """A z at which it is reached, (..., d)."""
+        first = np.abs(direction).argmax(axis=-1)[..., None] == np.arange(3)
+        return np.where(first, np.sign(direction), 0.0)
+
+    def inside(self, uniform: Array) -> Array:
+        """Points uniform in the set, (..., d)."""
+        side, size = np.where(uniform < 0.5, -1.0, 1.0), np.abs(2 * uniform - 1)
+        # the volume of the corner beyond z₁ goes with the cube of what is left, and so on
+        first = 1 - np.cbrt(1 - size[..., 0])
+        second = (1 - first) * (1 - np.sqrt(1 - size[..., 1]))
+        third = (1 - first - second) * size[..., 2]
+        return np.asarray(side * np.stack([first, second, third], axis=-1))
+
+    def surface(self, uniform: Array) -> Array:
+        """Points on its surface, (..., d)."""
+        side, size = np.where(uniform < 0.5, -1.0, 1.0), np.abs(2 * uniform - 1)
+        first = 1 - np.sqrt(1 - size[..., 0])
+        second = (1 - first) * size[..., 1]
+        return np.asarray(side * np.stack([first, second, 1 - first - second], axis=-1))
+
+
+def _unit(direction: Array) -> Array:
+    size = np.linalg.norm(direction, axis=-1, keepdims=True)
+    return np.asarray(direction / np.where(size == 0, 1.0, size))
