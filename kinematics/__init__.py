@@ -11,6 +11,7 @@ from kinematics.frames import (
 from kinematics.jacobians import Jacobians, jacobians
 from kinematics.joint import DIRECTIONS, JOINT_TYPES, Joint, State
 from kinematics.linkage import GROUND, Body, Linkage
+from kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
 from kinematics.mechanism import Mechanism, Poses, drive_values, forward_kinematics
 from kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
 from kinematics.placement import Placement, check_coincidence
@@ -38,6 +39,7 @@ __all__ = [
     "Poses",
     "SelfStress",
     "State",
+    "VelocityEllipsoid",
     "angle",
     "axes_frame",
     "body_references",
@@ -53,4 +55,5 @@ __all__ = [
     "rotation_y",
     "rotation_z",
     "tangent_rotation",
+    "velocity_ellipsoid",
 ]

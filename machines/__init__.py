@@ -13,10 +13,13 @@ from machines.check_points import hemisphere_normals, hemisphere_poses, roll_ang
 from machines.eclipse_3pprs import Eclipse3PPRS
 from machines.glozman_3prrs import Glozman3PRRS
 from machines.limits import Limit, check_limits, joint_limits
+from machines.mit_ss1 import MitSS1
+from machines.mit_ss1_assembly import StrutAssembly, strut_width
 from machines.proposed_3pprs import Proposed3PPRS
 from machines.prototype_3ppprs import Prototype3PPPRS
 from machines.published import Paper, PublishedTable, PublishedValue
 from machines.three_legs import ThreeLegs
+from machines.work_table import WorkTable
 
 __all__ = [
     "CATALOGUE",
@@ -28,14 +31,17 @@ __all__ = [
     "Glozman3PRRS",
     "Limit",
     "Machine",
+    "MitSS1",
     "Paper",
     "Platform",
     "Proposed3PPRS",
     "Prototype3PPPRS",
     "PublishedTable",
     "PublishedValue",
+    "StrutAssembly",
     "ThreeLegs",
     "VibratingLegs",
+    "WorkTable",
     "check_limits",
     "dynamic_machine",
     "get",
@@ -43,4 +49,5 @@ __all__ = [
     "hemisphere_poses",
     "joint_limits",
     "roll_angles",
+    "strut_width",
 ]

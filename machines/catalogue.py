@@ -12,10 +12,12 @@ from machines.alizade_3prps import Alizade3PRPS
 from machines.eclipse_3pprs import Eclipse3PPRS
 from machines.glozman_3prrs import Glozman3PRRS
 from machines.limits import Limit
+from machines.mit_ss1 import MitSS1
 from machines.proposed_3pprs import Proposed3PPRS
 from machines.prototype_3ppprs import Prototype3PPPRS
 from machines.published import Paper
 from machines.published_azulay import AZULAY_2014
+from machines.published_son import SON_2002
 from msa.structure import Structure
 from strutwork.errors import ModelError
 
@@ -82,6 +84,7 @@ _ENTRIES = (
         AZULAY_2014,
         Prototype3PPPRS,
     ),
+    CatalogueEntry("mit-ss1", "MIT-SS-1", "planar, [P vertical] R R", SON_2002, MitSS1),
 )
 
 #: Every machine by its name.

@@ -250,6 +250,13 @@ class System:
                 node_index = structure.mesh_index[mass.node]
                 loads[:, node_index, :3, m] += weight
                 loads[:, node_index, 3:, m] += np.cross(mass.offset, weight)
+            for element in structure.elements if case.gravity is not None else ():
+                if hasattr(element, "mass"):
+                    # a rigid translation of its nodes is one of the whole element
+                    nodes = [structure.mesh_index[n] for n in element.nodes]
+                    fall = np.tile(np.append(np.asarray(case.gravity), np.zeros(3)), len(nodes))
+                    weight = (element.mass(self.placed) @ fall).reshape(-1, len(nodes), 6)
+                    loads[..., m][:, nodes] += weight
             per_length = self._line_loads(case)
             if per_length is not None:
                 self._add_segment_loads(loads[..., m], self.segment_loads(per_length))

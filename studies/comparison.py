@@ -211,8 +211,8 @@ def published_rows(
                 entry.unit,
                 entry.value,
                 computed,
-                status_of(entry.row, entry.quantity, model),
-                note_of(entry, model),
+                status_of(entry, model, computed),
+                note_of(entry, model, computed),
             )
         )
     return tuple(rows)

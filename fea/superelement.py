@@ -1,0 +1,325 @@
+"""Superelements: a solid reduced to its interfaces, then an element like any other.
+
+Craig and Bampton (1968): the static shapes of unit interface motions and the lowest modes with
+the interfaces held. The residual vectors are the static answers to the inertia of the static
+shapes, the next term of the expansion about zero frequency (MacNeal 1971; Rubin 1975); going on
+so without modes is a Krylov basis.
+
+The generalised coordinates of a reduced basis are no displacements, and a structure's nodes are.
+So they are exchanged for the motions of a few small patches inside the solid, its monitors: as
+many as the basis has shapes, chosen so that the exchange is well conditioned. The element then has
+nodes alone, and mass properties, effective masses and gravity come out without exceptions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+import scipy.linalg as sla
+from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, eigsh
+
+from fea.tied_solid import StaticSolver, TiedSolid
+from msa.structure import PlacedStructure, rigid_map
+from strutwork.errors import ModelError, NumericalError
+
+Array = NDArray[Any]
+
+#: Largest condition number of the exchange of coordinates.
+CONDITION = 1e6
+
+#: Candidates for monitors.
+CANDIDATES = 400
+
+#: Shapes with less than this share of their size outside the others are dropped.
+DEPENDENT = 1e-8
+
+#: Misfit of a placed superelement's nodes, as a share of its size.
+MISPLACED = 1e-6
+
+
+@dataclass(frozen=True)
+class Superelement:
+    """A reduced solid.
+
+    Parameters
+    ----------
+    name : str
+    nodes : tuple of str
+        Interface nodes, then monitors; all to be put in one body of the linkage.
+    positions : (k, 3)
+        Of the nodes in the mesh's frame, m.
+    local_stiffness, local_mass : (6 k, 6 k)
+        In the mesh's frame.
+    shapes : (3 n, 6 k)
+        Displacements of the field nodes per unit motion of the nodes.
+    fixed_frequencies : (m,)
+        Hz, of the retained modes with the interfaces held; empty for a Krylov basis.
+    solver : str
+        Which factorisation ran.
+    """
+
+    name: str
+    nodes: tuple[str, ...]
+    positions: Array
+    local_stiffness: Array
+    local_mass: Array
+    shapes: Array
+    fixed_frequencies: Array
+    solver: str
+
+    def __repr__(self) -> str:
+        return (
+            f"<Superelement {self.name}: {len(self.nodes)} nodes for "
+            f"{self.shapes.shape[0]} dof, fixed-interface modes to {self.cutoff:.4g} Hz>"
+        )
+
+    @property
+    def cutoff(self) -> float:
+        """Highest retained frequency with the interfaces held, Hz; zero for a Krylov basis."""
+        return float(self.fixed_frequencies[-1]) if len(self.fixed_frequencies) else 0.0
+
+    def turn(self, at: PlacedStructure) -> Array:
+        """Rotation of the mesh's frame at every pose, (..., 3, 3).
+
+        Raises
+        ------
+        ModelError
+            Nodes that do not stand as in the mesh.
+        """
+        index = at.structure.mesh_index
+        placed = at.positions[..., [index[n] for n in self.nodes], :]
+        mine = self.positions - self.positions.mean(axis=0)
+        there = placed - placed.mean(axis=-2, keepdims=True)
+        left, _, right = np.linalg.svd(np.swapaxes(there, -1, -2) @ mine)
+        sign = np.ones((*left.shape[:-2], 3))
+        sign[..., 2] = np.linalg.det(left @ right)
+        rotation = (left * sign[..., None, :]) @ right
+        miss = np.abs(there - mine @ np.swapaxes(rotation, -1, -2)).max(initial=0.0)
+        if miss > MISPLACED * np.abs(mine).max():
+            raise ModelError(
+                f"superelement {self.name}",
+                f"its nodes stand {miss:.3g} m aside of where they are in the mesh.",
+                "Place all of them by one rigid motion of `positions`.",
+            )
+        return np.asarray(rotation)
+
+    def stiffness(self, at: PlacedStructure) -> Array:
+        """Stiffness in global axes, (..., 6 k, 6 k)."""
+        return self._turned(self.local_stiffness, at)
+
+    def mass(self, at: PlacedStructure) -> Array:
+        """Mass in global axes, (..., 6 k, 6 k)."""
+        return self._turned(self.local_mass, at)
+
+    def _turned(self, matrix: Array, at: PlacedStructure) -> Array:
+        rotation = self.turn(at)
+        if np.abs(rotation - np.eye(3)).max(initial=0.0) < 1e-14:
+            return np.broadcast_to(matrix, (*rotation.shape[:-2], *matrix.shape))
+        k = 2 * len(self.nodes)
+        blocks = matrix.reshape(k, 3, k, 3)
+        turned = np.einsum("...ij,ajbk,...lk->...aibl", rotation, blocks, rotation, optimize=True)
+        return np.asarray(turned).reshape(*rotation.shape[:-2], 3 * k, 3 * k)
+
+
+def superelement(
+    solid: TiedSolid,
+    cells: Array,
+    cutoff: float | None = None,
+    modes: int = 12,
+    method: Literal["craig_bampton", "krylov"] = "craig_bampton",
+    solver: str | None = None,
+) -> Superelement:
+    """Reduce a solid to its interfaces.
+
+    Parameters
+    ----------
+    solid : TiedSolid
+    cells : (m, 8) or the like
+        Corner nodes of the solid's cells, among which monitors are chosen.
+    cutoff : float, optional
+        Hz: modes with the interfaces held are retained beyond it. Answers below half of it are
+        good to 1e-4.
+    modes : int
+        Without a cutoff, how many modes (Krylov: shapes), rounded up to a multiple of six.
+    method : "craig_bampton" or "krylov"
+    solver : str, optional
+        Of `factorize`.
+
+    Returns
+    -------
+    Superelement
+
+    Raises
+    ------
+    ModelError
+        No interface, or more shapes than the solid has.
+    NumericalError
+        Shapes that cannot be told apart by motions of its monitors.
+    """
+    if not solid.patches:
+        raise ModelError(f"solid {solid.name}", "has no interface.", "Tie a patch to a node.")
+    static = StaticSolver(solid, solver)
+    carried = static.constraint_modes()
+    k = carried.shape[1]
+    frequencies = np.zeros(0)
+    if method == "krylov":
+        inner = _krylov(static, carried, _sixes(modes))
+    else:
+        frequencies, inner = _held_modes(static, cutoff, modes)
+        residual, _ = static.solve(solid.mass @ carried)
+        inner = _independent(solid, inner, residual)
+        # six freedoms a monitor: the residual shapes that matter least make the number even
+        inner = inner[:, : len(inner.T) // 6 * 6]
+    basis = np.concatenate([carried, inner], axis=1)
+    stiffness = basis.T @ (solid.stiffness @ basis)
+    mass = basis.T @ (solid.mass @ basis)
+    # static shapes are in balance with interface forces alone, and inner ones do no work there
+    stiffness[:k, k:] = stiffness[k:, :k] = 0.0
+    shapes = solid.recovery @ basis
+    places, exchange = _monitors(solid, shapes, np.asarray(cells, dtype=np.intp), k)
+    names = [p.interface.name for p in solid.patches]
+    positions = np.array([p.position for p in solid.patches])
+    if len(places):
+        names += [f"{solid.name}/{i + 1}" for i in range(len(places))]
+        positions = np.concatenate([positions, places])
+    return Superelement(
+        solid.name,
+        tuple(names),
+        positions,
+        _even(exchange.T @ stiffness @ exchange),
+        _even(exchange.T @ mass @ exchange),
+        shapes @ exchange,
+        frequencies,
+        static.name,
+    )
+
+
+def _even(matrix: Array) -> Array:
+    return np.asarray((matrix + matrix.T) / 2)
+
+
+def _sixes(count: int) -> int:
+    return -(-count // 6) * 6
+
+
+def _held_modes(static: StaticSolver, cutoff: float | None, modes: int) -> tuple[Array, Array]:
+    """Frequencies in Hz and mass-normalised modes with the interfaces held."""
+    solid = static.solid
+    size = solid.stiffness.shape[0]
+    count = _sixes(modes)
+    while True:
+        if 3 * count > size:
+            raise ModelError(
+                f"superelement {solid.name}",
+                f"{count} modes are too many for {size} coordinates.",
+                "Lower the cutoff or the number of modes, or refine the mesh.",
+            )
+        operator = LinearOperator((size, size), matvec=lambda x: static.solve(x[:, None])[0][:, 0])
+        start = np.random.default_rng(0).standard_normal(size)
+        values, vectors = eigsh(
+            solid.stiffness,
+            k=count,
+            M=solid.mass,
+            sigma=0.0,
+            OPinv=operator,
+            v0=operator.matvec(solid.mass @ start),
+        )
+        frequencies = np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
+        if cutoff is None or frequencies[-1] >= cutoff:
+            break
+        count *= 2
+    keep = len(frequencies)
+    if cutoff is not None:
+        keep = min(keep, _sixes(int(np.searchsorted(frequencies, cutoff)) + 1))
+    return frequencies[:keep], vectors[:, :keep]
+
+
+def _krylov(static: StaticSolver, carried: Array, count: int) -> Array:
+    """The first `count` shapes of the expansion about zero, mass-orthonormal, by stiffness."""
+    solid = static.solid
+    found = np.zeros((len(carried), 0))
+    block = carried
+    while found.shape[1] < count:
+        block, _ = static.solve(solid.mass @ block)
+        grown = _independent(solid, found, block)
+        if grown.shape[1] == found.shape[1]:
+            break
+        block = grown[:, found.shape[1] :]
+        found = grown
+    found = found[:, : found.shape[1] // 6 * 6][:, :count]
+    values, turn = sla.eigh(found.T @ (solid.stiffness @ found))
+    return np.asarray(found @ turn[:, np.argsort(values)])
+
+
+def _independent(solid: TiedSolid, first: Array, more: Array) -> Array:
+    """`first`, mass-orthonormal, with what `more` adds, largest contributions first."""
+    size = np.sqrt(np.einsum("ij,ij->j", more, solid.mass @ more))
+    rest = more / np.where(size > 0, size, 1.0)
+    for _ in range(2):
+        rest = rest - first @ (first.T @ (solid.mass @ rest))
+    gram = rest.T @ (solid.mass @ rest)
+    values, turn = np.linalg.eigh(_even(gram))
+    order = np.argsort(values)[::-1]
+    order = order[values[order] > DEPENDENT]
+    added = rest @ (turn[:, order] / np.sqrt(values[order]))
+    added = added - first @ (first.T @ (solid.mass @ added))
+    # rounding grew with 1/√values: one Cholesky step makes them orthonormal again
+    lower = np.linalg.cholesky(_even(added.T @ (solid.mass @ added)))
+    added = np.linalg.solve(lower, added.T).T
+    return np.concatenate([first, added], axis=1)
+
+
+def _monitors(
+    solid: TiedSolid, shapes: Array, cells: NDArray[np.intp], k: int
+) -> tuple[Array, Array]:
+    """Places of the monitors (p, 3), and the exchange of coordinates (k + m, k + 6 p).
+
+    Each monitor is one cell, its motion the least-squares rigid motion of the corners. They are
+    chosen one by one for the volume that their rows add.
+    """
+    m = shapes.shape[1] - k
+    if m == 0:
+        return np.zeros((0, 3)), np.eye(k)
+    step = max(1, len(cells) // CANDIDATES)
+    chosen = cells[::step]
+    points = solid.points[chosen]
+    middle = points.mean(axis=1)
+    arms = rigid_map(points - middle[:, None])[:, :, :3].reshape(len(chosen), -1, 6)
+    reader = np.linalg.pinv(arms)
+    dofs = (3 * chosen[:, :, None] + np.arange(3)).reshape(len(chosen), -1)
+    rows = reader @ shapes[dofs]
+    reach = np.linalg.norm(solid.points - solid.points.mean(axis=0), axis=1).max()
+    # compared as displacements at the solid's size, and every shape by its own
+    scaled = rows[:, :, k:] * np.array([1.0] * 3 + [reach] * 3)[:, None]
+    scaled = scaled / np.maximum(np.abs(scaled).max(axis=(0, 1)), 1e-300)
+    picked: list[int] = []
+    outside = np.eye(m)
+    for _ in range(m // 6):
+        sizes = np.linalg.svd(scaled @ outside, compute_uv=False)
+        volume = np.log(np.maximum(sizes[:, :6], 1e-300)).sum(axis=-1)
+        volume[picked] = -np.inf
+        picked.append(int(volume.argmax()))
+        _, _, right = np.linalg.svd(scaled[picked].reshape(-1, m), full_matrices=False)
+        outside = np.eye(m) - right.T @ right
+    taken = rows[picked].reshape(m, -1)
+    condition = float(np.linalg.cond(scaled[picked].reshape(m, m)))
+    if not condition < CONDITION:
+        raise NumericalError(
+            f"superelement {solid.name}",
+            f"the exchange of its coordinates has the condition number {condition:.2g}.",
+            "Retain fewer modes, or refine the mesh.",
+        )
+    inverse = np.linalg.inv(taken[:, k:])
+    exchange = np.block([[np.eye(k), np.zeros((k, m))], [-inverse @ taken[:, :k], inverse]])
+    return middle[picked], exchange
+
+
+def superelement_nodes(elements: Sequence[Superelement]) -> dict[str, Array]:
+    """Positions of all nodes of superelements in their meshes' frames, by name, m."""
+    return {
+        name: element.positions[i] for element in elements for i, name in enumerate(element.nodes)
+    }

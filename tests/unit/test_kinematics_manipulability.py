@@ -1,0 +1,40 @@
+"""Velocity ellipsoids."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from kinematics import velocity_ellipsoid
+from strutwork.errors import ModelError
+
+
+def test_semi_axes_of_drives_at_right_angles() -> None:
+    found = velocity_ellipsoid(np.diag([1.0, 4.0, 0.5]))
+    np.testing.assert_allclose(found.semi_axes, [2.0, 1.0, 0.25], rtol=1e-15)
+    np.testing.assert_allclose(np.abs(found.directions), np.eye(3)[:, [2, 0, 1]], atol=1e-15)
+    assert (found.condition, found.smallest, found.volume) == pytest.approx((8.0, 0.25, 0.5))
+
+
+def test_velocities_at_the_tips_need_rates_of_size_one() -> None:
+    random = np.random.default_rng(3)
+    inverse = random.normal(size=(7, 4, 3))
+    found = velocity_ellipsoid(inverse)
+    tips = found.directions * found.semi_axes[..., None, :]
+    rates = np.linalg.norm(inverse @ tips, axis=-2)
+    np.testing.assert_allclose(rates, 1.0, rtol=1e-12)
+    assert (np.diff(found.semi_axes, axis=-1) <= 0).all()
+    assert found.volume.shape == (7,)
+
+
+def test_drives_that_do_not_hold_the_tool_make_it_endless() -> None:
+    assert velocity_ellipsoid([[1.0, 0.0], [0.0, 0.0]]).condition == np.inf
+
+
+@pytest.mark.parametrize(
+    ("inverse", "words"),
+    [(np.ones((2, 3)), r"shape \(2, 3\)"), ([[np.inf, 0.0], [0.0, 1.0]], "not finite")],
+)
+def test_what_has_no_ellipsoid_is_refused(inverse: np.ndarray, words: str) -> None:
+    with pytest.raises(ModelError, match=words):
+        velocity_ellipsoid(inverse)
