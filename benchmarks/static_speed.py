@@ -98,6 +98,9 @@ def machine_rates(poses: int) -> list[tuple[str, float, float]]:
         some = Poses(points.position.reshape(-1, 3)[pick], points.rotation.reshape(-1, 3, 3)[pick])
         some = some[machine.place(some).reachable]
         count = len(some.position)
+        if not count:
+            # a planar machine takes none of these poses
+            continue
         placement = machine.place(some)
         alone = rate(lambda p=placement, m=machine: tool_compliance(m.structure.at(p)), count)
         whole = rate(lambda q=some, m=machine: tool_compliance(m.structure.at(m.place(q))), count)

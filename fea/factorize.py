@@ -1,109 +1,119 @@
-"""Factorisation of large sparse symmetric matrices."""
+"""Factorisation of large sparse symmetric matrices by what is installed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import replace
+from types import ModuleType
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
-from scipy.sparse.linalg import SuperLU, splu
 
-from strutwork.errors import NumericalError
+from fea import factor_cholmod, factor_mumps, factor_pardiso, factor_superlu, ordering
+from fea.factor import Factor, NotPositiveError, singular
+from fea.memory import foreseen_memory, require_memory
+from strutwork.errors import ModelError, NumericalError
 
-Array = NDArray[Any]
+__all__ = ["SOLVERS", "Factor", "factorize", "installed_solvers"]
 
-pymetis: Any
-try:
-    import pymetis
-except ImportError:  # SuperLU's own ordering serves too, with more fill
-    pymetis = None
+#: Fastest first, as measured in docs/performance-solids.md.
+SOLVERS: dict[str, ModuleType] = {
+    "cholmod": factor_cholmod,
+    "mumps": factor_mumps,
+    "pardiso": factor_pardiso,
+    "superlu": factor_superlu,
+}
 
-
-@dataclass(frozen=True)
-class Factor:
-    """A factorised matrix.
-
-    Parameters
-    ----------
-    solve : callable
-        From a right-hand side (n,) or (n, m) to the solution.
-    name : str
-        Which factorisation ran.
-    negative_pivots : callable
-        Number of negative pivots, which is that of negative eigenvalues (Sylvester's law of
-        inertia). Copies the factors: for the few cases that need it.
-    """
-
-    solve: Callable[[Array], Array]
-    name: str
-    negative_pivots: Callable[[], int]
-
-    def __repr__(self) -> str:
-        return f"<Factor: {self.name}>"
+#: What to install for each.
+INSTALL = {
+    "cholmod": 'pip install "scikit-sparse<0.5" (after apt install libsuitesparse-dev)',
+    "mumps": "pip install PyMUMPS (after apt install libmumps-seq-dev)",
+    "pardiso": "pip install pypardiso",
+}
 
 
-def factorize(matrix: sp.csc_array) -> Factor:
-    """Factorise a symmetric matrix, positive definite but for a few eigenvalues.
+def installed_solvers() -> tuple[str, ...]:
+    """Names of the solvers that can run here, fastest first."""
+    return tuple(name for name, module in SOLVERS.items() if module.available())
 
-    By SuperLU without pivoting, in the order of METIS's nested dissection where pymetis is
-    installed, else in SuperLU's own for symmetric patterns.
+
+def factorize(matrix: sp.csc_array, solver: str | None = None, *, positive: bool = True) -> Factor:
+    """Factorise a symmetric matrix.
+
+    The order of elimination is found first, by METIS's nested dissection, and with it what
+    the factorisation will take; where that is more memory than there is, nothing is started.
 
     Parameters
     ----------
     matrix : (n, n) sparse
+        Real, or complex and symmetric, not Hermitian.
+    solver : "cholmod", "mumps", "pardiso" or "superlu", optional
+        By default the fastest of those installed that takes the matrix.
+    positive : bool
+        Whether a positive definite matrix is expected: Cholesky's method is tried first and
+        another takes over where it fails.
 
     Returns
     -------
     Factor
+        Its name says which ran.
 
     Raises
     ------
+    ModelError
+        A solver that is unknown, not installed, or does not take such a matrix.
     NumericalError
-        A singular matrix.
+        A singular matrix, or one whose factors will not fit into memory.
     """
     whole = sp.csc_array(matrix)
-    options = {"SymmetricMode": True}
-    try:
-        if pymetis is None:
-            plain = splu(whole, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
-            return Factor(plain.solve, "SuperLU", lambda: _negative(plain))
-        order = nested_dissection(whole)
-        ordered = splu(
-            sp.csc_array(whole[order][:, order]),
-            permc_spec="NATURAL",
-            diag_pivot_thresh=0.0,
-            options=options,
-        )
-    except RuntimeError as error:
+    # NumPy integers and single precision would come back as such
+    whole = whole.astype(complex if whole.dtype.kind == "c" else float, copy=False)
+    if not np.all(np.isfinite(whole.data)):
         raise NumericalError(
-            "factorisation", "met a singular matrix.", "Look for a part that nothing holds."
-        ) from error
+            "factorisation", "of numbers that are not finite.", "Check materials and coordinates."
+        )
+    if whole.nnz == 0:
+        raise singular()
+    found = None if ordering.pymetis is None else ordering.nested_dissection(whole)
+    for name in _candidates(whole, solver, positive):
+        module = SOLVERS[name]
+        memory = None
+        if found is not None:
+            memory = foreseen_memory(found.fill, whole.nnz, module.NAME, whole.dtype.itemsize)
+            require_memory(whole.shape[0], memory, module.NAME)
+        try:
+            factor: Factor = module.factorize(whole, found)
+        except NotPositiveError:
+            continue
+        if found is None:
+            return factor
+        return replace(factor, fill=found.fill, memory=memory, flops=found.flops)
+    raise ModelError(
+        f"solver {solver}",
+        "takes positive definite matrices only.",
+        f"Choose one of {', '.join(n for n in installed_solvers() if SOLVERS[n].INDEFINITE)}.",
+    )
 
-    def solve(right: Array) -> Array:
-        result = np.empty_like(right)
-        result[order] = ordered.solve(right[order])
-        return result
 
-    return Factor(solve, "SuperLU ordered by METIS", lambda: _negative(ordered))
-
-
-def _negative(factors: SuperLU) -> int:
-    return int(np.count_nonzero(factors.U.diagonal() < 0))
-
-
-def nested_dissection(matrix: sp.csc_array) -> NDArray[np.intp]:
-    """Fill-reducing order of a symmetric pattern: row i of the ordered matrix is order[i].
-
-    Source: Karypis and Kumar (1998), METIS.
-    """
-    pattern = sp.csr_array(matrix)
-    row = np.repeat(np.arange(pattern.shape[0]), np.diff(pattern.indptr))
-    beside = row != pattern.indices
-    degrees = np.bincount(row[beside], minlength=pattern.shape[0])
-    starts = np.concatenate([[0], np.cumsum(degrees)])
-    graph = pymetis.CSRAdjacency(starts.astype(np.int64), pattern.indices[beside].astype(np.int64))
-    first, _ = pymetis.nested_dissection(adjacency=graph)
-    return np.asarray(first, dtype=np.intp)
+def _candidates(matrix: sp.csc_array, solver: str | None, positive: bool) -> tuple[str, ...]:
+    installed = installed_solvers()
+    is_complex = matrix.dtype.kind == "c"
+    if solver is None:
+        return tuple(
+            name
+            for name in installed
+            if (SOLVERS[name].COMPLEX or not is_complex) and (SOLVERS[name].INDEFINITE or positive)
+        )
+    if solver not in SOLVERS:
+        raise ModelError(f"solver {solver}", "is unknown.", f"Choose one of {', '.join(SOLVERS)}.")
+    if solver not in installed:
+        raise ModelError(
+            f"solver {solver}",
+            "is not installed.",
+            f"Install strutwork[accel], or: {INSTALL[solver]}. Here are {', '.join(installed)}.",
+        )
+    if is_complex and not SOLVERS[solver].COMPLEX:
+        able = [n for n in installed if SOLVERS[n].COMPLEX]
+        raise ModelError(
+            f"solver {solver}", "takes no complex matrices.", f"Choose one of {', '.join(able)}."
+        )
+    return (solver,)

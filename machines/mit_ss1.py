@@ -73,6 +73,11 @@ class MitSS1:
     axial_stiffness : float or None
         Of one bearing, N/m; None: rigid. Calibrated: two in series make the 9.55 N/µm of the
         reconstructed Table 2, see `machines.StrutAssembly`.
+    block_radial_stiffness, block_axial_stiffness : float or None
+        Of one bearing in a moving block, N/m; None: as in the housing.
+    preload_factor : float
+        Stiffness of the far bearings, where the preload nuts sit with little interference
+        (section 11), over that of the near ones.
     drive_stiffness : float or None
         Of a block's drive, N/m. None holds it rigidly, as section 6.2 takes it.
     guide_stiffness : float or None
@@ -112,6 +117,9 @@ class MitSS1:
     pin_width: float = 0.180
     radial_stiffness: float | None = 285e6
     axial_stiffness: float | None = 19.1e6
+    block_radial_stiffness: float | None = None
+    block_axial_stiffness: float | None = None
+    preload_factor: float = 1.0
     drive_stiffness: float | None = None
     guide_stiffness: float | None = None
     struts: Literal["beams", "rigid"] = "beams"
@@ -134,7 +142,10 @@ class MitSS1:
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
                 raise ModelError(f"MitSS1.{name}", f"is {value!r}.", "Give a positive length, m.")
-        for name in ("radial_stiffness", "axial_stiffness", "drive_stiffness", "guide_stiffness"):
+        for name in (
+            *("radial_stiffness", "axial_stiffness", "block_radial_stiffness"),
+            *("block_axial_stiffness", "drive_stiffness", "guide_stiffness"),
+        ):
             value = getattr(self, name)
             if value is not None and not (np.isfinite(value) and value > 0):
                 raise ModelError(
@@ -142,7 +153,7 @@ class MitSS1:
                     f"is {value!r}.",
                     "Give a positive number, N/m, or None for rigid.",
                 )
-        for name in ("housing_mass", "housing_inertia", "strut_mass"):
+        for name in ("housing_mass", "housing_inertia", "strut_mass", "preload_factor"):
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
                 raise ModelError(f"MitSS1.{name}", f"is {value!r}.", "Give a positive number, SI.")
@@ -166,9 +177,7 @@ class MitSS1:
         """Bodies and joints: three guides, then the bearings, strut by strut."""
         joints = parts.pin_joints()
         if self.pins == "bearings":
-            radial, axial = self.radial_stiffness, self.axial_stiffness
-            named = {"x": radial, "y": radial, "z": axial}
-            joints = parts.bearing_joints({d: k for d, k in named.items() if k is not None})
+            joints = parts.bearing_joints(self._bearing)
         guides = parts.guide_joints(self.drive_stiffness, self.guide_stiffness)
         return Linkage(parts.nodes(), parts.bodies(), (*guides, *joints), parts.TOOL)
 
@@ -182,6 +191,16 @@ class MitSS1:
             return Structure(self.linkage, masses=masses)
         beams = parts.beams(self.material, self.section, self.elements)
         return Structure(self.linkage, beams=beams, rigid=parts.shafts(), masses=masses)
+
+    def _bearing(self, end: str, side: str) -> dict[str, float]:
+        """Stiffness of a bearing by direction, N/m; rigid directions are left out."""
+        radial, axial = self.radial_stiffness, self.axial_stiffness
+        if end == "block":
+            radial = self.block_radial_stiffness or radial
+            axial = self.block_axial_stiffness or axial
+        factor = self.preload_factor if side == "far" else 1.0
+        named = {"x": radial, "y": radial, "z": axial}
+        return {d: factor * k for d, k in named.items() if k is not None}
 
     @property
     def _end_masses(self) -> list[float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from kinematics import GROUND, Body, Joint
 from msa.beam import Beam
@@ -82,15 +82,18 @@ def guide_joints(drive: float | None, guides: float | None) -> Iterable[Joint]:
         yield Joint(guide(i), "prismatic", (rail(i), block(i, "slide")), elastic, driven=("z",))
 
 
-def bearing_joints(stiffness: Mapping[str, float]) -> Iterable[Joint]:
-    """Two bearings a pin: they hold three translations and turn freely."""
+def bearing_joints(stiffness: Callable[[str, str], Mapping[str, float]]) -> Iterable[Joint]:
+    """Two bearings a pin: they hold three translations and turn freely.
+
+    `stiffness` takes the end of the strut and the side, and gives N/m by direction.
+    """
     for i in STRUTS:
         for side in SIDES:
             pair = block(i, side), strut(i, "block", side)
-            yield Joint(strut(i, "block", side), "spherical", pair, stiffness)
+            yield Joint(strut(i, "block", side), "spherical", pair, stiffness("block", side))
         for side in SIDES:
             pair = strut(i, "housing", side), seat(i, side)
-            yield Joint(strut(i, "housing", side), "spherical", pair, stiffness)
+            yield Joint(strut(i, "housing", side), "spherical", pair, stiffness("housing", side))
 
 
 def pin_joints() -> Iterable[Joint]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from kinematics import Placement
 from msa import LoadCase, PlacedStructure, Structure
+from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError
 
 
@@ -55,6 +56,11 @@ class Model:
     supports : mapping of node to joint name
         The joint that holds each supported node to the ground.
     damping : Damping or None
+    tolerances : tuple of Tolerance
+    tolerance_costs : mapping of tolerance name to float
+        Weights of an allocation.
+    force_limits : mapping of (joint name, kind of quantity) to float
+        Greatest forces and moments that joints may bear, N and N·m.
     """
 
     title: str
@@ -65,6 +71,9 @@ class Model:
     joints: tuple[str, ...]
     supports: Mapping[str, str]
     damping: Damping | None = None
+    tolerances: tuple[Tolerance, ...] = ()
+    tolerance_costs: Mapping[str, float] = field(default_factory=dict)
+    force_limits: Mapping[tuple[str, str], float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"

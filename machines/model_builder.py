@@ -12,6 +12,7 @@ from machines.model import Damping, Model
 from machines.model_cases import load_cases
 from machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
 from machines.model_schema import ModelTable
+from machines.model_tolerances import model_tolerances
 from msa import Beam, Structure
 from strutwork.errors import ModelError
 
@@ -68,6 +69,7 @@ def build_model(tables: ModelTable) -> Model:
         np.array(frames, dtype=float).reshape(-1, 3, 3),
         np.zeros(0),
     )
+    toleranced = model_tolerances(tables, joints, supports)
     model = Model(
         title=tables.title,
         structure=structure,
@@ -77,6 +79,9 @@ def build_model(tables: ModelTable) -> Model:
         joints=tuple(joint.name for joint in joints),
         supports={node: joint.name for node, joint in supports.items()},
         damping=_damping(tables),
+        tolerances=toleranced.tolerances,
+        tolerance_costs=toleranced.costs,
+        force_limits=toleranced.limits,
     )
     # coincidence of joint nodes, lengths and orientations of beams: now, not at the first solve
     _ = model.placed

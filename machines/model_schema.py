@@ -1,79 +1,49 @@
-"""The tables of the model file: their fields, dimensions and ranges."""
+"""The tables of the model file."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StrictBool
-from pydantic_core import PydanticCustomError, core_schema
 
 from kinematics import DIRECTIONS
+from machines.model_fields import (
+    Acceleration,
+    Angle,
+    Area,
+    Cost,
+    Damp,
+    DampTurn,
+    Density,
+    Direction,
+    Force,
+    ForceLimit,
+    InertiaRows,
+    Length,
+    LineForces,
+    LossFactor,
+    Mass,
+    Matrix,
+    Modulus,
+    Moment,
+    MomentLimit,
+    Name,
+    Pair,
+    Point,
+    PoissonsRatio,
+    Quantity,
+    Ratio,
+    SecondMoment,
+    Size,
+    Slope,
+    Stiff,
+    StiffTurn,
+    Vector,
+)
 from strutwork import units
-from strutwork.errors import UnitError
-from strutwork.units import Dimension
 
 #: A beam may be divided into this many elements at most.
 MAX_ELEMENTS = 1000
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """Marks a field that takes a number in SI or a string with its unit.
-
-    Parameters
-    ----------
-    dimension : Dimension
-    low : float or None
-        The least value.
-    above : float or None
-        A bound the value must exceed.
-    high : float or None
-        The greatest value.
-    below : float or None
-        A bound the value must stay under.
-    """
-
-    dimension: Dimension
-    low: float | None = None
-    above: float | None = None
-    high: float | None = None
-    below: float | None = None
-
-    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
-        """Validate by `read`."""
-        return core_schema.no_info_plain_validator_function(self.read)
-
-    def read(self, value: object) -> float:
-        """Value in SI units."""
-        try:
-            number = units.quantity(value, self.dimension, "")
-        except UnitError as error:
-            raise PydanticCustomError(
-                "unit", "{problem}", {"problem": error.problem, "remedy": error.remedy}
-            ) from None
-        rule = self._broken(number)
-        if rule:
-            raise PydanticCustomError(
-                "range",
-                "{problem}",
-                {
-                    "problem": f"{units.shown(value)} is out of range.",
-                    "remedy": f"Give {self.dimension.name} {rule}.",
-                },
-            )
-        return number
-
-    def _broken(self, number: float) -> str:
-        if self.low is not None and number < self.low:
-            return f"of at least {self.low:g}"
-        if self.above is not None and number <= self.above:
-            return f"above {self.above:g}"
-        if self.high is not None and number > self.high:
-            return f"of at most {self.high:g}"
-        if self.below is not None and number >= self.below:
-            return f"below {self.below:g}"
-        return ""
 
 
 def _empty_is_absent(value: object) -> object:
@@ -88,50 +58,6 @@ def _diagonal_as_rows(value: object) -> object:
 
 def _all_directions(value: object) -> object:
     return list(DIRECTIONS) if value == "all" else value
-
-
-Name = Annotated[str, Field(min_length=1, max_length=100)]
-Direction = Literal["x", "y", "z", "rx", "ry", "rz"]
-Pair = tuple[Name, Name]
-
-Number = Annotated[float, Quantity(units.NUMBER)]
-Length = Annotated[float, Quantity(units.LENGTH)]
-Size = Annotated[float, Quantity(units.LENGTH, above=0.0)]
-Area = Annotated[float, Quantity(units.AREA, above=0.0)]
-SecondMoment = Annotated[float, Quantity(units.SECOND_MOMENT, above=0.0)]
-Modulus = Annotated[float, Quantity(units.PRESSURE, above=0.0)]
-PoissonsRatio = Annotated[float, Quantity(units.NUMBER, above=-1.0, high=0.5)]
-Density = Annotated[float, Quantity(units.DENSITY, above=0.0)]
-LossFactor = Annotated[float, Quantity(units.NUMBER, low=0.0)]
-Mass = Annotated[float, Quantity(units.MASS, low=0.0)]
-Inertia = Annotated[float, Quantity(units.INERTIA)]
-Acceleration = Annotated[float, Quantity(units.ACCELERATION)]
-Force = Annotated[float, Quantity(units.FORCE)]
-Moment = Annotated[float, Quantity(units.MOMENT)]
-LineForce = Annotated[float, Quantity(units.LINE_LOAD)]
-Angle = Annotated[float, Quantity(units.ANGLE)]
-Stiff = Annotated[float, Quantity(units.STIFFNESS, above=0.0)]
-StiffTurn = Annotated[float, Quantity(units.ROTATIONAL_STIFFNESS, above=0.0)]
-Damp = Annotated[float, Quantity(units.DAMPING, low=0.0)]
-DampTurn = Annotated[float, Quantity(units.ROTATIONAL_DAMPING, low=0.0)]
-Ratio = Annotated[float, Quantity(units.NUMBER, low=0.0, below=1.0)]
-
-#: Entries of a bushing's matrix by block.
-K_TT = Annotated[float, Quantity(units.STIFFNESS)]
-K_TR = Annotated[float, Quantity(units.COUPLING_STIFFNESS)]
-K_RR = Annotated[float, Quantity(units.ROTATIONAL_STIFFNESS)]
-
-Point = tuple[Length, Length, Length]
-Vector = tuple[Number, Number, Number]
-LineForces = tuple[LineForce, LineForce, LineForce]
-InertiaRows = tuple[
-    tuple[Inertia, Inertia, Inertia],
-    tuple[Inertia, Inertia, Inertia],
-    tuple[Inertia, Inertia, Inertia],
-]
-UpperRow = tuple[K_TT, K_TT, K_TT, K_TR, K_TR, K_TR]
-LowerRow = tuple[K_TR, K_TR, K_TR, K_RR, K_RR, K_RR]
-Matrix = tuple[UpperRow, UpperRow, UpperRow, LowerRow, LowerRow, LowerRow]
 
 
 class Table(BaseModel):
@@ -339,6 +265,48 @@ class MisfitTable(Table):
     gap: Displacement
 
 
+class ToleranceTable(Table):
+    """A tolerance of a feature that carries joints."""
+
+    name: Name
+    kind: Literal[
+        "parallelism",
+        "perpendicularity",
+        "angularity",
+        "position",
+        "coaxiality",
+        "point_position",
+        "location",
+        "flatness",
+        "length",
+    ]
+    joint: Name | None = None
+    joints: tuple[Name, ...] | None = None
+    size: Size | None = None
+    slope: Slope | None = None
+    datum: Name | None = None
+    axis: Vector | None = None
+    along: Vector | None = None
+    length: Size | None = None
+    width: Size | None = None
+    limits: tuple[Length, Length] | None = None
+    distribution: Literal["surface", "uniform", "normal"] = "uniform"
+    cost: Cost = 1.0
+
+
+class ForceLimitTable(Table):
+    """The greatest forces that joints may bear."""
+
+    joint: Name | None = None
+    joints: tuple[Name, ...] | None = None
+    radial_force: ForceLimit | None = None
+    axial_force: ForceLimit | None = None
+    bending_moment: MomentLimit | None = None
+    torque: MomentLimit | None = None
+    static_rating: ForceLimit | None = None
+    safety_factor: Cost = 1.0
+
+
 class ToolTable(Table):
     """The tool centre point."""
 
@@ -378,5 +346,7 @@ class ModelTable(Table):
     line_loads: tuple[LineLoadTable, ...] = ()
     settlements: tuple[SettlementTable, ...] = ()
     misfits: tuple[MisfitTable, ...] = ()
+    tolerances: tuple[ToleranceTable, ...] = ()
+    force_limits: tuple[ForceLimitTable, ...] = ()
     tool: ToolTable | None = None
     damping: DampingTable | None = None

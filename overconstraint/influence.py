@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -16,13 +17,17 @@ from msa.diagnosis import mechanism_error
 from msa.loads import LoadCase
 from msa.solve import Method, solve
 from msa.structure import PlacedStructure
-from overconstraint.self_stress import redundancy
+from overconstraint.self_stress import redundancy, undetermined
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
 #: A free motion moves the tool when the tool's part of it exceeds this share.
 MOVES = 1e-9
+
+
+class UndeterminedWarning(UserWarning):
+    """Forces of which the sum alone is determined."""
 
 
 @dataclass(frozen=True)
@@ -133,6 +138,11 @@ def influence(
         A rigid loop that no elastic part closes: its misfit would take an infinite force.
     ModelError
         An unknown joint, or a free direction.
+
+    Warns
+    -----
+    UndeterminedWarning
+        Rigid joints side by side carry a force whose division among them rigid parts leave open.
     """
     linkage = placed.structure.linkage
     chosen = tuple(misfit_directions(linkage) if columns is None else columns)
@@ -141,7 +151,12 @@ def influence(
     if not chosen:
         empty = np.zeros((*batch, len(linkage.joints), 6, 0))
         return Influence(
-            linkage, (), empty, empty[..., 0, :, :], redundancy(placed).count, np.zeros(batch)
+            linkage,
+            (),
+            empty,
+            np.zeros((*batch, 6, 0)),
+            redundancy(placed).count,
+            np.zeros(batch),
         )
     cases = [LoadCase(f"misfit {j} {d}", gaps={(j, d): 1.0}) for j, d in chosen]
     solution = solve(placed, cases, method)
@@ -153,6 +168,7 @@ def influence(
     forces = np.where(
         found.takes_part[..., None] & active[..., None, None, :], solution.joint_forces, 0.0
     )
+    _warn_of_rigid_shares(linkage, forces, undetermined(placed))
     node = 0 if linkage.tool is None else linkage.node_index[linkage.tool]
     tool = solution.displacements[..., node, :, :]
     return Influence(
@@ -202,6 +218,23 @@ def assembly_forces(
         np.einsum("...jdg,...g->...jd", found.forces, gap),
         np.einsum("...dg,...g->...d", found.tool, gap),
     )
+
+
+def _warn_of_rigid_shares(linkage: Linkage, forces: Array, open_: NDArray[np.bool_]) -> None:
+    carries = np.abs(forces).max(axis=-1) > MOVES * np.abs(forces).max(initial=0.0)
+    found = (open_ & carries).reshape(-1, len(linkage.joints), 6).any(axis=0)
+    named = [
+        f"{linkage.joints[j].name} in {DIRECTIONS[d]}"
+        for j, d in zip(*found.nonzero(), strict=True)
+    ]
+    if named:
+        warnings.warn(
+            f"joints {', '.join(named)}: rigid parts alone decide how these share a force, so only "
+            "their sum is sure; the least forces in balance are given. Give one of these joints "
+            "or bodies its real stiffness.",
+            UndeterminedWarning,
+            stacklevel=3,
+        )
 
 
 def misfit_directions(linkage: Linkage) -> tuple[tuple[str, str], ...]:

@@ -19,6 +19,12 @@ from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
+#: A joint this near to its datum is the pivot of a tilt, m: joints' nodes coincide so closely.
+PIVOT = 1e-9
+
+#: What turning into a joint's axes leaves in a direction that does not move, as a share.
+ROUNDING = 1e-13
+
 
 class ToleranceWarning(UserWarning):
     """A tolerance that cannot do anything."""
@@ -161,7 +167,7 @@ def misfit_sources(placed: PlacedStructure, tolerances: Sequence[Tolerance]) -> 
                     mean += tolerance.middle * column[..., 0]
                 start += shape.dimension
         _warn_idle(
-            linkage,
+            placed,
             tolerance,
             seats,
             [m for b, m in zip(blocks, maps, strict=True) if b.tolerance == t],
@@ -260,9 +266,22 @@ def _at_joint(
     sign = _side(linkage, tolerance, joint, datum)
     index = linkage.node_index
     arm = placement.positions[..., index[sides[0]], :] - placement.positions[..., index[datum], :]
-    moves = torsors[..., :3, :] - cross_matrix(arm) @ torsors[..., 3:, :]
-    turn = np.swapaxes(placement.frames[..., joint, :, :], -1, -2)
-    return np.asarray(sign * np.concatenate([turn @ moves, turn @ torsors[..., 3:, :]], axis=-2))
+    turns = torsors[..., 3:, :]
+    carried = cross_matrix(arm) @ turns
+    frame = np.swapaxes(placement.frames[..., joint, :, :], -1, -2)
+    size = np.linalg.norm(turns, axis=-2, keepdims=True)
+    reach = (
+        np.linalg.norm(torsors[..., :3, :], axis=-2, keepdims=True)
+        + size
+        * np.linalg.norm(placement.positions[..., [index[sides[0]], index[datum]], :], axis=-1).max(
+            axis=-1
+        )[..., None, None]
+    )
+    parts = [
+        np.where(np.abs(part) > ROUNDING * scale, part, 0.0)
+        for part, scale in ((frame @ (torsors[..., :3, :] - carried), reach), (frame @ turns, size))
+    ]
+    return np.asarray(sign * np.concatenate(parts, axis=-2))
 
 
 def _side(linkage: Linkage, tolerance: Tolerance, joint: int, datum: str) -> float:
@@ -283,12 +302,24 @@ def _side(linkage: Linkage, tolerance: Tolerance, joint: int, datum: str) -> flo
     )
 
 
-def _warn_idle(linkage: Linkage, tolerance: Tolerance, seats: list[int], maps: list[Array]) -> None:
-    for joint in seats:
-        if not any(np.any(m[..., 6 * joint : 6 * joint + 6, :]) for m in maps):
-            warnings.warn(
-                f"tolerance {tolerance.name}: joint {linkage.joints[joint].name} is free where "
-                f"this {tolerance.kind} would move it, so it has no effect there.",
-                ToleranceWarning,
-                stacklevel=3,
-            )
+def _warn_idle(
+    placed: PlacedStructure, tolerance: Tolerance, seats: list[int], maps: list[Array]
+) -> None:
+    linkage, index = placed.structure.linkage, placed.structure.linkage.node_index
+    idle = [j for j in seats if not any(np.any(m[..., 6 * j : 6 * j + 6, :]) for m in maps)]
+    datum = tolerance.datum or linkage.joints[seats[0]].between[0]
+    for joint in idle:
+        node = index[linkage.joints[joint].between[0]]
+        arm = (
+            placed.placement.positions[..., node, :]
+            - placed.placement.positions[..., index[datum], :]
+        )
+        if tolerance.kind in TILTS and len(idle) < len(seats) and np.all(np.abs(arm) < PIVOT):
+            # the pivot of a tilt that the other joints feel
+            continue
+        warnings.warn(
+            f"tolerance {tolerance.name}: joint {linkage.joints[joint].name} is free where "
+            f"this {tolerance.kind} would move it, so it has no effect there.",
+            ToleranceWarning,
+            stacklevel=3,
+        )

@@ -112,6 +112,9 @@ class Tolerance:
             )
         if not self.joints:
             raise ModelError(part, "names no joint.", "Name the joints that the feature carries.")
+        for joint in self.joints:
+            if self.joints.count(joint) > 1:
+                raise ModelError(part, f'names the joint "{joint}" twice.', "Name it once.")
         for what in ("size", "slope", "length", "width"):
             value = getattr(self, what)
             if value is not None and not (isfinite(value) and value > 0):

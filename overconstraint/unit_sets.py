@@ -35,6 +35,13 @@ class UnitSet(Protocol):
     def surface(self, uniform: Array) -> Array:
         """Points on the set's surface from numbers uniform in [0, 1], (..., d)."""
 
+    def gauge(self, point: Array) -> Array:
+        """What the set must be scaled by for the point to lie on its surface, (..., d) to (...)."""
+
+    @property
+    def surface_variance(self) -> float:
+        """Variance of every parameter over `surface`; they are not correlated."""
+
 
 @dataclass(frozen=True)
 class Interval:
@@ -57,6 +64,15 @@ class Interval:
     def surface(self, uniform: Array) -> Array:
         """Points on its surface, (..., d)."""
         return np.where(uniform < 0.5, -1.0, 1.0)
+
+    def gauge(self, point: Array) -> Array:
+        """Scale of the set at which a point lies on its surface, (..., d) to (...)."""
+        return np.asarray(np.abs(point[..., 0]))
+
+    @property
+    def surface_variance(self) -> float:
+        """Variance of every parameter over the surface."""
+        return 1.0
 
 
 @dataclass(frozen=True)
@@ -82,6 +98,15 @@ class Disc:
         turn = 2 * np.pi * uniform[..., 0]
         return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
 
+    def gauge(self, point: Array) -> Array:
+        """Scale of the set at which a point lies on its surface, (..., d) to (...)."""
+        return np.asarray(np.linalg.norm(point, axis=-1))
+
+    @property
+    def surface_variance(self) -> float:
+        """Variance of every parameter over the surface."""
+        return 1 / 2
+
 
 @dataclass(frozen=True)
 class Ball:
@@ -106,6 +131,15 @@ class Ball:
         turn, height = 2 * np.pi * uniform[..., 0], 2 * uniform[..., 1] - 1
         radius = np.sqrt(np.maximum(1 - height**2, 0.0))
         return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=-1)
+
+    def gauge(self, point: Array) -> Array:
+        """Scale of the set at which a point lies on its surface, (..., d) to (...)."""
+        return np.asarray(np.linalg.norm(point, axis=-1))
+
+    @property
+    def surface_variance(self) -> float:
+        """Variance of every parameter over the surface."""
+        return 1 / 3
 
 
 @dataclass(frozen=True)
@@ -142,6 +176,15 @@ class PlaneZone:
         first = 1 - np.sqrt(1 - size[..., 0])
         second = (1 - first) * size[..., 1]
         return np.asarray(side * np.stack([first, second, 1 - first - second], axis=-1))
+
+    def gauge(self, point: Array) -> Array:
+        """Scale of the set at which a point lies on its surface, (..., d) to (...)."""
+        return np.asarray(np.abs(point).sum(axis=-1))
+
+    @property
+    def surface_variance(self) -> float:
+        """Variance of every parameter over the surface."""
+        return 1 / 6
 
 
 def _unit(direction: Array) -> Array:

@@ -4,7 +4,9 @@ A quantity of one component is worst at the support function of the zones, a sum
 norms. One of two components, a radial force, is the largest of those over the directions e of
 the plane: f(e) = e·mean + Σ h(Gᵀe). f is sublinear, so between two directions at which it is known
 the quantity lies within the corner of their two support lines: an upper bound that shrinks
-with the square of the angle between them.
+with the square of the angle between them. What is round in f, a disc that rolls inside the round
+zones' images, is taken off first and added again, so that a force alike in every direction is
+bounded as fast as any other.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from overconstraint.responses import Responses
+from overconstraint.unit_sets import Ball, Disc
 from strutwork.errors import NumericalError
 
 Array = NDArray[Any]
@@ -85,8 +88,9 @@ def worst_case(responses: Responses, tolerance: float = 1e-9) -> WorstCase:
     batch = responses.gain.shape[:-2]
     k = responses.gain.shape[-1]
     sources = responses.sources
-    gain = responses.gain.reshape(-1, 2, k)
-    mean = responses.mean.reshape(-1, 2)
+    count = int(np.prod(batch, dtype=int))
+    gain = responses.gain.reshape(count, 2, k)
+    mean = responses.mean.reshape(count, 2)
     value, bound, direction = _largest(responses, gain, mean, tolerance)
     pull = np.einsum("qik,qi->qk", gain, direction)
     parts = sources.supports(pull)
@@ -109,7 +113,7 @@ def worst_case(responses: Responses, tolerance: float = 1e-9) -> WorstCase:
         np.maximum(bound, value).reshape(batch),
         direction.reshape(*batch, 2),
         extreme.reshape(*batch, k),
-        shares.reshape(*batch, -1),
+        shares.reshape(*batch, len(sources.tolerances)),
     )
 
 
@@ -154,12 +158,14 @@ def _on_circle(
     reach = _reach(responses, gain, mean, np.broadcast_to(around, (count, STARTS + 1, 2)))
     first = reach.argmax(axis=-1)
     best, at = reach[np.arange(count), first], turns[first]
+    disc = _rolling_disc(responses, gain)
     owner = np.repeat(np.arange(count), STARTS)
     low, high = np.tile(turns[:-1], count), np.tile(turns[1:], count)
     f_low, f_high = reach[:, :-1].ravel(), reach[:, 1:].ravel()
     closed = np.zeros(count)
     for _ in range(STEPS):
-        upper = _corner(f_low, f_high, high - low)
+        round_ = disc[owner]
+        upper = round_ + _corner(f_low - round_, f_high - round_, high - low)
         open_ = upper > best[owner] * (1 + tolerance)
         np.maximum.at(closed, owner[~open_], upper[~open_])
         if not np.any(open_):
@@ -176,8 +182,24 @@ def _on_circle(
         owner = np.concatenate([owner, owner])
         low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
         f_low, f_high = np.concatenate([f_low, f]), np.concatenate([f, f_high])
-    np.maximum.at(closed, owner, _corner(f_low, f_high, high - low))
+    round_ = disc[owner]
+    np.maximum.at(closed, owner, round_ + _corner(f_low - round_, f_high - round_, high - low))
     return best, np.maximum(closed, best), at
+
+
+def _rolling_disc(responses: Responses, gain: Array) -> Array:
+    """Radius of a disc that rolls inside every quantity's set of forces, (q,).
+
+    A disc or ball becomes an ellipse of half-axes a ≥ b, whose least radius of curvature is b²/a;
+    those of a Minkowski sum add up (Schneider, Convex bodies, section 3.2).
+    """
+    radius = np.zeros(len(gain))
+    for shape, _, index in responses.sources.by_shape:
+        if isinstance(shape, Disc | Ball):
+            axes = np.linalg.svd(np.moveaxis(gain[..., index], 1, -2), compute_uv=False)
+            a, b = axes[..., 0], axes[..., 1]
+            radius += (b**2 / np.where(a > 0, a, 1.0)).sum(axis=-1)
+    return radius
 
 
 def _corner(first: Array, second: Array, turn: Array) -> Array:
@@ -187,7 +209,8 @@ def _corner(first: Array, second: Array, turn: Array) -> Array:
     """
     cosine, sine = np.cos(turn), np.sin(turn)
     beside = np.minimum(first, second) < np.maximum(first, second) * cosine
-    corner = np.sqrt(np.maximum(first**2 + second**2 - 2 * first * second * cosine, 0.0)) / sine
+    # as a sum of squares, or narrow arcs would lose the bound to cancellation
+    corner = np.hypot(first - second, 2 * np.sqrt(np.abs(first * second)) * np.sin(turn / 2)) / sine
     return np.where(
         beside, np.maximum(first, second), np.maximum(corner, np.maximum(first, second))
     )

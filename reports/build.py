@@ -18,6 +18,9 @@ from strutwork.errors import ModelError
 #: The comparison of the four machines of the paper.
 COMPARISON = "azulay-2014"
 
+#: A planar machine: its report is about the forces that its assembly locks in.
+PLANAR = "mit-ss1"
+
 #: A machine of which nothing is printed to stand beside.
 PROTOTYPE = "prototype-3ppprs"
 
@@ -83,6 +86,10 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
         from reports.prototype_report import prototype_chapters
 
         make = partial(prototype_chapters, progress)
+    elif target == PLANAR:
+        from reports.mit_ss1_report import mit_ss1_chapters
+
+        make = partial(mit_ss1_chapters, progress)
     elif target in CATALOGUE:
         from reports.machine_report import machine_chapters
 

@@ -10,6 +10,7 @@ from reports.chapters.closing import closing_chapter
 from reports.chapters.model import check_chapter, structure_chapter, summary_chapter
 from reports.chapters.model_loads import forces_chapter, loads_chapter
 from reports.chapters.model_tool import budget_chapter, tool_chapter
+from reports.chapters.overconstraint_model import study_model_tolerances, tolerance_chapter
 from reports.chapters.vibration import vibration_chapter
 from reports.content import Chapter
 from reports.model_check import check_model
@@ -40,6 +41,10 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
             chapters.append(tool_chapter(solution))
         if solution.compliance is not None:
             chapters.append(budget_chapter(model))
+    if model.tolerances:
+        found = study_model_tolerances(model)
+        chapters.append(tolerance_chapter(model, found))
+        content["tolerances"] = found.to_dict()
     if model.damping is not None and has_mass(model):
         study = study_model_vibration(model, "vibration")
         chapters.append(vibration_chapter(study))

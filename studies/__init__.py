@@ -48,6 +48,9 @@ from studies.statistics import (
 from studies.stiffness_map import stiffness_map
 from studies.sweep import sweep
 from studies.synthetic_measurement import SyntheticMeasurement, synthetic_measurement
+from studies.tolerance_result import ToleranceStudy
+from studies.tolerance_study import StudyOptions, tolerance_study
+from studies.toleranced_machines import TolerancedMachine, toleranced_machine
 
 __all__ = [
     "AS_IN_AZULAY",
@@ -66,9 +69,12 @@ __all__ = [
     "Progress",
     "PublishedRow",
     "Statistics",
+    "StudyOptions",
     "Summary",
     "SyntheticMeasurement",
     "Threads",
+    "ToleranceStudy",
+    "TolerancedMachine",
     "Vibration",
     "area_weights",
     "azulay_table_5",
@@ -95,6 +101,8 @@ __all__ = [
     "sweep",
     "synthetic_measurement",
     "to_json",
+    "tolerance_study",
+    "toleranced_machine",
     "variant",
     "write_csv",
     "write_json",

@@ -43,6 +43,13 @@ Loss = Annotated[
 ]
 
 
+class Objective(StrEnum):
+    """What an allocation of tolerances aims at."""
+
+    UNIFORM = "uniform"
+    COST = "cost"
+
+
 class Ranges(StrEnum):
     """Joints whose ranges a pose must keep."""
 
@@ -246,6 +253,77 @@ def compare(
     from reports.cli import compare as work
 
     work.run(computed, measured, window=window, least=least, doublet=doublet, json=json)
+
+
+@app.command()
+def tolerance(
+    target: Target,
+    limit: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="[JOINT:]KIND=VALUE",
+            help="A force limit beside the file's, as in --limit radial_force=2kN. Repeatable.",
+        ),
+    ] = None,
+    allocation: Annotated[
+        Objective | None,
+        typer.Option("--allocate", help="Find the largest tolerances that keep all limits."),
+    ] = None,
+    quantile: Annotated[
+        float | None,
+        typer.Option(
+            min=0.0, max=1.0, help="Share of the assemblies the allocation keeps; all by default."
+        ),
+    ] = None,
+    samples: Annotated[
+        int, typer.Option(min=0, max=100_000_000, help="Assemblies drawn; 0 for none.")
+    ] = 100_000,
+    seed: Annotated[int, typer.Option(min=0, help="Of the random numbers.")] = 2002,
+    quasi: Annotated[
+        bool, typer.Option("--quasi", help="Draw scrambled Sobol' points in place of random ones.")
+    ] = False,
+    out: Annotated[
+        str | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Find the forces that tolerances lock in, at worst and in distribution."""
+    if quantile is not None and allocation is None:
+        raise typer.BadParameter("--quantile belongs to --allocate.")
+    from reports.cli import tolerance as work
+    from studies.tolerance_study import StudyOptions
+
+    options = StudyOptions(
+        samples=samples,
+        seed=seed,
+        method="quasi_monte_carlo" if quasi else "monte_carlo",
+        objective=None if allocation is None else allocation.value,
+        quantile=quantile,
+    )
+    work.run(target, limit or (), options, out, json=json)
+
+
+@app.command()
+def scale(
+    machine: Annotated[str, typer.Argument(metavar="MACHINE", help="mit-ss1.")],
+    low: Annotated[float, typer.Option("--from", help="Shortest struts, m.")] = 0.1,
+    high: Annotated[float, typer.Option("--to", help="Longest struts, m.")] = 3.0,
+    lengths: Annotated[int, typer.Option(min=2, max=10_000, help="Lengths, evenly spaced.")] = 30,
+    width_ratio: Annotated[float, typer.Option(help="Width of a strut over its length.")] = 0.2,
+    tilt: Annotated[
+        str, typer.Option(metavar="ANGLE", help="Parallelism of the axes: half-angle of the cone.")
+    ] = "300 um/m",
+    out: Annotated[
+        str | None,
+        typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Show how the forces that tolerances lock in grow with the size of a machine."""
+    from reports.cli import scale as work
+
+    work.run(machine, (low, high), lengths, width_ratio, tilt, out, json=json)
 
 
 @app.command()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 
 from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bars
@@ -14,10 +15,13 @@ from studies.progress import Lines, Progress
 
 
 @contextmanager
-def shown() -> Iterator[Callable[[str], Progress]]:
-    """Give a function that makes the progress of a piece of work from its label."""
+def shown(unit: str = "poses") -> Iterator[Callable[[str], Progress]]:
+    """Give a function that makes the progress of a piece of work from its label.
+
+    `unit` is what is counted, in the plural.
+    """
     if not sys.stderr.isatty():
-        yield Lines
+        yield partial(Lines, unit=unit)
         return
     columns = (
         TextColumn("{task.description}"),

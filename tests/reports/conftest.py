@@ -100,7 +100,18 @@ def model_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
     return write_report(str(file), folder / "report")
 
 
-@pytest.fixture(params=["machine", "comparison", "prototype", "model"])
+@pytest.fixture(scope="session")
+def planar_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
+    return write_report("mit-ss1", tmp_path_factory.mktemp("planar"))
+
+
+@pytest.fixture(scope="session")
+def tolerance_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
+    example = Path(__file__).parents[2] / "examples" / "06_table_on_two_rails.toml"
+    return write_report(str(example), tmp_path_factory.mktemp("tolerance"))
+
+
+@pytest.fixture(params=["machine", "comparison", "prototype", "model", "planar", "tolerance"])
 def any_report(request: pytest.FixtureRequest) -> WrittenReport:
     """Each kind of report in turn."""
     written: WrittenReport = request.getfixturevalue(f"{request.param}_report")

@@ -6,6 +6,7 @@ import pytest
 
 from kinematics import Mechanism
 from machines import CATALOGUE, get
+from machines import published_son as son
 from machines.published_azulay import TABLE_2, TABLE_4, TABLES
 from strutwork.errors import ModelError
 
@@ -17,13 +18,14 @@ def test_every_entry_makes_its_machine() -> None:
         "alizade-3prps",
         "glozman-3prrs",
         "prototype-3ppprs",
+        "mit-ss1",
     ]
     for name, entry in CATALOGUE.items():
         machine = entry.factory()
         assert get(name) is entry
         assert isinstance(machine, Mechanism)
         assert machine.place(machine.home()).reachable
-        assert entry.paper.key == "azulay-2014"
+        assert entry.paper.key == ("son-2002" if name == "mit-ss1" else "azulay-2014")
 
 
 def test_the_factory_takes_other_dimensions() -> None:
@@ -45,6 +47,26 @@ def test_tables_are_complete_and_their_values_are_unique() -> None:
         assert len(set(names)) == len(names)
         for row, _ in names:
             assert row.split(" L=")[0] in CATALOGUE
+
+
+def test_the_thesis_has_its_numbers_once_each() -> None:
+    sizes = {key.removeprefix("son-2002-"): len(table.values) for key, table in son.TABLES.items()}
+    assert sizes == {
+        "appendix-b": 11,
+        "table-2": 36,
+        "table-6": 15,
+        "modes": 9,
+        "mount-modes": 3,
+        "section-6-2": 2,
+        "manipulability": 14,
+    }
+    for table in son.TABLES.values():
+        names = [(value.row, value.quantity) for value in table]
+        assert len(set(names)) == len(names)
+    # page 85: far and near joint of the third strut; page 102: at home along y
+    assert son.TABLE_2.value(son.table_2_row("III", 5), "Fr") == 27.3
+    assert son.TABLE_2.value(son.table_2_row("II", 6), "Fa") == 3.6
+    assert son.TABLE_6.value(son.table_6_row(0, 0), "Ky") == 40.0
 
 
 def test_numbers_are_found_by_row_and_quantity() -> None:

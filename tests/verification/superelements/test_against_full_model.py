@@ -26,6 +26,7 @@ from fea import modes
 from fea.interface import Interface
 from fea.reduce_solid import tied
 from fea.solid import Solid
+from fea.solid_matrices import solid_matrices
 from fea.superelement import Superelement, superelement
 from fea.tied_solid import TiedSolid
 from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement
@@ -175,8 +176,6 @@ def test_average_interface_is_as_soft_as_a_spread_load() -> None:
     compliance = ports.T @ np.linalg.solve(model.stiffness.toarray(), ports)
     nodes, areas = model.patches[0].nodes, np.zeros(len(model.points))
     # uniform traction along y of unit resultant on the head, written by hand
-    from fea.solid_matrices import solid_matrices
-
     found, area = solid_matrices(solid("hexahedra")).patch("+z")
     areas[found] = area
     load = np.zeros((len(model.points), 3))

@@ -1,0 +1,174 @@
+"""A large model on a small basis, with its frequency response."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import eigh
+
+from strutwork.errors import ModelError, NumericalError
+
+Array = NDArray[Any]
+
+#: Frequency lines solved at once where damping couples the modes.
+LINES = 128
+
+
+@dataclass(frozen=True)
+class SmallModel:
+    """Matrices of k generalised coordinates.
+
+    Parameters
+    ----------
+    stiffness, mass, viscous, structural : (k, k)
+        Symmetric; the dynamic stiffness is K + iD + iωC − ω²M.
+    ports : (k, m)
+        Loads per unit of each port.
+    proportional : bool
+        Whether C and D are `factors` times K and M.
+    factors : (3,)
+        Loss factor, mass rate (1/s), stiffness time (s).
+    """
+
+    stiffness: Array
+    mass: Array
+    viscous: Array
+    structural: Array
+    ports: Array
+    proportional: bool
+    factors: tuple[float, float, float]
+
+    def __repr__(self) -> str:
+        return f"<SmallModel: {len(self.mass)} coordinates, {self.ports.shape[1]} ports>"
+
+    def receptance(self, frequencies: ArrayLike) -> Array:
+        """Displacement at every port per load at every port, (f, m, m), complex.
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
+
+        Raises
+        ------
+        NumericalError
+            A line on a resonance without damping.
+        """
+        states = self.coordinates(frequencies)
+        return np.asarray(np.swapaxes(self.ports, 0, 1) @ states)
+
+    def coordinates(self, frequencies: ArrayLike) -> Array:
+        """Generalised coordinates per load at every port, (f, k, m), complex.
+
+        Raises
+        ------
+        ModelError
+            Frequencies that are negative or not finite.
+        NumericalError
+            A line on a resonance without damping.
+        """
+        lines = np.atleast_1d(np.asarray(frequencies, dtype=float))
+        if lines.ndim != 1 or not np.all(np.isfinite(lines) & (lines >= 0)):
+            raise ModelError(
+                "frequency lines", "are negative or not finite.", "Give Hz, zero or more."
+            )
+        states = self._uncoupled(lines) if self.proportional else self._coupled(lines)
+        if not np.all(np.isfinite(states)):
+            raise NumericalError(
+                "frequency response",
+                "a line falls on a resonance without damping.",
+                "Give damping, or move the line.",
+            )
+        return states
+
+    def _uncoupled(self, lines: Array) -> Array:
+        square, vectors = self.undamped
+        w = 2.0 * np.pi * lines[:, None]
+        eta, rate, time = self.factors
+        dynamic = square * (1.0 + 1j * eta + 1j * w * time) + 1j * w * rate - w**2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(vectors @ ((vectors.T @ self.ports) / dynamic[..., None]))
+
+    def _coupled(self, lines: Array) -> Array:
+        # in the undamped modes the matrices are of one size, which pivoting wants
+        square, vectors = self.undamped
+        size = 1.0 / np.sqrt(np.maximum(np.abs(square), 1e-12 * np.abs(square).max()))
+        turn = vectors * size
+        k, m, c, d = (
+            turn.T @ x @ turn for x in (self.stiffness, self.mass, self.viscous, self.structural)
+        )
+        loads = (turn.T @ self.ports).astype(complex)
+        states = np.empty((len(lines), *loads.shape), dtype=complex)
+        for start in range(0, len(lines), LINES):
+            w = 2.0 * np.pi * lines[start : start + LINES, None, None]
+            try:
+                states[start : start + LINES] = np.linalg.solve(
+                    k + 1j * (d + w * c) - w**2 * m, loads
+                )
+            except np.linalg.LinAlgError:
+                states[start : start + LINES] = np.nan
+        return np.asarray(turn @ states)
+
+    @property
+    def undamped(self) -> tuple[Array, Array]:
+        """ω² of the undamped model, rad²/s², and mass-normalised vectors, rising."""
+        square, vectors = eigh(self.stiffness, self.mass)
+        return square, vectors
+
+
+@dataclass(frozen=True)
+class KrylovModel:
+    """A large model reduced by moment matching.
+
+    Parameters
+    ----------
+    basis : (n, k)
+        Orthonormal in the energy of the first expansion.
+    small : SmallModel
+    expansions : tuple of float
+        Frequencies about which moments match, Hz.
+    shift : float
+        (rad/s)²; the energy is that of K + shift M.
+    band : (float, float)
+        Hz, in which the error was estimated.
+    error : float
+        Estimated largest error of a line's receptance, Frobenius norm over Frobenius norm.
+    worst : float
+        Hz, where.
+    tolerance : float
+        What was asked for.
+    solver : str
+        Which factorisation ran.
+    damping : str
+        What damps, in words.
+    """
+
+    basis: Array
+    small: SmallModel
+    expansions: tuple[float, ...]
+    shift: float
+    band: tuple[float, float]
+    error: float
+    worst: float
+    tolerance: float
+    solver: str
+    damping: str
+
+    def __repr__(self) -> str:
+        return (
+            f"<KrylovModel: {self.basis.shape[0]} dofs on {self.basis.shape[1]} vectors, "
+            f"error {self.error:.1e} estimated at {self.worst:.4g} Hz, {self.solver}>"
+        )
+
+    def receptance(self, frequencies: ArrayLike) -> Array:
+        """As `SmallModel.receptance`."""
+        return self.small.receptance(frequencies)
+
+    @property
+    def natural_frequencies(self) -> Array:
+        """Undamped frequencies of the reduced model, Hz, (k,); zero where it floats."""
+        square, _ = self.small.undamped
+        return np.asarray(np.sqrt(np.maximum(square, 0.0)) / (2.0 * np.pi))

@@ -1,0 +1,184 @@
+"""Stiffness and mass of elastic cells by SfePy, with its output kept off the standard output."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fea.solid import Solid
+from msa.materials import Material
+from strutwork.errors import NumericalError
+
+Array = NDArray[Any]
+GEOMETRIES = {"hexahedron": "3_8", "tetra": "3_4"}
+#: Nodes of a cell by kind and order.
+GROUP_NODES = {("hexahedron", 1): 8, ("hexahedron", 2): 27, ("tetra", 1): 4, ("tetra", 2): 10}
+#: Entries of cell matrices that are held at a time: 80 MB.
+GROUP_ENTRIES = 10_000_000
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep SfePy's own use of what its libraries have deprecated from the reader."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DeprecationWarning)
+        yield
+
+
+def sfepy() -> SimpleNamespace:
+    """The parts of SfePy in use.
+
+    Imported where used since it takes half a second. Its import prints about optional
+    packages and shortens how NumPy prints arrays; both are undone.
+    """
+    printing = np.get_printoptions()
+    with contextlib.redirect_stdout(io.StringIO()), _quiet():
+        from sfepy.base.base import output  # noqa: PLC0415
+
+        output.set_output(quiet=True)
+        from sfepy.discrete import (  # noqa: PLC0415
+            Equation,
+            Equations,
+            FieldVariable,
+            Integral,
+            Problem,
+        )
+        from sfepy.discrete import Material as Coefficients  # noqa: PLC0415
+        from sfepy.discrete.fem import FEDomain, Field, Mesh  # noqa: PLC0415
+        from sfepy.terms import Term  # noqa: PLC0415
+    np.set_printoptions(**printing)
+    return SimpleNamespace(
+        Equation=Equation, Equations=Equations, FieldVariable=FieldVariable, Integral=Integral,
+        Problem=Problem, Coefficients=Coefficients, FEDomain=FEDomain, Field=Field, Mesh=Mesh,
+        Term=Term,
+    )  # fmt: skip
+
+
+def elasticity(material: Material) -> Array:
+    """Stresses per engineering strain, Pa, (6, 6), in the order xx, yy, zz, xy, xz, yz."""
+    ratio, shear = material.poissons_ratio, material.shear_modulus
+    lame = 2.0 * shear * ratio / (1.0 - 2.0 * ratio)
+    law = np.diag([2.0 * shear] * 3 + [shear] * 3)
+    law[:3, :3] += lame
+    return law
+
+
+@dataclass(frozen=True, repr=False)
+class Assembler:
+    """A solid in SfePy: its field and how to assemble it.
+
+    Parameters
+    ----------
+    solid : Solid
+    points : (n, 3)
+        All nodes of the field, corners first, m.
+    cells : (m, k) int
+        Nodes of the cells in SfePy's order.
+    groups : tuple of str
+        Region of each group of cells that is worked on at a time.
+    domain : object
+        SfePy's.
+    """
+
+    solid: Solid
+    points: Array
+    cells: NDArray[np.int64]
+    groups: tuple[str, ...]
+    domain: Any
+
+    def __repr__(self) -> str:
+        return f"Assembler({self.solid.name}: {len(self.points)} nodes)"
+
+    def stiffness(self, weights: dict[str, float] | None = None) -> sp.csc_array:
+        """Stiffness, N/m, (3n, 3n); with `weights` each region's share times its weight."""
+        values = {
+            region: elasticity(self.solid.materials[region]) * (weights or {}).get(region, 1.0)
+            for region in self.solid.used_regions
+        }
+        with _quiet():
+            return self._assemble("dw_lin_elastic", values, "vector")
+
+    def mass(self) -> sp.csc_array:
+        """Consistent mass, kg, (3n, 3n)."""
+        values = {r: self.solid.materials[r].density for r in self.solid.used_regions}
+        # the three directions have one and the same matrix: a third of the work and of the fill
+        with _quiet():
+            one = self._assemble("dw_dot", values, "scalar")
+        return sp.csc_array(sp.kron(one, sp.eye_array(3)))
+
+    def _assemble(self, term: str, values: dict[str, Any], shape: str) -> sp.csc_array:
+        lib = sfepy()
+        order = self.solid.order
+        field = lib.Field.from_args(
+            f"{shape} field", np.float64, shape, self.domain.regions["Omega"], approx_order=order
+        )
+        u = lib.FieldVariable("u", "unknown", field)
+        v = lib.FieldVariable("v", "test", field, primary_var_name="u")
+        # twice the order: one less leaves quadratic hexahedra spurious motions without energy
+        integral = lib.Integral("i", order=2 * order)
+        sum_of_terms: Any = None
+        for group, region in enumerate(self.groups):
+            constants = lib.Coefficients(f"m{group}", c=values[region])
+            part = lib.Term.new(
+                f"{term}(m{group}.c, v, u)", integral, self.domain.regions[f"group{group}"],
+                **{f"m{group}": constants}, v=v, u=u,
+            )  # fmt: skip
+            sum_of_terms = part if sum_of_terms is None else sum_of_terms + part
+        equations = lib.Equations([lib.Equation("e", sum_of_terms)])
+        problem = lib.Problem("p", equations=equations)
+        problem.time_update()
+        problem.update_materials()
+        found = equations["e"].evaluate(mode="weak", dw_mode="matrix", asm_obj=problem.mtx_a)
+        if not np.isfinite(found.data).all():
+            raise NumericalError(
+                f"solid {self.solid.name}",
+                "its matrices are not finite.",
+                "Check the size of its cells and the units of its materials.",
+            )
+        # rows of a symmetric matrix are its columns
+        return sp.csc_array((found.data, found.indices, found.indptr), shape=found.shape)
+
+
+def assembler(solid: Solid) -> Assembler:
+    """The solid brought into SfePy."""
+    with _quiet():
+        return _assembler(solid)
+
+
+def _assembler(solid: Solid) -> Assembler:
+    lib = sfepy()
+    group, regions = _groups(solid)
+    mesh = lib.Mesh.from_data(
+        "mesh", solid.mesh.points.copy(), None, [solid.cells.astype(np.int32)],
+        [group], [GEOMETRIES[solid.kind]],
+    )  # fmt: skip
+    domain = lib.FEDomain("domain", mesh)
+    omega = domain.create_region("Omega", "all")
+    for index in range(len(regions)):
+        domain.create_region(f"group{index}", f"cells of group {index}")
+    field = lib.Field.from_args("field", np.float64, "scalar", omega, approx_order=solid.order)
+    cells = np.asarray(field.econn, dtype=np.int64)
+    return Assembler(solid, np.array(field.get_coor()), cells, regions, domain)
+
+
+def _groups(solid: Solid) -> tuple[NDArray[np.int32], tuple[str, ...]]:
+    """Group of each cell, and the region of each group: one region, and few enough cells."""
+    region = solid.cell_regions
+    entries = 9 * GROUP_NODES[solid.kind, solid.order] ** 2
+    most = max(1, GROUP_ENTRIES // entries)
+    group = np.zeros(len(region), dtype=np.int32)
+    names: list[str] = []
+    for index in np.unique(region):
+        own = np.flatnonzero(region == index)
+        group[own] = len(names) + np.arange(len(own)) // most
+        names += [solid.mesh.regions[index]] * (-(-len(own) // most))
+    return group, tuple(names)

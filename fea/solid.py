@@ -1,0 +1,135 @@
+"""Solids: a mesh with a material for each region and an order of the field."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshes.connectivity import check_connectivity
+from meshes.mesh import Mesh
+from meshes.quality import check_quality
+from msa.materials import Material
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+#: The kinds of cell whose geometry SfePy maps.
+KINDS = ("hexahedron", "tetra")
+
+
+@dataclass(frozen=True, repr=False)
+class Solid:
+    """A three-dimensional linear elastic solid.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of eight-node hexahedra or of four-node tetrahedra.
+    materials : mapping of str to Material
+        The material of each region of the mesh.
+    order : int
+        1 or 2: linear or quadratic displacements in each cell. Linear cells are too stiff in
+        bending and near incompressibility; quadratic ones are the default.
+    name : str
+        For messages; by default the mesh's.
+
+    Raises
+    ------
+    ModelError
+        Cells that cannot be used, inverted cells (with their count and the worst place),
+        parts without a common node (with the names of their regions), points without a cell,
+        regions without a material, a Poisson's ratio of 0.5.
+    """
+
+    mesh: Mesh
+    materials: Mapping[str, Material]
+    order: int = 2
+    name: str = field(default="")
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "materials", MappingProxyType(dict(self.materials)))
+        object.__setattr__(self, "name", self.name or self.mesh.name)
+        if self.order not in {1, 2}:
+            raise ModelError(self._part, f"its order is {self.order!r}.", "Choose 1 or 2.")
+        self._check_cells()
+        self._check_materials()
+        check_connectivity(self.mesh)
+        check_quality(self.mesh)
+
+    def __repr__(self) -> str:
+        return (
+            f"Solid({self.name}: {self.mesh.cell_count} {self.kind} of order {self.order}, "
+            f"materials {', '.join(f'{r}: {m.name}' for r, m in self.materials.items())})"
+        )
+
+    @property
+    def kind(self) -> str:
+        """The kind of its cells: `hexahedron` or `tetra`."""
+        return self.mesh.blocks[0].kind
+
+    @property
+    def cells(self) -> NDArray[np.int64]:
+        """Corner nodes of all cells, blocks one after another, (m, 8) or (m, 4)."""
+        return np.concatenate([b.nodes for b in self.mesh.blocks])
+
+    @property
+    def cell_regions(self) -> NDArray[np.int64]:
+        """Index of each cell's region in `mesh.regions`, (m,)."""
+        return np.concatenate([b.region for b in self.mesh.blocks])
+
+    @property
+    def used_regions(self) -> tuple[str, ...]:
+        """Names of the regions that have cells."""
+        return tuple(self.mesh.regions[i] for i in np.unique(self.cell_regions))
+
+    @property
+    def has_density(self) -> bool:
+        """Whether every region's material has a density."""
+        return all(self.materials[r].density is not None for r in self.used_regions)
+
+    @property
+    def _part(self) -> str:
+        return f"solid {self.name}"
+
+    def _check_cells(self) -> None:
+        kinds = list(dict.fromkeys(b.kind for b in self.mesh.blocks))
+        for kind in kinds:
+            if kind not in KINDS:
+                raise ModelError(
+                    self._part,
+                    f"its mesh has cells of type {kind!r}.",
+                    f"Use {' or '.join(KINDS)} (`meshes.order.linear` keeps the corners) and "
+                    "order=2 for quadratic displacements.",
+                )
+        if len(kinds) > 1:
+            raise ModelError(
+                self._part,
+                f"its mesh mixes {' and '.join(kinds)}.",
+                "Mesh it with one kind of cell.",
+            )
+
+    def _check_materials(self) -> None:
+        known = ", ".join(repr(r) for r in self.mesh.regions)
+        for region in self.used_regions:
+            if region not in self.materials:
+                raise ModelError(
+                    self._part,
+                    f"region {region!r} has no material.",
+                    f"Name one for each of the regions {known}.",
+                )
+        for region, material in self.materials.items():
+            if region not in self.mesh.regions:
+                raise ModelError(
+                    self._part, f"has no region {region!r}.", f"Its regions are {known}."
+                )
+            if not material.poissons_ratio < 0.5 - 1e-9:
+                raise ModelError(
+                    f"{self._part}, region {region!r}",
+                    f"the material {material.name} has a Poisson's ratio of "
+                    f"{material.poissons_ratio:.6g}, it cannot be compressed.",
+                    "Give a Poisson's ratio below 0.5; with 0.49 use order=2.",
+                )

@@ -1,0 +1,155 @@
+"""Static displacements of a held solid."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import ArrayLike, NDArray
+
+from fea.factorize import factorize
+from fea.solid_matrices import SolidMatrices
+from fea.solid_supports import Supports, require_held, supports
+from strutwork.errors import ModelError, NumericalError
+
+Array = NDArray[Any]
+#: Largest residual that is accepted, as a share of the forces.
+RESIDUAL = 1e-7
+
+
+@dataclass(frozen=True, repr=False)
+class SolidStatic:
+    """Static solution of a solid, one column for each load case.
+
+    Parameters
+    ----------
+    matrices : SolidMatrices
+    displacements : (3n, m)
+        m.
+    reactions : (3n, m)
+        Forces of the supports on the solid, zero elsewhere, N.
+    strain_energy : (m,)
+        J.
+    residual : float
+        Largest ‖K u − f‖ over ‖f‖ (forces of displaced supports included) of the cases.
+    solver : str
+        Which factorisation ran.
+    """
+
+    matrices: SolidMatrices
+    displacements: Array
+    reactions: Array
+    strain_energy: Array
+    residual: float
+    solver: str
+
+    def __repr__(self) -> str:
+        return (
+            f"SolidStatic({self.matrices.solid.name}: {self.displacements.shape[1]} load cases, "
+            f"{self.matrices.size} degrees of freedom, largest displacement "
+            f"{np.abs(self.displacements).max(initial=0.0):.4g} m, residual {self.residual:.1e}, "
+            f"{self.solver})"
+        )
+
+    def at_nodes(self, case: int = 0) -> Array:
+        """Displacement of each node in a load case, m, (n, 3)."""
+        return np.asarray(self.displacements[:, case].reshape(-1, 3))
+
+    def mean_over(self, patch: str) -> Array:
+        """Mean displacement of a patch, weighted by area, m, (3, m)."""
+        nodes, areas = self.matrices.patch(patch)
+        there = self.displacements.reshape(len(self.matrices.points), 3, -1)[nodes]
+        return np.asarray(np.einsum("n,ncm->cm", areas / areas.sum(), there))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Scalars of the solution, for reports."""
+        return {
+            "degrees_of_freedom": self.matrices.size,
+            "largest_displacement_m": np.abs(self.displacements).max(axis=0).tolist(),
+            "strain_energy_J": self.strain_energy.tolist(),
+            "residual": self.residual,
+            "solver": self.solver,
+        }
+
+
+def solve_solid(
+    matrices: SolidMatrices,
+    loads: Array,
+    held: Supports | Mapping[str, str | Mapping[str, float | ArrayLike]],
+    solver: str | None = None,
+) -> SolidStatic:
+    """Displacements under loads and displaced supports, K u = f.
+
+    Parameters
+    ----------
+    matrices : SolidMatrices
+    loads : (3n,) or (3n, m)
+        N.
+    held : Supports or mapping
+        As for `fea.solid_supports.supports`. Displaced supports act in every load case.
+    solver : str or None
+        Which factorisation (`fea.factorize`); by default the best installed.
+
+    Returns
+    -------
+    SolidStatic
+
+    Raises
+    ------
+    ModelError
+        Loads of the wrong shape or not finite.
+    MechanismError
+        The supports let the solid move; names the rigid motions that are free.
+    NumericalError
+        The stiffness is singular otherwise, or the residual is not small.
+    """
+    forces = _checked(matrices, loads)
+    known = held if isinstance(held, Supports) else supports(matrices, held)
+    require_held(matrices, known.dofs)
+    free = np.ones(matrices.size, dtype=bool)
+    free[known.dofs] = False
+    displacements = np.zeros_like(forces)
+    displacements[known.dofs] = known.values[:, None]
+    right = (forces - matrices.stiffness @ displacements)[free]
+    name, size = "none", 0.0
+    if free.any():
+        inner = sp.csc_array(matrices.stiffness[free][:, free])
+        factor = factorize(inner, solver)
+        name = factor.name
+        found = factor.solve(right)
+        # one step of refinement takes off what a factorisation without pivoting leaves
+        found = found + factor.solve(right - inner @ found)
+        displacements[free] = found
+        size = _relative(inner @ found - right, right)
+        if not size <= RESIDUAL:
+            raise NumericalError(
+                f"solid {matrices.solid.name}",
+                f"its static solution leaves a residual of {size:.1e} of the load.",
+                "Look for parts that meet only at a node or along an edge, or for very flat cells.",
+            )
+    internal = matrices.stiffness @ displacements
+    reactions = np.zeros_like(forces)
+    reactions[known.dofs] = (internal - forces)[known.dofs]
+    energy = 0.5 * np.einsum("nm,nm->m", displacements, internal)
+    return SolidStatic(matrices, displacements, reactions, energy, size, name)
+
+
+def _checked(matrices: SolidMatrices, loads: Array) -> Array:
+    forces = np.asarray(loads, dtype=float)
+    forces = forces[:, None] if forces.ndim == 1 else forces
+    if forces.ndim != 2 or len(forces) != matrices.size or not np.isfinite(forces).all():
+        raise ModelError(
+            f"solid {matrices.solid.name}",
+            f"its loads have the shape {np.shape(loads)} or are not finite.",
+            f"Give {matrices.size} forces for each load case.",
+        )
+    return forces
+
+
+def _relative(residual: Array, right: Array) -> float:
+    scale = np.linalg.norm(right, axis=0)
+    error = np.linalg.norm(residual, axis=0)
+    return float(np.divide(error, scale, out=error.copy(), where=scale > 0).max(initial=0.0))

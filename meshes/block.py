@@ -1,0 +1,91 @@
+"""Blocks of hexahedra: bricks, graded bricks, and sheared or tapered ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from meshes.cells import CELL_TYPES
+from meshes.grading import lines
+from meshes.grids import grid
+from meshes.mesh import Mesh
+from meshes.quality import check_quality
+from strutwork.errors import ModelError
+
+
+def block(
+    size: Sequence[float],
+    divisions: Sequence[int],
+    grading: Sequence[float] = (1.0, 1.0, 1.0),
+    *,
+    both: bool = False,
+    region: str = "solid",
+    name: str = "block",
+) -> Mesh:
+    """A brick from the origin to `size`.
+
+    Parameters
+    ----------
+    size : (3,)
+        m.
+    divisions : (3,) int
+        Cells along each axis.
+    grading : (3,)
+        Last cell over first along each axis; more than 1 is finer at the origin.
+    both : bool
+        Grade both ends alike (`meshes.grading.lines`).
+    region, name : str
+        Name of the region, and of the mesh.
+
+    Returns
+    -------
+    Mesh
+        Eight-node hexahedra; patches `-x`, `+x`, `-y`, `+y`, `-z`, `+z`.
+
+    Raises
+    ------
+    ModelError
+        A size, a division or a grading that is not positive.
+    """
+    axes = [
+        lines(length, count, ratio, both=both)
+        for length, count, ratio in zip(size, divisions, grading, strict=True)
+    ]
+    return grid(*axes, region=region, name=name)
+
+
+def hexahedral_block(
+    corners: ArrayLike,
+    divisions: Sequence[int],
+    grading: Sequence[float] = (1.0, 1.0, 1.0),
+    *,
+    region: str = "solid",
+    name: str = "block",
+) -> Mesh:
+    """A block between eight corners: sheared, tapered or twisted.
+
+    Parameters
+    ----------
+    corners : (8, 3)
+        m, in the order of an eight-node hexahedron: four below counter-clockwise seen from
+        above, then the four above them. The points inside are trilinear.
+    divisions, grading, region, name
+        As for `block`; the sides keep their names.
+
+    Raises
+    ------
+    ModelError
+        Corners that make an inverted block.
+    """
+    places = np.asarray(corners, dtype=float)
+    if places.shape != (8, 3) or not np.isfinite(places).all():
+        raise ModelError(
+            f"mesh {name}", f"its corners have the shape {places.shape}.", "Give (8, 3) numbers."
+        )
+    unit = block((1.0, 1.0, 1.0), divisions, grading, region=region, name=name)
+    mesh = replace(unit, points=CELL_TYPES["hexahedron"].shape(unit.points) @ places)
+    check_quality(mesh)
+    return mesh

@@ -1,0 +1,250 @@
+"""A mesh: points, blocks of cells, regions, named node sets and surface patches."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from meshes.cells import CellType, cell_type
+from strutwork.errors import ModelError
+
+Array = NDArray[Any]
+Ints = NDArray[np.int64]
+Named = TypeVar("Named")
+
+
+def _fixed(values: ArrayLike, dtype: type) -> Array:
+    """A view of the values that cannot be written through."""
+    array: Array = np.asarray(values, dtype=dtype).view()
+    array.flags.writeable = False
+    return array
+
+
+@dataclass(frozen=True, repr=False)
+class Faces:
+    """Faces of one kind.
+
+    Parameters
+    ----------
+    kind : str
+        `quad`, `quad8`, `quad9`, `triangle` or `triangle6`.
+    nodes : (f, k) int
+        Nodes of each face, counter-clockwise seen from outside the solid.
+    """
+
+    kind: str
+    nodes: Ints
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nodes", _connectivity(self.kind, self.nodes, 2))
+
+    def __repr__(self) -> str:
+        return f"Faces({len(self.nodes)} {self.kind})"
+
+    @property
+    def type(self) -> CellType:
+        """The cell type of the faces."""
+        return cell_type(self.kind)
+
+
+@dataclass(frozen=True, repr=False)
+class Patch:
+    """A part of a surface: faces of one or more kinds."""
+
+    faces: tuple[Faces, ...]
+
+    def __repr__(self) -> str:
+        kinds = ", ".join(f"{len(f.nodes)} {f.kind}" for f in self.faces)
+        return f"Patch({kinds or 'empty'}, {len(self.nodes)} nodes)"
+
+    def __len__(self) -> int:
+        return sum(len(f.nodes) for f in self.faces)
+
+    @property
+    def nodes(self) -> Ints:
+        """The nodes of all faces, each once, ascending, (n,)."""
+        used = [f.nodes.ravel() for f in self.faces]
+        return np.unique(np.concatenate(used)) if used else np.zeros(0, dtype=np.int64)
+
+
+@dataclass(frozen=True, repr=False)
+class CellBlock:
+    """Cells of one kind.
+
+    Parameters
+    ----------
+    kind : str
+        `hexahedron`, `hexahedron20`, `hexahedron27`, `tetra` or `tetra10`.
+    nodes : (m, k) int
+        Nodes of each cell in the order of VTK.
+    region : (m,) int
+        Index of each cell's region in `Mesh.regions`.
+    """
+
+    kind: str
+    nodes: Ints
+    region: Ints
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nodes", _connectivity(self.kind, self.nodes, 3))
+        object.__setattr__(self, "region", _fixed(self.region, np.int64))
+        if self.region.shape != (len(self.nodes),):
+            raise ModelError(
+                f"block of {self.kind}",
+                f"has {len(self.nodes)} cells but regions of shape {self.region.shape}.",
+                "Give one region for each cell.",
+            )
+
+    def __repr__(self) -> str:
+        return f"CellBlock({len(self.nodes)} {self.kind})"
+
+    @property
+    def type(self) -> CellType:
+        """The cell type of the block."""
+        return cell_type(self.kind)
+
+
+@dataclass(frozen=True, repr=False)
+class Mesh:
+    """A solid mesh.
+
+    Parameters
+    ----------
+    points : (n, 3)
+        m.
+    blocks : tuple of CellBlock
+    regions : tuple of str
+        Names of the regions, by the index in `CellBlock.region`.
+    node_sets : mapping of str to (k,) int
+        Named sets of nodes.
+    patches : mapping of str to Patch
+        Named parts of surfaces.
+    name : str
+        For messages.
+
+    Raises
+    ------
+    ModelError
+        Points that are not finite, a node or a region that does not exist, two regions of
+        one name.
+    """
+
+    points: Array
+    blocks: tuple[CellBlock, ...]
+    regions: tuple[str, ...] = ("solid",)
+    node_sets: Mapping[str, Ints] = field(default_factory=dict)
+    patches: Mapping[str, Patch] = field(default_factory=dict)
+    name: str = "mesh"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", _fixed(self.points, float))
+        object.__setattr__(self, "blocks", tuple(self.blocks))
+        object.__setattr__(self, "regions", tuple(self.regions))
+        sets = {name: _fixed(np.unique(nodes), np.int64) for name, nodes in self.node_sets.items()}
+        object.__setattr__(self, "node_sets", MappingProxyType(sets))
+        object.__setattr__(self, "patches", MappingProxyType(dict(self.patches)))
+        self._check()
+
+    def __repr__(self) -> str:
+        cells = ", ".join(f"{len(b.nodes)} {b.kind}" for b in self.blocks)
+        named = [f"{len(self.regions)} regions"]
+        named += [f"{len(self.patches)} patches"] if self.patches else []
+        named += [f"{len(self.node_sets)} node sets"] if self.node_sets else []
+        size = " × ".join(f"{s:.4g}" for s in self.extent)
+        return (
+            f"Mesh({self.name}: {len(self.points)} points, {cells}, {', '.join(named)}, {size} m)"
+        )
+
+    @property
+    def cell_count(self) -> int:
+        """Number of cells."""
+        return sum(len(b.nodes) for b in self.blocks)
+
+    @property
+    def bounds(self) -> Array:
+        """Lowest and highest coordinates of the points, m, (2, 3)."""
+        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+
+    @property
+    def extent(self) -> Array:
+        """Sizes of the bounding box, m, (3,)."""
+        low, high = self.bounds
+        return np.asarray(high - low)
+
+    def patch(self, name: str) -> Patch:
+        """The patch of that name; ModelError lists those there are."""
+        return self._named(self.patches, "patch", name)
+
+    def node_set(self, name: str) -> Ints:
+        """The nodes of the set of that name; ModelError lists those there are."""
+        return self._named(self.node_sets, "node set", name)
+
+    def region_nodes(self, name: str) -> Ints:
+        """The nodes of the cells of a region, ascending."""
+        self._named(dict.fromkeys(self.regions), "region", name)
+        index = self.regions.index(name)
+        used = [b.nodes[b.region == index].ravel() for b in self.blocks]
+        return np.unique(np.concatenate(used))
+
+    def _named(self, things: Mapping[str, Named], what: str, name: str) -> Named:
+        if name not in things:
+            known = ", ".join(repr(k) for k in things) or "none"
+            raise ModelError(f"mesh {self.name}", f"has no {what} {name!r}.", f"It has: {known}.")
+        return things[name]
+
+    def _check(self) -> None:
+        part = f"mesh {self.name}"
+        if self.points.ndim != 2 or self.points.shape[1] != 3 or not len(self.points):
+            raise ModelError(
+                part, f"has points of shape {self.points.shape}.", "Give an array (n, 3)."
+            )
+        finite = np.isfinite(self.points).all(axis=1)
+        if not finite.all():
+            raise ModelError(
+                part,
+                f"point {int(np.argmin(finite))} is not finite "
+                f"({int((~finite).sum())} such points).",
+                "Check the coordinates.",
+            )
+        if not self.cell_count:
+            raise ModelError(part, "has no solid cells.", "Give hexahedra or tetrahedra.")
+        if len(set(self.regions)) < len(self.regions):
+            raise ModelError(part, "has two regions of one name.", "Rename one of them.")
+        for block in self.blocks:
+            _in_range(f"{part}, {block.kind}", "node", [block.nodes], len(self.points))
+            _in_range(f"{part}, {block.kind}", "region", [block.region], len(self.regions))
+        for name, nodes in self.node_sets.items():
+            _in_range(f"{part}, node set {name!r}", "node", [nodes], len(self.points))
+        for name, patch in self.patches.items():
+            faces = [f.nodes for f in patch.faces]
+            _in_range(f"{part}, patch {name!r}", "node", faces, len(self.points))
+
+
+def _connectivity(kind: str, nodes: ArrayLike, dimension: int) -> Array:
+    """The nodes as integers, of the shape that the kind asks for."""
+    type_ = cell_type(kind)
+    array = _fixed(nodes, np.int64)
+    if type_.dimension != dimension:
+        what = "a face" if dimension == 2 else "a solid cell"
+        raise ModelError(f"block of {kind}", f"{kind} is not {what}.", "Choose another kind.")
+    if array.ndim != 2 or array.shape[1] != type_.size:
+        raise ModelError(
+            f"block of {kind}",
+            f"has nodes of shape {array.shape}.",
+            f"Give {type_.size} nodes for each cell.",
+        )
+    return array
+
+
+def _in_range(part: str, what: str, values: Iterable[Array], count: int) -> None:
+    for array in values:
+        if array.size and (array.min() < 0 or array.max() >= count):
+            wrong = int(array.min()) if array.min() < 0 else int(array.max())
+            raise ModelError(
+                part, f"refers to {what} {wrong}; there are {count}.", f"Number {what}s from 0."
+            )

@@ -1,0 +1,220 @@
+"""The MIT-SS-1: the machine in numbers, its drawing, and what was assumed."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from machines import MitSS1, get
+from machines.mit_ss1_tolerances import AXIAL_FACTOR, HOUSING_TILT, RAIL_HEIGHT, STATIC_RATING
+from machines.published_son import DIMENSIONS, MACHINE, MANIPULABILITY
+from reports.chapters.overconstraint import governing, label, shown
+from reports.content import (
+    Chapter,
+    Column,
+    Fact,
+    Facts,
+    Figure,
+    Note,
+    Table,
+    Text,
+)
+from reports.data_files import json_file
+from reports.figures.planar_machine import planar_machine_view
+from reports.mit_ss1_study import NAME, MitSS1Study
+from reports.numbers import micro, significant
+from studies.assembly_table import SETS
+
+DRAWING = (
+    "Seen from outside towards the granite. Drag to turn, scroll to zoom; names show under the "
+    "pointer. Lengths are in mm; struts have their section, blocks, rails and housing are not to "
+    "scale. Black arrows show the driven motions."
+)
+
+
+def summary_chapter(study: MitSS1Study) -> Chapter:
+    """The machine in a sentence and its headline numbers."""
+    own = study.own
+    text = (
+        "MIT-SS-1: three blocks on vertical guides move a spindle housing in the x-z plane by "
+        "struts of fixed length, a planar 3-PRR mechanism, [P vertical] R R (P prismatic, R "
+        "revolute; driven ones in brackets). All pins are parallel, so the machine is constrained "
+        "more than once, and what its parts deviate from each other is locked in as forces in its "
+        "bearings. This report says how large they can become."
+    )
+    top, case = governing(own), study.cases["I"]
+    first = governing(case)
+    condition = study.kinematics["condition"]
+    facts = []
+    if top is not None:
+        facts.append(
+            Fact(
+                "Largest bearing force of the machine",
+                shown(float(own.largest[top]), "N"),
+                "kN",
+                f"{label(own.quantities[top])}, exact worst case over the workspace; "
+                f"{100 * float(own.utilisation[top]):.0f} % of the assumed static rating",
+            )
+        )
+    if first is not None:
+        facts.append(
+            Fact(
+                "Table 2, case I: largest force",
+                shown(float(case.largest[first]), "N"),
+                "kN",
+                f"{label(case.quantities[first])}, calibrated; Table 2 prints 10.2 kN as its "
+                "largest",
+            )
+        )
+    for which, rows in study.table_2.items():
+        used = [r for r in rows if which == "all cases" or " I " not in r.row]
+        some = [abs(r.difference_percent) for r in used]
+        what = "all 36 forces" if which == "all cases" else "cases II and III"
+        facts.append(Fact(f"Largest difference, {what}", f"{max(some):.1f}", "%", f"{SETS[which]}"))
+    facts.append(
+        Fact(
+            "Longest struts within the rating",
+            significant(study.scale.length_at()),
+            "m",
+            f"Table 2's structure, no bearing above {significant(STATIC_RATING / 1e3)} kN",
+        )
+    )
+    low, high = float(condition.min()), float(condition.max())
+    printed = [
+        MANIPULABILITY.value(MACHINE, f"position condition number, {end}")
+        for end in ("least", "most")
+    ]
+    facts.append(
+        Fact(
+            "Position condition number",
+            f"{low:.2f}–{high:.2f}",
+            "",
+            f"published {printed[0]:g} to {printed[1]:g}; nothing fitted",
+        )
+    )
+    states = int(own.responses.influence.redundant.max(initial=0))
+    note = (
+        f"With two elastic bearings a pin the machine has {states} states of self-stress. The "
+        "dimensions are the thesis's; stiffnesses are calibrated; the static rating and some "
+        "tolerances are our assumptions, each named below."
+    )
+    blocks = (Text(text), Facts(tuple(facts)), Note(note))
+    return Chapter("summary", "Summary", blocks)
+
+
+def drawing_chapter(study: MitSS1Study) -> Chapter:
+    """The machine in 3-D at home."""
+    machine = study.machine
+    placement = machine.place(machine.home())
+    file = f"drawing-{NAME}.json"
+    content = {
+        "unit": "m",
+        "nodes": dict(zip(machine.linkage.nodes, placement.positions.tolist(), strict=True)),
+        "lines": [list(pair) for pair in machine.skeleton()],
+        "joints": {
+            j.name: {"type": j.type, "between": list(j.between), "axes_as_columns": f.tolist()}
+            for j, f in zip(machine.linkage.joints, placement.frames, strict=True)
+        },
+        "tool": machine.linkage.tool,
+    }
+    figure = Figure(
+        f"drawing-{NAME}",
+        "The MIT-SS-1 at home.",
+        planar_machine_view(machine, placement),
+        "Three-dimensional drawing of the MIT-SS-1: three guides with blocks, three struts, the "
+        "spindle housing, pins with two bearings each, and the tool.",
+        file,
+        600,
+    )
+    what = "what the drawing shows: nodes, lines and joints"
+    return Chapter(
+        "drawing", "The machine", (Text(DRAWING), figure), (json_file(file, what, content),)
+    )
+
+
+def assumptions_chapter(study: MitSS1Study) -> Chapter:
+    """Every assumption with its source."""
+    machine = study.machine
+    return Chapter(
+        "assumptions",
+        "Assumptions and their sources",
+        (
+            Text(f"The thesis: {get(NAME).paper.citation}"),
+            Table(
+                "Dimensions, properties and tolerances",
+                [Column(h, "", False) for h in ("assumption", "value", "source")],
+                _assumed(machine),
+            ),
+        ),
+    )
+
+
+def _assumed(machine: MitSS1) -> list[list[str]]:
+    def mm(*lengths: float) -> str:
+        return ", ".join(significant(1e3 * v, 4) for v in lengths) + " mm"
+
+    ours = "our choice"
+    thesis = DIMENSIONS.note.split(".")[0]
+    return [
+        [
+            "Guides w₁, w₂, w₃",
+            mm(*machine.guide_distances),
+            f"{thesis}; −w₁, lost in the scan of eq. 40",
+        ],
+        ["Struts l₁, l₂, l₃", mm(*machine.strut_lengths), thesis],
+        [
+            "Housing t, r, p",
+            mm(machine.joint_height, machine.joint_radius, machine.joint_rise),
+            thesis,
+        ],
+        [
+            "Distance of a pin's bearings",
+            mm(machine.pin_width),
+            "ours: section 8.2 has 140 to 220 mm",
+        ],
+        [
+            "Radial stiffness of a bearing",
+            f"{micro(machine.radial_stiffness or np.inf)} N/µm",
+            "calibrated: with the strut 255 N/µm (eq. 51), the 150 N/µm of Fig. 29",
+        ],
+        [
+            "Axial stiffness of a bearing",
+            f"{micro(machine.axial_stiffness or np.inf)} N/µm",
+            "calibrated: two in series are the k_y of the reconstructed Table 2",
+        ],
+        ["Struts", f"{machine.section.name} mm, {machine.material.name}, beams with shear", ours],
+        ["Guides, drives, blocks, housing", "rigid", "section 6.2 holds the drives; rest ours"],
+        [
+            "Parallelism of the pins in the blocks",
+            "300 µm/m, any azimuth, about the near bearing",
+            "section 6.6",
+        ],
+        [
+            "Parallelism of the pins in the housing",
+            f"{1e6 * HOUSING_TILT:g} µm/m",
+            "ours: wire EDM in one set-up, “quite good” (section 8.6)",
+        ],
+        [
+            "Height of the rails on the granite",
+            f"zone of {1e6 * RAIL_HEIGHT:g} µm",
+            "section 8.6: rails parallel within 4 µm",
+        ],
+        [
+            "Static rating of a bearing",
+            f"{significant(STATIC_RATING / 1e3)} kN",
+            (
+                "ours: Table 4 names a tapered roller bearing 15 x 35 mm by NSK, no rating; "
+                "catalogues give 13 to 15 kN for this size (30202)"
+            ),
+        ],
+        [
+            "Limit of a bearing",
+            "radial and axial force each below the static rating, safety factor 1",
+            f"ISO 76: P₀ = max(Fr, ½ Fr + {AXIAL_FACTOR:g} Fa); each taken by itself, ours",
+        ],
+        [
+            "Distribution of the machine's tolerances",
+            "uniform in each zone; Table 2's on the surface of the cone",
+            "ours; section 6.6 for Table 2",
+        ],
+        ["Clearance, preload, friction, gravity", "none", ours],
+    ]

@@ -1,0 +1,429 @@
+"""Calibration: the parameters of a model that meet measured or published numbers best."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from math import isfinite, log
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.stats import qmc
+
+from strutwork.errors import ModelError, NumericalError, StrutworkError
+from studies.identifiability import Identifiability, identifiability
+from studies.progress import Lines, Progress
+
+Array = NDArray[Any]
+
+#: What a model takes and gives: numbers by name.
+Model = Callable[[Mapping[str, float]], Mapping[str, float]]
+
+#: Costs that differ by less, as a share of the starting cost, are one minimum.
+TIED = 1e-8
+
+#: A parameter this near to a bound, as a share of its range, lies on it.
+ON_BOUND = 1e-4
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number to be found.
+
+    Parameters
+    ----------
+    name : str
+    start, low, high : float
+    unit : str
+    scale : "log" or "linear"
+        "log": varied by factors, for numbers that are positive by nature.
+
+    Raises
+    ------
+    ModelError
+        Bounds that do not enclose the start, or a logarithm of what is not positive.
+    """
+
+    name: str
+    start: float
+    low: float
+    high: float
+    unit: str = ""
+    scale: Literal["log", "linear"] = "log"
+
+    def __post_init__(self) -> None:
+        part = f"parameter {self.name}"
+        if not all(isfinite(v) for v in (self.start, self.low, self.high)):
+            raise ModelError(part, "has a bound that is not finite.", "Give finite numbers.")
+        if not (self.low < self.high and self.low <= self.start <= self.high):
+            raise ModelError(
+                part,
+                f"starts at {self.start:g} between {self.low:g} and {self.high:g}.",
+                "Give low < high and a start between them.",
+            )
+        if self.scale == "log" and self.low <= 0:
+            raise ModelError(
+                part, f"its lower bound is {self.low:g}.", 'Give a positive one, or scale="linear".'
+            )
+
+    def scaled(self, value: float) -> float:
+        """The number that is varied."""
+        return log(value) if self.scale == "log" else value / (self.high - self.low)
+
+    def value(self, scaled: float) -> float:
+        """The inverse of `scaled`, kept within the bounds against rounding."""
+        number = np.exp(scaled) if self.scale == "log" else scaled * (self.high - self.low)
+        return float(min(max(number, self.low), self.high))
+
+
+@dataclass(frozen=True)
+class Target:
+    """A number to be met.
+
+    Parameters
+    ----------
+    name : str
+        As the model names it.
+    value : float
+    uncertainty : float
+        Standard deviation, in the value's unit: the weight is its inverse.
+    unit : str
+
+    Raises
+    ------
+    ModelError
+        An uncertainty that is not positive.
+    """
+
+    name: str
+    value: float
+    uncertainty: float
+    unit: str = ""
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.value) and isfinite(self.uncertainty) and self.uncertainty > 0):
+            raise ModelError(
+                f"target {self.name}",
+                f"is {self.value!r} with the uncertainty {self.uncertainty!r}.",
+                "Give finite numbers and a positive uncertainty.",
+            )
+
+
+@dataclass(frozen=True, repr=False)
+class Calibration:
+    """What was found.
+
+    Parameters
+    ----------
+    parameters : tuple of Parameter
+    targets : tuple of Target
+    values : (p,)
+        Of the best parameters.
+    computed : (t,)
+        What the model gives with them.
+    costs : (s,)
+        Half the sum of the squared residuals at the end of each start; infinite where the
+        model failed.
+    ends : (s, p)
+        Where each start ended; not a number where the model failed.
+    identified : Identifiability
+        What the targets determine, at the best parameters.
+    on_bounds : tuple of str
+        Parameters that a bound holds.
+    seed : int
+    evaluations : int
+        Of the model.
+    failures : tuple of str
+        Reasons of starts that failed.
+    """
+
+    parameters: tuple[Parameter, ...]
+    targets: tuple[Target, ...]
+    values: Array
+    computed: Array
+    costs: Array
+    ends: Array
+    identified: Identifiability
+    on_bounds: tuple[str, ...]
+    seed: int
+    evaluations: int
+    failures: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        return (
+            f"<Calibration: {len(self.parameters)} parameters on {len(self.targets)} targets, "
+            f"cost {self.cost:.3g}, {self.identified.rank} combinations determined>"
+        )
+
+    @property
+    def best(self) -> dict[str, float]:
+        """Best parameters by name."""
+        return {p.name: float(v) for p, v in zip(self.parameters, self.values, strict=True)}
+
+    @property
+    def residuals(self) -> Array:
+        """(computed − target) / uncertainty, (t,)."""
+        wanted = np.array([t.value for t in self.targets])
+        return np.asarray((self.computed - wanted) / [t.uncertainty for t in self.targets])
+
+    @property
+    def cost(self) -> float:
+        """Half the sum of the squared residuals."""
+        return float(0.5 * self.residuals @ self.residuals)
+
+    def met(self, within: float = 1.0) -> bool:
+        """Whether every target is met within so many uncertainties."""
+        return bool(np.all(np.abs(self.residuals) <= within))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain numbers by name; None where a standard error does not exist."""
+        errors = self.identified.standard_errors
+        return {
+            "parameters": [
+                {
+                    "name": p.name,
+                    "unit": p.unit,
+                    "value": float(v),
+                    "start": p.start,
+                    "low": p.low,
+                    "high": p.high,
+                    "scale": p.scale,
+                    "standard_error": float(e) if isfinite(e) else None,
+                    "determined": bool(isfinite(e)),
+                    "on_bound": p.name in self.on_bounds,
+                }
+                for p, v, e in zip(self.parameters, self.values, errors, strict=True)
+            ],
+            "targets": [
+                {
+                    "name": t.name,
+                    "unit": t.unit,
+                    "value": t.value,
+                    "uncertainty": t.uncertainty,
+                    "computed": float(c),
+                    "residual": float(r),
+                }
+                for t, c, r in zip(self.targets, self.computed, self.residuals, strict=True)
+            ],
+            "cost": self.cost,
+            "costs": [float(c) if isfinite(c) else None for c in self.costs],
+            "seed": self.seed,
+            "evaluations": self.evaluations,
+            "failures": list(self.failures),
+            **self.identified.to_dict(),
+        }
+
+
+def calibrate(
+    model: Model,
+    parameters: Sequence[Parameter],
+    targets: Sequence[Target],
+    *,
+    starts: int = 8,
+    seed: int = 0,
+    step: float = 1e-4,
+    threshold: float = 1e-3,
+    progress: Progress | None = None,
+) -> Calibration:
+    """Bounded least squares from several starts.
+
+    The trust-region reflective method (Branch, Coleman and Li 1999) on the scaled parameters.
+    The first start is the parameters' own, the others are a Latin hypercube between the bounds.
+    Of equal minima the one nearest to the parameters' own start is taken: what the targets do
+    not determine stays where it was put.
+
+    Parameters
+    ----------
+    model : callable
+        From parameters by name to computed targets by name.
+    parameters : sequence of Parameter
+    targets : sequence of Target
+    starts : int
+    seed : int
+        Of the Latin hypercube.
+    step : float
+        Of the differences, in scaled parameters.
+    threshold : float
+        Singular values below this share of the largest belong to combinations of parameters
+        that the targets do not determine.
+    progress : callable, optional
+        Told after every start; default: lines on standard error.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    ModelError
+        No parameter, no target, no start, two of one name, a target that the model does not
+        give.
+    NumericalError
+        The model failed from every start.
+    """
+    chosen, wanted = tuple(parameters), tuple(targets)
+    _check(chosen, wanted, starts)
+    problem = _Problem(model, chosen, wanted, step)
+    tell = progress or Lines("calibration", "starts")
+    costs, ends, failures = np.full(starts, np.inf), np.full((starts, len(chosen)), np.nan), []
+    tell(0, starts)
+    for i, point in enumerate(_starts(chosen, starts, seed)):
+        try:
+            found = least_squares(
+                problem.residuals,
+                point,
+                jac=problem.slopes,
+                bounds=problem.bounds,
+                x_scale="jac",
+                xtol=1e-7,
+                ftol=1e-9,
+                gtol=1e-9,
+                max_nfev=60,
+            )
+        except ModelError:
+            raise
+        except StrutworkError as error:
+            failures.append(f"start {i}: {error}")
+        else:
+            costs[i], ends[i] = found.cost, found.x
+        tell(i + 1, starts)
+    if not np.isfinite(costs).any():
+        raise NumericalError(
+            "calibration",
+            f"the model failed from each of {starts} starts; the first: {failures[0]}",
+            "Narrow the bounds.",
+        )
+    best = ends[_nearest(costs, ends, np.array([p.scaled(p.start) for p in chosen]))]
+    values = problem.values(best)
+    return Calibration(
+        chosen,
+        wanted,
+        np.array(list(values.values())),
+        problem.computed(best),
+        costs,
+        np.array([list(problem.values(end).values()) for end in ends]),
+        identifiability(problem.jacobian(best), tuple(p.name for p in chosen), threshold),
+        _on_bounds(chosen, best),
+        seed,
+        problem.evaluations,
+        tuple(failures),
+    )
+
+
+class _Problem:
+    """The residuals of a model over scaled parameters."""
+
+    def __init__(
+        self,
+        model: Model,
+        parameters: tuple[Parameter, ...],
+        targets: tuple[Target, ...],
+        step: float,
+    ) -> None:
+        self.model, self.parameters, self.targets, self.step = model, parameters, targets, step
+        self.bounds = (
+            np.array([p.scaled(p.low) for p in parameters]),
+            np.array([p.scaled(p.high) for p in parameters]),
+        )
+        self.evaluations = 0
+        self._last: tuple[bytes, Array] = (b"", np.zeros(0))
+
+    def values(self, point: Array) -> dict[str, float]:
+        """Parameters by name; not a number stays so."""
+        return {
+            p.name: p.value(x) if isfinite(x) else x
+            for p, x in zip(self.parameters, point, strict=True)
+        }
+
+    def computed(self, point: Array) -> Array:
+        """The model's targets."""
+        self.evaluations += 1
+        given = self.model(self.values(point))
+        missing = [t.name for t in self.targets if t.name not in given]
+        if missing:
+            raise ModelError(
+                f"target {missing[0]}",
+                f"is not among what the model gives: {', '.join(given)}.",
+                "Name it as the model does.",
+            )
+        result = np.array([given[t.name] for t in self.targets], dtype=float)
+        if not np.isfinite(result).all():
+            raise NumericalError("model", "gave a number that is not finite.", "Narrow the bounds.")
+        return result
+
+    def residuals(self, point: Array) -> Array:
+        """(computed − target) / uncertainty."""
+        wanted = np.array([t.value for t in self.targets])
+        found = (self.computed(point) - wanted) / [t.uncertainty for t in self.targets]
+        self._last = (point.tobytes(), found)
+        return np.asarray(found)
+
+    def slopes(self, point: Array) -> Array:
+        """Forward differences of the residuals, backward at an upper bound: one run each."""
+        key, base = self._last
+        if key != point.tobytes():
+            base = self.residuals(point)
+        columns = []
+        for i in range(len(point)):
+            moved = point.copy()
+            moved[i] += self.step if point[i] + self.step <= self.bounds[1][i] else -self.step
+            columns.append((self.residuals(moved) - base) / (moved[i] - point[i]))
+        return np.stack(columns, axis=1)
+
+    def jacobian(self, point: Array) -> Array:
+        """Central differences of the residuals; one-sided at a bound."""
+        low, high = self.bounds
+        columns = []
+        for i in range(len(point)):
+            ahead, behind = point.copy(), point.copy()
+            ahead[i] = min(point[i] + self.step, high[i])
+            behind[i] = max(point[i] - self.step, low[i])
+            change = self.residuals(ahead) - self.residuals(behind)
+            columns.append(change / (ahead[i] - behind[i]))
+        return np.stack(columns, axis=1)
+
+
+def _check(parameters: tuple[Parameter, ...], targets: tuple[Target, ...], starts: int) -> None:
+    for what, names in (
+        ("parameter", [p.name for p in parameters]),
+        ("target", [t.name for t in targets]),
+    ):
+        if not names:
+            raise ModelError("calibration", f"has no {what}.", "Give at least one.")
+        twice = [n for n in names if names.count(n) > 1]
+        if twice:
+            raise ModelError(f"{what} {twice[0]}", "is given twice.", "Give each a name.")
+    if starts < 1:
+        raise ModelError("calibration", f"{starts} starts asked for.", "Ask for at least one.")
+
+
+def _starts(parameters: tuple[Parameter, ...], count: int, seed: int) -> Array:
+    """Scaled starting points, (s, p)."""
+    low, high, own = (
+        np.array([p.scaled(v) for p, v in zip(parameters, values, strict=True)])
+        for values in zip(*((p.low, p.high, p.start) for p in parameters), strict=True)
+    )
+    cube = qmc.LatinHypercube(len(parameters), seed=seed).random(count - 1)
+    # the reflective method wants to begin inside
+    inside = 1e-6 * (high - low)
+    return np.clip(np.vstack([own, low + cube * (high - low)]), low + inside, high - inside)
+
+
+def _nearest(costs: Array, ends: Array, own: Array) -> int:
+    """Of the least costs the end nearest to the own start."""
+    finite = costs[np.isfinite(costs)]
+    slack = TIED * max(1.0, float(finite.max()))
+    equal = np.flatnonzero(costs <= costs.min() + slack)
+    far = np.linalg.norm(ends[equal] - own, axis=1)
+    return int(equal[far.argmin()])
+
+
+def _on_bounds(parameters: tuple[Parameter, ...], point: Array) -> tuple[str, ...]:
+    held = []
+    for p, x in zip(parameters, point, strict=True):
+        low, high = p.scaled(p.low), p.scaled(p.high)
+        if min(x - low, high - x) <= ON_BOUND * (high - low):
+            held.append(p.name)
+    return tuple(held)
