@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fea.factor import Factor, NotPositiveError, complex_too
 from fea.ordering import Ordering
+from strutwork.errors import NumericalError
 
 Array = NDArray[Any]
 
@@ -37,8 +38,11 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
     ------
     NotPositiveError
         A pivot that is not positive.
+    NumericalError
+        Any other failure of CHOLMOD, as memory that runs out.
     """
     from sksparse.cholmod import (  # noqa: PLC0415 - an extra
+        CholmodError,
         CholmodNotPositiveDefiniteError,
         cholesky,
     )
@@ -56,6 +60,8 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
         )
     except CholmodNotPositiveDefiniteError as error:
         raise NotPositiveError from error
+    except CholmodError as error:
+        raise NumericalError("factorisation", str(error), "Try another solver.") from error
 
     def solve(right: Array) -> Array:
         if order is None:

@@ -84,6 +84,12 @@ def factorize(matrix: sp.csc_array, solver: str | None = None, *, positive: bool
             factor: Factor = module.factorize(whole, found)
         except NotPositiveError:
             continue
+        except MemoryError as error:
+            raise NumericalError(
+                f"factorisation of {whole.shape[0]:,} dofs",
+                f"ran out of memory, or of {module.NAME}'s indices.",
+                "Mesh coarser, or choose another solver.",
+            ) from error
         if found is None:
             return factor
         return replace(factor, fill=found.fill, memory=memory, flops=found.flops)

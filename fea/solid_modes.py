@@ -7,21 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy.linalg as sla
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from fea.factorize import Factor, factorize
+from fea.large_modes import lowest_modes
 from fea.solid_matrices import SolidMatrices
 from fea.solid_supports import Supports, free_rigid_motions, supports
 from strutwork.errors import ModelError, NumericalError
 
 Array = NDArray[Any]
-#: Largest relative error bound of ω² that is accepted.
-RESIDUAL = 1e-6
-#: Rigid motions have a stiffness below this share of that of a mode.
-TWICE = 1e-9
 
 
 @dataclass(frozen=True, repr=False)
@@ -40,10 +34,9 @@ class SolidModes:
         Share of each mode in rigid motion along x, y, z and about the centre of mass, kg and
         kg m².
     residual : float
-        Largest ‖K⁻¹ M φ ω² − φ‖ in M of the flexible modes, a bound on the relative error of
-        ω² against the discrete model.
+        Largest of the flexible modes, as `fea.large_modes.LargeModes` defines it.
     solver : str
-        Which factorisation ran.
+        Which ran.
     """
 
     matrices: SolidMatrices
@@ -87,11 +80,9 @@ def solid_modes(
 ) -> SolidModes:
     """Lowest modes.
 
-    Lanczos' method with the inverse of the stiffness. A solid that floats is held at as many
-    degrees of freedom as it has rigid motions, which leaves the deformation under balanced
-    forces unchanged, and the rigid motions are kept out: no shift is needed. The iteration is
-    repeated without what it found until nothing lower appears, so that copies of an equal
-    frequency are not missed.
+    Supports are imposed by removing their degrees of freedom; the eigenproblem is that of
+    `fea.large_modes.lowest_modes`. Rigid-body modes are the exact rigid motions that the
+    supports leave, and as many as the stiffness has.
 
     Parameters
     ----------
@@ -101,7 +92,7 @@ def solid_modes(
     held : Supports or mapping or None
         As for `fea.solid_supports.supports`, all held still.
     solver : str or None
-        Which factorisation (`fea.factorize`); by default the best installed.
+        As for `fea.large_modes.lowest_modes`.
 
     Returns
     -------
@@ -113,7 +104,7 @@ def solid_modes(
         A count below one or above a third of the free degrees of freedom, displaced
         supports, a missing density.
     NumericalError
-        No convergence, or a residual that is not small.
+        No convergence, a residual that is not small, or parts that move without strain.
     """
     known = held if isinstance(held, Supports) else supports(matrices, held or {})
     part = f"solid {matrices.solid.name}"
@@ -126,28 +117,25 @@ def solid_modes(
             f"{count} modes are asked of {len(free)} free degrees of freedom.",
             f"Ask for 1 to {len(free) // 3}.",
         )
-    stiffness = sp.csc_array(matrices.stiffness[free][:, free])
-    mass = sp.csc_array(matrices.mass[free][:, free])
     motions = free_rigid_motions(matrices, known.dofs)
-    rigid = _orthonormal(matrices.rigid_modes()[free] @ motions, mass)
-    wanted = count - rigid.shape[1]
-    problem = _Inverse(part, mass, rigid, *_held_factor(stiffness, rigid, solver))
-    values, vectors = problem.lowest(wanted) if wanted > 0 else (np.zeros(0), rigid[:, :0])
-    residual = problem.residual(values, vectors)
-    if not residual <= RESIDUAL:
+    stiffness, mass = (
+        sp.csc_array(matrix[free][:, free]) for matrix in (matrices.stiffness, matrices.mass)
+    )
+    found = lowest_modes(stiffness, mass, count, floating=motions.shape[1] > 0, solver=solver)
+    rigid = _orthonormal(matrices.rigid_modes()[free] @ motions, mass)[:, :count]
+    still = int(np.count_nonzero(found.frequencies == 0.0))
+    if still != rigid.shape[1]:
         raise NumericalError(
             part,
-            f"a mode's relative residual is {residual:.1e}.",
+            f"{still} modes have no stiffness, but {rigid.shape[1]} rigid motions are free.",
             "Look for parts that meet only at a node or along an edge, or for very flat cells.",
         )
     shapes = np.zeros((matrices.size, count))
-    shapes[free] = np.hstack([rigid, vectors])[:, :count]
-    frequencies = np.append(np.zeros(rigid.shape[1]), np.sqrt(values) / (2 * np.pi))[:count]
+    shapes[free] = np.hstack([rigid, found.vectors[:, still:]])
     drive = matrices.rigid_modes(matrices.center_of_mass)
     effective = (shapes.T @ (matrices.mass @ drive)) ** 2
-    return SolidModes(
-        matrices, frequencies, shapes, min(rigid.shape[1], count), effective, residual, problem.name
-    )
+    residual = float(found.residuals[still:].max(initial=0.0))
+    return SolidModes(matrices, found.frequencies, shapes, still, effective, residual, found.solver)
 
 
 def _orthonormal(vectors: Array, mass: sp.csc_array) -> Array:
@@ -156,81 +144,3 @@ def _orthonormal(vectors: Array, mass: sp.csc_array) -> Array:
         return vectors
     lower = np.linalg.cholesky(vectors.T @ (mass @ vectors))
     return np.asarray(np.linalg.solve(lower, vectors.T).T)
-
-
-def _held_factor(
-    stiffness: sp.csc_array, rigid: Array, solver: str | None
-) -> tuple[NDArray[np.intp], Factor]:
-    """Degrees of freedom that remain when the rigid motions are held, and the factor on them."""
-    keep = np.arange(stiffness.shape[0])
-    if rigid.shape[1] == 0:
-        return keep, factorize(stiffness, solver)
-    _, pivots = sla.qr(rigid.T, mode="r", pivoting=True)
-    keep = np.delete(keep, pivots[: rigid.shape[1]])
-    return keep, factorize(sp.csc_array(stiffness[keep][:, keep]), solver)
-
-
-@dataclass(frozen=True)
-class _Inverse:
-    """The inverse of the stiffness on motions that are M-orthogonal to the rigid ones."""
-
-    part: str
-    mass: sp.csc_array
-    rigid: Array
-    keep: NDArray[np.intp]
-    factor: Factor
-
-    @property
-    def name(self) -> str:
-        return self.factor.name
-
-    def apply(self, forces: Array, known: Array) -> Array:
-        """K⁻¹ f, without the parts of M-orthonormal `known` vectors."""
-        balanced = forces - self.mass @ (known @ (known.T @ forces))
-        result = np.zeros_like(balanced)
-        result[self.keep] = self.factor.solve(balanced[self.keep])
-        return np.asarray(result - known @ (known.T @ (self.mass @ result)))
-
-    def lowest(self, count: int) -> tuple[Array, Array]:
-        values, vectors = self._lanczos(count, self.rigid)
-        for _ in range(count):
-            known = np.hstack([self.rigid, vectors])
-            if known.shape[1] + 1 >= self.mass.shape[0]:
-                break
-            value, vector = self._lanczos(1, known)
-            if value[0] >= values[-1] * (1 - TWICE):
-                break
-            order = np.argsort(np.append(values, value))[:count]
-            values = np.append(values, value)[order]
-            vectors = np.hstack([vectors, vector])[:, order]
-        return values, vectors
-
-    def _lanczos(self, count: int, known: Array) -> tuple[Array, Array]:
-        size = self.mass.shape[0]
-
-        def inverse(right: Array) -> Array:
-            return self.apply(np.asarray(right).ravel(), known)
-
-        start = inverse(self.mass @ np.random.default_rng(1).normal(size=size))
-        try:
-            values, vectors = eigsh(
-                self.mass,
-                k=count,
-                M=self.mass,
-                sigma=0.0,
-                OPinv=LinearOperator((size, size), matvec=inverse, dtype=float),
-                v0=start,
-                ncv=min(max(2 * count + 1, 20), size - 1),
-            )
-        except ArpackNoConvergence as error:
-            raise NumericalError(
-                self.part, "Lanczos' method did not converge.", "Ask for fewer or more modes."
-            ) from error
-        order = np.argsort(values)
-        return values[order], vectors[:, order]
-
-    def residual(self, values: Array, vectors: Array) -> float:
-        if not len(values):
-            return 0.0
-        again = self.apply(self.mass @ (vectors * values), self.rigid) - vectors
-        return float(np.sqrt(np.einsum("nm,nm->m", again, self.mass @ again)).max())

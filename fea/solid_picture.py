@@ -89,7 +89,8 @@ def _render(
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size))
     try:
         plotter.set_background("white")
-        bar = {"title": name, "color": "black", "n_labels": 4, "fmt": "%.3g"}
+        bar = {"title": name, "color": "black", "n_labels": 4, "fmt": "%.3g",
+               "position_y": 0.02, "height": 0.09}  # fmt: skip
         plotter.add_mesh(
             drawn, scalars=name, cmap="viridis", show_edges=edges, scalar_bar_args=bar,
             smooth_shading=False, ambient=0.35, diffuse=0.7,
@@ -98,6 +99,8 @@ def _render(
         if outline.n_points:
             plotter.add_mesh(outline, color="#404040", line_width=1.5)
         plotter.view_vector(view, viewup=(0.0, 0.0, 1.0))
+        # room for the bar below
+        plotter.camera.zoom(0.88)
         return plotter.screenshot(None, return_img=True)
     finally:
         plotter.close()

@@ -14,7 +14,7 @@ nodes alone, and mass properties, effective masses and gravity come out without 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -81,6 +81,23 @@ class Superelement:
     def cutoff(self) -> float:
         """Highest retained frequency with the interfaces held, Hz; zero for a Krylov basis."""
         return float(self.fixed_frequencies[-1]) if len(self.fixed_frequencies) else 0.0
+
+    def scaled(self, factor: float) -> Superelement:
+        """The same solid of the same material, `factor` times as large, exactly.
+
+        Forces per displacement grow with the factor, masses with its cube, and lengths that turn
+        rotations into displacements with the factor itself.
+        """
+        lengths = np.tile(np.repeat([1.0, factor], 3), len(self.nodes))
+        pairs = np.outer(lengths, lengths)
+        return replace(
+            self,
+            positions=factor * self.positions,
+            local_stiffness=factor * pairs * self.local_stiffness,
+            local_mass=factor**3 * pairs * self.local_mass,
+            shapes=self.shapes * lengths,
+            fixed_frequencies=self.fixed_frequencies / factor,
+        )
 
     def turn(self, at: PlacedStructure) -> Array:
         """Rotation of the mesh's frame at every pose, (..., 3, 3).

@@ -66,6 +66,21 @@ def rotation_y(turn: ArrayLike) -> Array:
     )
 
 
+def rotation_x(turn: ArrayLike) -> Array:
+    """Rotation about x by `turn`, rad, (...) to (..., 3, 3)."""
+    t = np.asarray(turn)
+    zero, one = np.zeros_like(t), np.ones_like(t)
+    c, s = np.cos(t), np.sin(t)
+    return np.stack(
+        [
+            np.stack([one, zero, zero], -1),
+            np.stack([zero, c, -s], -1),
+            np.stack([zero, s, c], -1),
+        ],
+        -2,
+    )
+
+
 def axes_frame(axis: ArrayLike, second_axis: ArrayLike | None = None, part: str = "joint") -> Array:
     """Joint axes as columns x, y, z.
 

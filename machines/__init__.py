@@ -12,6 +12,7 @@ from machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
 from machines.eclipse_3pprs import Eclipse3PPRS
 from machines.glozman_3prrs import Glozman3PRRS
+from machines.hexel_hexapod import HexelHexapod
 from machines.limits import Limit, check_limits, joint_limits
 from machines.mit_ss1 import MitSS1
 from machines.mit_ss1_assembly import StrutAssembly, strut_width
@@ -29,6 +30,7 @@ __all__ = [
     "DynamicSet",
     "Eclipse3PPRS",
     "Glozman3PRRS",
+    "HexelHexapod",
     "Limit",
     "Machine",
     "MitSS1",

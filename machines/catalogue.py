@@ -11,6 +11,7 @@ from kinematics import Mechanism
 from machines.alizade_3prps import Alizade3PRPS
 from machines.eclipse_3pprs import Eclipse3PPRS
 from machines.glozman_3prrs import Glozman3PRRS
+from machines.hexel_hexapod import HexelHexapod
 from machines.limits import Limit
 from machines.mit_ss1 import MitSS1
 from machines.proposed_3pprs import Proposed3PPRS
@@ -85,6 +86,7 @@ _ENTRIES = (
         Prototype3PPPRS,
     ),
     CatalogueEntry("mit-ss1", "MIT-SS-1", "planar, [P vertical] R R", SON_2002, MitSS1),
+    CatalogueEntry("hexel-hexapod", "Hexel hexapod", "U [P along the leg] S", SON_2002, HexelHexapod),
 )
 
 #: Every machine by its name.

@@ -6,9 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import isfinite
 from pathlib import Path
-from typing import Any
-
-from numpy.typing import NDArray
 
 from fea.interface import Interface
 from fea.reduce_solid import reduce_solid
@@ -17,8 +14,6 @@ from fea.superelement import Superelement
 from meshes import Mesh, l_frame, patch
 from msa.materials import Material
 from strutwork.errors import ModelError
-
-Array = NDArray[Any]
 
 #: Son 2002, table of materials (section 8.1): 78 GPa and 3.0 t/m³. The thesis prints no
 #: Poisson's ratio; 0.25 is our assumption.

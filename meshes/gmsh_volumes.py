@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
-from math import isfinite, radians
+from math import isfinite, radians, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,8 @@ Ints = NDArray[np.int64]
 #: Gmsh's element types, and our node for each of its nodes.
 TETRAHEDRA = {4: ("tetra", [0, 1, 2, 3]), 11: ("tetra10", [0, 1, 2, 3, 4, 5, 6, 7, 9, 8])}
 TRIANGLES = {2: "triangle", 9: "triangle6"}
+#: A mesh of more takes more than 10 GB while it is made.
+MOST_CELLS = 1e7
 LICENCE = "Gmsh, GPL-2.0-or-later with a linking exception"
 
 
@@ -81,8 +83,11 @@ def tetrahedra(
             raise ModelError(
                 f"mesh {name}", "holds no solid body.", "Export a solid, not its surfaces."
             )
-        gmsh.option.setNumber("Mesh.MeshSizeMax", size)
-        gmsh.option.setNumber("Mesh.MeshSizeMin", size / 10.0)
+        # metres per unit of the model
+        scale = 1.0 if isinstance(source, Surface) else 1e-3
+        _check_count(gmsh, name, source, size)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", size / scale)
+        gmsh.option.setNumber("Mesh.MeshSizeMin", size / scale / 10.0)
         gmsh.option.setNumber("Mesh.MeshSizeExtendFromBoundary", 0)
         gmsh.model.mesh.generate(3)
         # a surface has flat triangles: nothing is gained by curved edges, which may invert cells
@@ -91,9 +96,27 @@ def tetrahedra(
         gmsh.model.mesh.setOrder(order)
         if order == 2 and not straight:
             gmsh.model.mesh.optimize("HighOrder")
-        mesh = _collect(gmsh, name)
+        mesh = _collect(gmsh, name, scale)
     check_quality(mesh)
     return mesh
+
+
+def _check_count(gmsh: Any, name: str, source: Surface | Path | str, size: float) -> None:
+    """ModelError before a mesh that would fill the memory."""
+    if isinstance(source, Surface):
+        volume = float(np.linalg.det(source.points[source.triangles]).sum() / 6.0)
+    else:
+        cubic_mm = sum(gmsh.model.occ.getMass(3, tag) for _, tag in gmsh.model.getEntities(3))
+        volume = 1e-9 * cubic_mm
+    # a regular tetrahedron of edge a has the volume a³ / (6 √2)
+    count = 6.0 * sqrt(2.0) * volume / size**3
+    if count > MOST_CELLS:
+        raise ModelError(
+            f"mesh {name}",
+            f"cells of {size:g} m in {volume:.4g} m³ are about {count:.2g}; {MOST_CELLS:.2g} is "
+            "the limit.",
+            "Choose larger cells, or check the unit of the part.",
+        )
 
 
 @contextmanager
@@ -128,6 +151,8 @@ def _session(name: str) -> Iterator[Any]:
             "Choose another size, or repair the part in CAD.",
         ) from error
     finally:
+        # options outlive a session
+        gmsh.option.restoreDefaults()
         if mine:
             gmsh.finalize()
         else:
@@ -153,7 +178,8 @@ def _check_step(path: Path) -> None:
 
 
 def _load_step(gmsh: Any, path: Path) -> None:
-    gmsh.option.setString("Geometry.OCCTargetUnit", "M")
+    # Open CASCADE's own unit: another one would stay in force for the whole process
+    gmsh.option.setString("Geometry.OCCTargetUnit", "MM")
     gmsh.model.occ.importShapes(str(path))
     bodies = gmsh.model.occ.getEntities(3)
     if len(bodies) > 1:
@@ -173,7 +199,7 @@ def _load_surface(gmsh: Any, surface: Surface, edge_angle: float) -> None:
     gmsh.model.geo.synchronize()
 
 
-def _collect(gmsh: Any, name: str) -> Mesh:
+def _collect(gmsh: Any, name: str, scale: float) -> Mesh:
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     number = np.zeros(int(tags.max()) + 1, dtype=np.int64)
     number[tags.astype(np.int64)] = np.arange(len(tags))
@@ -193,7 +219,7 @@ def _collect(gmsh: Any, name: str) -> Mesh:
         for kind in cells
     )
     names = tuple(f"body {i}" for i in range(1, len(bodies) + 1))
-    mesh = Mesh(coordinates.reshape(-1, 3), blocks, names, name=name)
+    mesh = Mesh(coordinates.reshape(-1, 3) * scale, blocks, names, name=name)
     outer = {faces.kind: faces.nodes for faces in boundary(mesh).faces}
     patches = {
         f"face {tag}": Patch(

@@ -43,6 +43,12 @@ from reports.mit_ss1_study import NAME, OBJECTIVES, MitSS1Study, study_mit_ss1
 from reports.numbers import significant
 from studies.description import parameters
 
+#: How the machine's tool displacements are to be read.
+IN_PLANE = (
+    "What moves the tool within the plane (x, z and about y) is an offset at each pose that "
+    "a calibration of the drives can take out; what moves it along y or about x and z stays."
+)
+
 RATING = f"{significant(STATIC_RATING / 1e3)} kN"
 
 
@@ -91,7 +97,7 @@ def machine_chapter(study: MitSS1Study) -> Chapter:
         map_blocks(study),
         spread_blocks(own, key),
         cause_blocks(own, key),
-        (tool_blocks(own, key), []),
+        ([*tool_blocks(own, key), Text(IN_PLANE)], []),
         allocation_blocks(
             own.tolerances,
             {OBJECTIVES[o]: a for o, a in study.allocations.items()},

@@ -21,8 +21,9 @@ Array = NDArray[Any]
 #: What a model takes and gives: numbers by name.
 Model = Callable[[Mapping[str, float]], Mapping[str, float]]
 
-#: Costs that differ by less, as a share of the starting cost, are one minimum.
-TIED = 1e-8
+#: Costs that differ by less are one minimum: residuals are in standard deviations, so data say
+#: nothing about such a difference.
+TIED = 0.02
 
 #: A parameter this near to a bound, as a share of its range, lies on it.
 ON_BOUND = 1e-4
@@ -277,8 +278,8 @@ def calibrate(
                 jac=problem.slopes,
                 bounds=problem.bounds,
                 x_scale="jac",
-                xtol=1e-7,
-                ftol=1e-9,
+                xtol=1e-6,
+                ftol=1e-6,
                 gtol=1e-9,
                 max_nfev=60,
             )
@@ -413,9 +414,7 @@ def _starts(parameters: tuple[Parameter, ...], count: int, seed: int) -> Array:
 
 def _nearest(costs: Array, ends: Array, own: Array) -> int:
     """Of the least costs the end nearest to the own start."""
-    finite = costs[np.isfinite(costs)]
-    slack = TIED * max(1.0, float(finite.max()))
-    equal = np.flatnonzero(costs <= costs.min() + slack)
+    equal = np.flatnonzero(costs <= costs.min() + TIED)
     far = np.linalg.norm(ends[equal] - own, axis=1)
     return int(equal[far.argmin()])
 

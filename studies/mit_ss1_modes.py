@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from fea.modes import Modes, modes
 from kinematics import GROUND, Poses
 from machines import mit_ss1_parts as parts
-from machines.mit_ss1_calibrated import calibrated_machine
+from machines.mit_ss1_calibrated import Which, calibrated_machine
 from machines.mit_ss1_frame import RAILS, rail_foot
 from machines.mit_ss1_whole import MitSS1Whole
 from machines.published_son import MODES, MOUNT_MODES
 from meshes.boundary import boundary
 from msa.structure import rigid_map
 from studies.mode_matching import matched, pattern_shares
-from studies.published_table import PublishedRow, Status
+from studies.published_table import PublishedRow
 
 Array = NDArray[Any]
 
@@ -234,48 +234,50 @@ def mode_picture(named: NamedModes, name: str) -> ModePicture:
     )
 
 
-#: The structure that each set of published frequencies belongs to.
-Set = Literal["numerical", "measured"]
-
-
 def mode_rows() -> tuple[PublishedRow, ...]:
     """Published frequencies beside ours at home, from the calibrated machines."""
-    ours = {which: named_modes(calibrated_machine(which)).frequencies for which in SETS}
-    rows = [
-        PublishedRow(
-            entry.row,
-            entry.quantity,
-            entry.unit,
-            entry.value,
-            ours[entry.quantity][MOUNT_ROWS.get(entry.row, entry.row)],
-            *_worth(entry.row, entry.quantity),
-        )
-        for table in (MODES, MOUNT_MODES)
-        for entry in table
-    ]
+    ours = {which: named_modes(calibrated_machine(which)).frequencies for which in get_args(Which)}
+    rows = []
+    for table in (MODES, MOUNT_MODES):
+        for entry in table:
+            set_ = SCREW if entry.row == SCREW else entry.quantity
+            name = MOUNT_ROWS.get(entry.row, entry.row)
+            rows.append(
+                PublishedRow(
+                    entry.row,
+                    entry.quantity,
+                    entry.unit,
+                    entry.value,
+                    ours[set_][name],
+                    "calibrated",
+                    _note(entry.row, entry.quantity, ours),
+                )
+            )
     return tuple(rows)
 
 
-SETS: tuple[Set, ...] = ("numerical", "measured")
-
-
-def _worth(row: str, quantity: str) -> tuple[Status, str]:
+def _note(row: str, quantity: str, ours: Mapping[str, Mapping[str, float]]) -> str:
+    """What a number was calibrated on."""
     if row.startswith("rigid body"):
-        note = "mounts calibrated to 22.6, 39.3 and 62.0 Hz"
+        note = "stiffnesses of the mounts calibrated to 22.6, 39.3 and 62.0 Hz"
         if row == "rigid body 1":
             note += "; beside our second mode, along y, the shapes being in pictures only"
-        return "calibrated", note
+        return note
     if row.startswith("granite"):
-        return "calibrated", (
+        return (
             "thicknesses of plate and base, which are not published, calibrated to the numerical "
             "269.4 and 320.9 Hz with the machine on the granite"
         )
-    if quantity == "numerical":
-        return "calibrated", (
-            "bearings and masses calibrated to 111.2 and 182.3 Hz, y stiffness 35 N/µm, x "
-            "stiffness 150 N/µm and 118.3 kg; tilt read as about y"
+    if row == SCREW:
+        return (
+            "stiffness of the drives calibrated to this mode alone; the tilt would then fall to "
+            f"{ours[SCREW][TILT]:.1f} Hz, so that one machine does not meet both"
         )
-    return "calibrated", (
-        "one factor on the far, preloading-side bearings and the drives' stiffness calibrated to "
-        "79.2, 154.12 and 238.64 Hz"
+    if quantity == "numerical":
+        return (
+            "bearings and masses calibrated to 111.2 and 182.3 Hz, y stiffness 35 N/µm, x "
+            "stiffness 150 N/µm and 118.3 kg; tilt read as one about y"
+        )
+    return (
+        "one factor on the far bearings, of the preloading side, calibrated to 79.2 and 154.12 Hz"
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -27,32 +26,32 @@ def pattern_shares(found: Modes, patterns: Array) -> Array:
     Parameters
     ----------
     found : Modes
-        m of them, of one pose.
+        m of them at every pose.
     patterns : (q, n, 6)
-        Motion of every mesh node; nodes of a rigid body move as one.
+        Motion of every mesh node, the same at all poses; nodes of a rigid body move as one.
 
     Returns
     -------
-    (q, m)
+    (..., q, m)
 
     Raises
     ------
     ModelError
-        Several poses, or a pattern in which nothing heavy moves.
+        A pattern in which nothing heavy moves.
     """
-    if found.placed.batch != ():
-        raise ModelError("modes", "of several poses.", "Choose one: modes(placed[i], …).")
     system = system_of(found.placed)
     reference = found.placed.structure.reference_nodes
-    mass = mass_matrix(system)[0]
+    mass = mass_matrix(system)
     wanted = patterns[:, reference].reshape(len(patterns), -1)
-    shapes = found.shapes[:, reference].reshape(len(found.shapes), -1)
-    size = np.einsum("qi,ij,qj->q", wanted, mass, wanted)
+    kept = found.shapes[..., reference, :]
+    shapes = kept.reshape(system.poses, kept.shape[-3], -1)
+    pushed = wanted @ mass
+    size = np.einsum("pqi,qi->pq", pushed, wanted)
     if not np.all(size > 0):
-        raise ModelError(
-            f"pattern {int(np.argmin(size))}", "moves no mass.", "Choose nodes that carry mass."
-        )
-    return np.asarray((wanted @ mass @ shapes.T) ** 2 / size[:, None])
+        still = int(np.argwhere(size <= 0)[0, 1])
+        raise ModelError(f"pattern {still}", "moves no mass.", "Choose nodes that carry mass.")
+    shares = (pushed @ np.swapaxes(shapes, -1, -2)) ** 2 / size[..., None]
+    return np.asarray(shares.reshape(*found.placed.batch, *shares.shape[1:]))
 
 
 def matched(shares: Array) -> NDArray[np.intp]:
@@ -61,23 +60,7 @@ def matched(shares: Array) -> NDArray[np.intp]:
     Parameters
     ----------
     shares : (q, m)
+        Of one pose.
     """
     _, columns = linear_sum_assignment(-shares)
     return np.asarray(columns, dtype=np.intp)
-
-
-def moving_pattern(nodes: Mapping[str, int], moving: Mapping[str, Array], count: int) -> Array:
-    """A pattern from the motions of some nodes, the others still, (n, 6).
-
-    Parameters
-    ----------
-    nodes : mapping of str to int
-        Rows by node name.
-    moving : mapping of str to (6,)
-    count : int
-        n.
-    """
-    pattern = np.zeros((count, 6))
-    for name, motion in moving.items():
-        pattern[nodes[name]] = motion
-    return pattern

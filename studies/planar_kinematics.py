@@ -82,12 +82,24 @@ def planar_kinematics(
     )
 
 
-def parallel_determinant(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> Array:
-    """Determinant of the rows (u_x, u_z, u_x q_z − u_z q_x) of the struts, (...), m.
+def strut_rows(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> tuple[Array, Array]:
+    """Rows a = (u_x, u_z, u_x q_z − u_z q_x) of the struts at height zero, and u itself.
 
-    u is a strut's unit vector from the housing to the block, q its joint from the tool tip.
-    It is zero where the three strut lines meet in a point or are parallel; not a number out of
-    reach.
+    u is a strut's unit vector from the housing to the block, q its joint from the tool tip: a
+    force f along the strut acts on the tool tip as f a, along x, z and about y.
+
+    Parameters
+    ----------
+    machine : MitSS1
+    x, b : (...)
+        m and rad; broadcast.
+
+    Returns
+    -------
+    rows : (..., 3, 3)
+        A row a strut; the last column in m. Not a number out of reach.
+    directions : (..., 3, 3)
+        u in x, y, z.
     """
     x, b = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(b, dtype=float))
     placement = machine.place(machine.poses(x, 0.0, b))
@@ -101,7 +113,17 @@ def parallel_determinant(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> Array:
     u = u / np.linalg.norm(u, axis=-1, keepdims=True)
     q = lower - at[..., [index[machine.linkage.tool or ""]], :]
     rows = np.stack([u[..., 0], u[..., 2], u[..., 0] * q[..., 2] - u[..., 2] * q[..., 0]], axis=-1)
-    return np.where(placement.reachable, np.linalg.det(rows), np.nan)
+    reached = placement.reachable[..., None, None]
+    return np.where(reached, rows, np.nan), np.where(reached, u, np.nan)
+
+
+def parallel_determinant(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> Array:
+    """Determinant of `strut_rows`, (...), m.
+
+    It is zero where the three strut lines meet in a point or are parallel; not a number out of
+    reach.
+    """
+    return np.asarray(np.linalg.det(strut_rows(machine, x, b)[0]))
 
 
 def singular_tilt(machine: MitSS1, x: float) -> float | None:

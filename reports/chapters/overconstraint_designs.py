@@ -66,7 +66,7 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
             "and the parallelism of the pins is what remains. The same machine, at home, in all."
         ),
         Figure(
-            "designs",
+            "design-forces",
             "Largest worst-case force in any of the twelve bearings.",
             force_bars(
                 short,

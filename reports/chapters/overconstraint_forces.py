@@ -28,6 +28,12 @@ SHOWN = (0.95, 0.99)
 #: Joints in one chart at most: the most loaded.
 MOST = 24
 
+#: Tolerances told apart in one chart at most.
+CAUSES = 10
+
+#: A limit is marked in a distribution when it lies within this many worst cases.
+FAR = 1.5
+
 
 @dataclass(frozen=True)
 class Published:
@@ -220,13 +226,19 @@ def spread_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Da
             if s in (0.5, 0.95, 0.99)
         }
         edges, counts = spread.edges[i], spread.counts[i]
-        slug = q.kind.replace(" ", "-")
+        slug, limit = q.kind.replace(" ", "-"), float(study.limit[i])
         figures.append(
             Figure(
                 f"spread-{key}-{slug}",
                 f"{label(q)}: {found.samples:,} assemblies; black: the exact worst case.",
                 histogram(
-                    1e-3 * edges, counts, 1e-3 * float(spread.worst[i]), quantiles, f"{q.kind} (kN)"
+                    1e-3 * edges,
+                    counts,
+                    1e-3 * float(spread.worst[i]),
+                    quantiles,
+                    f"{q.kind} (kN)",
+                    # a limit far beyond would leave most of the plot empty
+                    1e-3 * limit if limit <= FAR * float(spread.worst[i]) else None,
                 ),
                 f"Histogram and cumulative share of the {label(q)}, with quantiles and the worst "
                 "case.",
@@ -285,17 +297,18 @@ def cause_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Dat
         return [], []
     names = [t.name for t in study.tolerances]
     shares = {n: 100 * study.shares[some, t] for t, n in enumerate(names)}
-    largest = sorted(names, key=lambda n: -float(shares[n].max()))[:8]
+    largest = sorted(names, key=lambda n: -float(shares[n].max()))[:CAUSES]
     chart = {n: v for n, v in shares.items() if n in largest}
     rest = np.asarray(100 - sum(chart.values()))
     if len(names) > len(largest) and float(np.max(rest)) > 0.05:
         chart["all others"] = rest
-    categories = [label(study.quantities[i]) for i in some]
+    picked = [study.quantities[i] for i in some]
+    categories = [f"{q.joint}, {q.kind.removesuffix(' force')}" for q in picked]
     file = f"{key}-shares.csv"
     figure = Figure(
         f"shares-{key}",
         f"{study.title}: what each tolerance adds to each worst-case force.",
-        stacked_shares(categories, chart, "share of the worst case"),
+        stacked_shares(categories, chart, "share"),
         "Stacked bars: share of each tolerance in the worst case of each force.",
         file,
         150 + 24 * len(some),

@@ -318,12 +318,15 @@ def scale(
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
     ] = None,
+    granite: Annotated[
+        bool, typer.Option("--granite", help="Stiffness and frequencies on the granite's solid.")
+    ] = False,
     json: Json = False,
 ) -> None:
-    """Show how the forces that tolerances lock in grow with the size of a machine."""
+    """Show what the size of a machine does to locked-in forces, stiffness and frequencies."""
     from reports.cli import scale as work
 
-    work.run(machine, (low, high), lengths, width_ratio, tilt, out, json=json)
+    work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
 @app.command()

@@ -1,4 +1,4 @@
-"""`strutwork scale`: how the assembly forces grow with the size of a machine."""
+"""`strutwork scale`: how forces, stiffness and frequencies change with the size of a machine."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from strutwork.errors import ModelError
 from strutwork.units import ANGLE, quantity
 from studies.assembly_scale import AssemblyScale, assembly_scale
 from studies.dataset_files import write_long_csv, write_netcdf
+from studies.mit_ss1_scale import mit_ss1_scale
+from studies.removal_rate import ACTUATOR_EXPONENTS
+from studies.scale import ScaleStudy
 
 #: Machines whose size can be studied.
 MACHINES = ("mit-ss1",)
@@ -26,9 +29,10 @@ def run(
     tilt: str,
     out: str | None,
     *,
+    granite: bool,
     json: bool,
 ) -> None:
-    """Compute the forces over the length and print them."""
+    """Compute the forces over the length and what the machine's size changes, and print them."""
     if machine not in MACHINES:
         raise ModelError(
             f"scale of {machine}",
@@ -38,18 +42,34 @@ def run(
     found = assembly_scale(
         _lengths(band, count), ratio, tilt=quantity(_number(tilt), ANGLE, "--tilt")
     )
-    result = {"machine": machine, **found.to_dict(), "data": []}
+    size = mit_ss1_scale(granite=granite)
+    result: dict[str, Any] = {
+        "machine": machine,
+        **found.to_dict(),
+        "size": {"granite": granite, **size.to_dict()},
+        "data": [],
+    }
     if out is not None:
         name, dataset = f"{machine}-scale", found.to_dataset()
         written = [
             write_netcdf(Path(out) / f"{name}.nc", dataset),
             write_long_csv(Path(out) / f"{name}.csv", dataset[["force"]]),
         ]
+        name, dataset = f"{machine}-size", size.to_dataset()
+        written += [
+            write_netcdf(Path(out) / f"{name}.nc", dataset),
+            write_long_csv(Path(out) / f"{name}-stiffness.csv", dataset[["stiffness"]]),
+            write_long_csv(Path(out) / f"{name}-frequency.csv", dataset[["frequency"]]),
+        ]
         result["data"] = [str(path) for path in written]
     if json:
         print_json(result)
     else:
-        _print(console(), machine, found, result)
+        screen = console()
+        _print(screen, machine, found)
+        _print_size(screen, machine, size, granite=granite)
+        for path in result["data"]:
+            screen.print(path, markup=False, soft_wrap=True)
 
 
 def _lengths(band: tuple[float, float], count: int) -> list[float]:
@@ -72,7 +92,7 @@ def _number(text: str) -> float | str:
         return text
 
 
-def _print(out: Console, machine: str, found: AssemblyScale, result: dict[str, Any]) -> None:
+def _print(out: Console, machine: str, found: AssemblyScale) -> None:
     out.print(
         f"{machine}: worst forces that axes tilted by {1e6 * found.tilt:.4g} µm/m lock in, "
         "reconstructed structure of Son 2002, Table 2 (calibrated)",
@@ -98,5 +118,39 @@ def _print(out: Console, machine: str, found: AssemblyScale, result: dict[str, A
     ]
     columns = ["force", "slope, kN/m", "at length 0, kN", "affine to, %", "proportional to, %"]
     out.print(table("Straight lines through the cases of Table 2", columns, rows))
-    for path in result["data"]:
-        out.print(path, markup=False, soft_wrap=True)
+
+
+def _print_size(out: Console, machine: str, found: ScaleStudy, *, granite: bool) -> None:
+    """Exponents of stiffness and frequency, and of the deflection at constant removal rate."""
+    where = "on its granite" if granite else "on rails that stand still"
+    low, high = found.factors[0], found.factors[-1]
+    out.print(
+        f"{machine} {where}, {low:g} to {high:g} times as large, joints by three laws; fitted "
+        "powers of the size L (calibrated machine, at home)",
+        markup=False,
+    )
+    count = min(4, found.frequencies.shape[-1])
+    rows: list[list[object]] = []
+    for i, law in enumerate(found.laws):
+        stiffness, frequency = found.stiffness_law(i).exponent, found.frequency_law(i).exponent
+        name = f"{law}: {law.formula}"
+        rows.append([name, *map(_power, stiffness[:3]), *map(_power, frequency[:count])])
+    head = ["joints", "K x", "K y", "K z", *(f"f {n + 1}" for n in range(count))]
+    out.print(table("Exponents of stiffness K and frequency f", head, rows))
+    rows = []
+    for i, law in enumerate(found.laws):
+        each = found.removal(i)
+        for k, n in enumerate(ACTUATOR_EXPONENTS):
+            deflections = [_power(some[k].deflection) for some in each.values()]
+            first = each["x"][k]
+            rows.append(
+                [str(law), f"{n:g}", _power(first.feed), _power(first.cutting_force), *deflections]
+            )
+    head = ["joints", "drives n", "feed", "cutting force", *(f"deflection {a}" for a in "xyz")]
+    title = "Exponents at constant removal rate, drives' force ~ L^n (Son 2002, eqs 19 to 23)"
+    out.print(table(title, head, rows, names=2))
+
+
+def _power(exponent: float) -> str:
+    """Three decimals, and no zero with a sign."""
+    return f"{round(float(exponent), 3) + 0.0:.3f}"

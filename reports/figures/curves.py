@@ -41,6 +41,7 @@ def limit_lines(limits: Mapping[str, float]) -> tuple[list[Any], list[Any]]:
             "yanchor": "bottom",
             "text": plain(label),
             "showarrow": False,
+            "bgcolor": "rgba(255,255,255,0.8)",
             "font": {"color": LIMIT, "size": 12},
         }
         for label, value in limits.items()

@@ -82,7 +82,13 @@ def force_bars(
                 "marker": {
                     "color": b.colour,
                     "line": {"color": INK, "width": 1},
-                    "pattern": {"shape": b.pattern, "fgcolor": INK, "size": 6, "solidity": 0.25},
+                    "pattern": {
+                        "shape": b.pattern,
+                        "fgcolor": INK,
+                        "bgcolor": b.colour,
+                        "size": 6,
+                        "solidity": 0.2,
+                    },
                 },
                 "hovertemplate": "%{x}: %{y:.4g} kN<extra>" + plain(b.name) + "</extra>",
             }

@@ -143,6 +143,11 @@ def test_shares_add_to_one(assembled: tuple[WrittenReport, str]) -> None:
         assert all(0 <= v <= 100 for v in bar["x"])
 
 
+def test_every_place_of_the_page_has_its_own_name(planar_report: WrittenReport) -> None:
+    names = re.findall(r' id="([^"]+)"', text_of(planar_report.report))
+    assert len(names) == len(set(names)) > 20
+
+
 def test_table_2_stands_beside_the_report(planar_report: WrittenReport) -> None:
     folder = planar_report.report.parent
     rows = rows_of(folder / "published-son-2002-table-2.csv")

@@ -11,7 +11,7 @@ import scipy.sparse as sp
 import fea.factorize
 import fea.memory
 import fea.ordering
-from fea import factor_cholmod, factor_mumps
+from fea import factor_cholmod, factor_mumps, factor_superlu
 from fea.factorize import SOLVERS, factorize, installed_solvers
 from fea.memory import available_memory, foreseen_memory, require_memory
 from fea.ordering import nested_dissection
@@ -140,6 +140,15 @@ def test_what_does_not_fit_is_refused_before_it_starts(monkeypatch: pytest.Monke
     for solver in INSTALLED:
         with pytest.raises(NumericalError, match=r"0\.0001 GB are available.*\n.*coarser"):
             factorize(definite(), solver)
+
+
+def test_memory_that_runs_out_all_the_same_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(factor_superlu, "factorize", fail)
+    with pytest.raises(NumericalError, match="ran out of memory"):
+        factorize(definite(), "superlu")
 
 
 def test_available_memory_is_the_least_of_all_limits(

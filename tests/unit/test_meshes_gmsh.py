@@ -188,3 +188,11 @@ def test_open_surfaces_and_wrong_sizes_are_refused() -> None:
         tetrahedra(surface, 0.0)
     with pytest.raises(ModelError, match=r"of order 3"):
         tetrahedra(surface, 0.1, order=3)
+
+
+def test_a_mesh_that_would_fill_the_memory_is_foreseen() -> None:
+    if INSTALLED:
+        with pytest.raises(ModelError, match=r"ring: cells of 1e-05 m in .* is the limit"):
+            tetrahedra(cylinder(), 1e-5)
+    else:
+        assert meshed_or_refused(lambda: tetrahedra(cylinder(), 1e-5)) is None
