@@ -16,6 +16,7 @@ from machines.hexel_hexapod import HexelHexapod
 from machines.limits import Limit, check_limits, joint_limits
 from machines.mit_ss1 import MitSS1
 from machines.mit_ss1_assembly import StrutAssembly, strut_width
+from machines.pose_grid import GridMachine, PoseGrid
 from machines.proposed_3pprs import Proposed3PPRS
 from machines.prototype_3ppprs import Prototype3PPPRS
 from machines.published import Paper, PublishedTable, PublishedValue
@@ -30,12 +31,14 @@ __all__ = [
     "DynamicSet",
     "Eclipse3PPRS",
     "Glozman3PRRS",
+    "GridMachine",
     "HexelHexapod",
     "Limit",
     "Machine",
     "MitSS1",
     "Paper",
     "Platform",
+    "PoseGrid",
     "Proposed3PPRS",
     "Prototype3PPPRS",
     "PublishedTable",

@@ -86,7 +86,9 @@ _ENTRIES = (
         Prototype3PPPRS,
     ),
     CatalogueEntry("mit-ss1", "MIT-SS-1", "planar, [P vertical] R R", SON_2002, MitSS1),
-    CatalogueEntry("hexel-hexapod", "Hexel hexapod", "U [P along the leg] S", SON_2002, HexelHexapod),
+    CatalogueEntry(
+        "hexel-hexapod", "Hexel hexapod", "U [P along the leg] S", SON_2002, HexelHexapod
+    ),
 )
 
 #: Every machine by its name.

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, rotation_x
 from machines.legs import square_root
 from machines.limits import Limit, joint_limits
+from machines.pose_grid import PoseGrid
 from msa.structure import Structure
 from strutwork.errors import ModelError
 
@@ -25,8 +26,10 @@ LEGS = (1, 2, 3, 4, 5, 6)
 
 #: Height of the tool tip over the work table in sections 2.2 and 6.2, m.
 LEVEL = 0.4
-#: Reach in x, m, and tilt about x, rad, to either side, of the thesis's figures 3 to 5 and 29.
+#: Reach in x, m, and tilt about x, rad, to either side, of figures 3 to 5.
 REACH, TILT = 0.1, radians(35.0)
+#: The same of the stiffness map, whose axes are legible in Fig. 29-(b).
+MAP_REACH, MAP_TILT = 0.2, radians(40.0)
 
 
 def foot(i: int) -> str:
@@ -168,6 +171,11 @@ class HexelHexapod:
     def home(self) -> Poses:
         """Tool upright in the middle, 0.4 m over the table (section 2.2)."""
         return self.poses(0.0)
+
+    def pose_grid(self, steps: int = 10) -> PoseGrid:
+        """Fig. 29-(b), 0.4 m over the table: 2 · steps + 1 places along x, as many tilts a."""
+        x, a = (np.linspace(-end, end, 2 * steps + 1) for end in (MAP_REACH, MAP_TILT))
+        return PoseGrid(self.poses(x).position, rotation_x(a), a, "a")
 
     def skeleton(self) -> Sequence[tuple[str, str]]:
         """Pairs of nodes that a drawing connects by a line."""

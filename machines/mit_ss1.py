@@ -15,6 +15,7 @@ from kinematics import Linkage, Placement, Poses, angle, rotation_y
 from machines import mit_ss1_parts as parts
 from machines.legs import square_root
 from machines.limits import Limit, joint_limits
+from machines.pose_grid import PoseGrid
 from msa.materials import Material
 from msa.sections import Section, rectangle
 from msa.structure import Structure
@@ -250,6 +251,13 @@ class MitSS1:
     def home(self) -> Poses:
         """Tool upright, its tip at the origin."""
         return self.poses(0.0)
+
+    def pose_grid(self, steps: int = 10) -> PoseGrid:
+        """The nominal workspace at height zero: 2 · steps + 1 places along x, as many tilts b."""
+        x, b = (
+            np.linspace(*ends, 2 * steps + 1) for ends in (NOMINAL_X, (-NOMINAL_TILT, NOMINAL_TILT))
+        )
+        return PoseGrid(self.poses(x).position, rotation_y(b), b, "b")
 
     def skeleton(self) -> Sequence[tuple[str, str]]:
         """Pairs of nodes that a drawing connects by a line."""

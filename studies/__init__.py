@@ -34,6 +34,7 @@ from studies.dynamic_sensitivity import (
 from studies.executor import Executor, Threads, default_executor
 from studies.filters import AS_IN_AZULAY, Filters, PoseStatus
 from studies.link_lengths import LINK_LENGTHS, link_lengths
+from studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
 from studies.progress import Lines, Progress
 from studies.published_table import PublishedRow, file_name, write_published
 from studies.statistics import (
@@ -62,6 +63,7 @@ __all__ = [
     "AzulayDynamics",
     "CheckPoints",
     "Executor",
+    "Fall",
     "Filters",
     "Lines",
     "PoseStatus",
@@ -91,11 +93,14 @@ __all__ = [
     "link_lengths",
     "mass_sensitivity",
     "offset_sensitivity",
+    "on_plane",
+    "plane_map",
     "published_dynamic_ranking",
     "published_ranking",
     "published_rows",
     "read_netcdf",
     "statistics",
+    "stiffness_falls",
     "stiffness_map",
     "summary",
     "sweep",

@@ -27,7 +27,8 @@ from machines.mit_ss1_whole import MitSS1Whole
 from machines.published_son import MACHINE, MODES, MOUNT_MODES, STIFFNESS
 from msa import tool_compliance
 from msa.mass import mass_properties
-from studies.calibrate import Calibration, Parameter, Target, calibrate
+from studies.calibrate import Calibration, calibrate
+from studies.calibration_problem import Parameter, Target
 from studies.mit_ss1_modes import (
     BENDING,
     MOUNT_ROWS,

@@ -264,10 +264,16 @@ def _note(row: str, quantity: str, ours: Mapping[str, Mapping[str, float]]) -> s
             note += "; beside our second mode, along y, the shapes being in pictures only"
         return note
     if row.startswith("granite"):
-        return (
+        note = (
             "thicknesses of plate and base, which are not published, calibrated to the numerical "
             "269.4 and 320.9 Hz with the machine on the granite"
         )
+        if row == TWISTING:
+            note += (
+                "; the twist parts into two modes with the strut assembly, the one that holds more "
+                "of it is shown"
+            )
+        return note
     if row == SCREW:
         return (
             "stiffness of the drives calibrated to this mode alone; the tilt would then fall to "

@@ -13,6 +13,7 @@ from kinematics import jacobians, velocity_ellipsoid
 from kinematics.mechanism import drive_values
 from machines import MitSS1
 from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from machines.mit_ss1_parts import STRUTS, TOOL, strut
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -103,18 +104,19 @@ def strut_rows(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> tuple[Array, Arra
     """
     x, b = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(b, dtype=float))
     placement = machine.place(machine.poses(x, 0.0, b))
-    at = placement.positions
+    good = placement.reachable
+    at = placement.positions[good]
     index = machine.linkage.node_index
     lower, upper = (
-        at[..., [index[f"strut{i}/{end} end"] for i in (1, 2, 3)], :]
-        for end in ("housing", "block")
+        at[..., [index[strut(i, end, "end")] for i in STRUTS], :] for end in ("housing", "block")
     )
     u = upper - lower
     u = u / np.linalg.norm(u, axis=-1, keepdims=True)
-    q = lower - at[..., [index[machine.linkage.tool or ""]], :]
-    rows = np.stack([u[..., 0], u[..., 2], u[..., 0] * q[..., 2] - u[..., 2] * q[..., 0]], axis=-1)
-    reached = placement.reachable[..., None, None]
-    return np.where(reached, rows, np.nan), np.where(reached, u, np.nan)
+    q = lower - at[..., [index[TOOL]], :]
+    a = np.stack([u[..., 0], u[..., 2], u[..., 0] * q[..., 2] - u[..., 2] * q[..., 0]], axis=-1)
+    rows, directions = (np.full((*x.shape, 3, 3), np.nan) for _ in range(2))
+    rows[good], directions[good] = a, u
+    return rows, directions
 
 
 def parallel_determinant(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> Array:
@@ -123,7 +125,11 @@ def parallel_determinant(machine: MitSS1, x: ArrayLike, b: ArrayLike) -> Array:
     It is zero where the three strut lines meet in a point or are parallel; not a number out of
     reach.
     """
-    return np.asarray(np.linalg.det(strut_rows(machine, x, b)[0]))
+    rows, _ = strut_rows(machine, x, b)
+    good = np.isfinite(rows).all(axis=(-2, -1))
+    found = np.full(good.shape, np.nan)
+    found[good] = np.linalg.det(rows[good])
+    return found
 
 
 def singular_tilt(machine: MitSS1, x: float) -> float | None:

@@ -261,7 +261,7 @@ def scale_study(
         [[modes(p, count + rigid).frequencies[..., rigid:] for p in line] for line in each],
         dtype=float,
     )
-    if not np.all(np.isfinite(frequencies)):
+    if frequencies.shape[-1] < count or not np.all(np.isfinite(frequencies)):
         raise ModelError("scale", f"has fewer than {count} modes.", "Ask for fewer frequencies.")
     return ScaleStudy(tuple(laws), sizes, np.array(stiffness), frequencies, joint_share(placed))
 

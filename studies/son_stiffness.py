@@ -202,7 +202,8 @@ def map_figures(found: xr.Dataset) -> dict[str, float]:
         return float(array.sel(x=x, b=b, method="nearest", tolerance=1e-9))
 
     middle = corrected.where(
-        (np.abs(corrected["x"]) <= MIDDLE[0] + 1e-12) & (np.abs(corrected["b"]) <= MIDDLE[1] + 1e-12)
+        (np.abs(corrected["x"]) <= MIDDLE[0] + 1e-12)
+        & (np.abs(corrected["b"]) <= MIDDLE[1] + 1e-12)
     )
     home = at(corrected, 0.0, 0.0)
     left, right = (at(corrected, *corner) for corner in CORNERS)

@@ -132,7 +132,10 @@ def map_stiffness(
         Ranges, typer.Option(help="Whose joint ranges a pose must keep.")
     ] = Ranges.ALL,
     lattice: Annotated[
-        int, typer.Option(min=1, max=200, help="Fineness of the check points; 10 gives 317.")
+        int,
+        typer.Option(
+            min=1, max=200, help="Fineness; 10 gives 317 check points, or 21 x 21 in x and tilt."
+        ),
     ] = 10,
     rolls: Annotated[
         int, typer.Option(min=1, max=720, help="Rolls about the normal tried at each point.")
@@ -146,7 +149,7 @@ def map_stiffness(
     ] = False,
     json: Json = False,
 ) -> None:
-    """Map the stiffness of a machine over the hemisphere of its check points."""
+    """Map the stiffness of a machine over a hemisphere, or over x and tilt where it is made so."""
     if vibration:
         if apparent:
             raise typer.BadParameter("--apparent is a model of the statics only.")

@@ -1,4 +1,4 @@
-"""`strutwork map`: stiffness of a machine of the catalogue over its check points."""
+"""`strutwork map`: stiffness of a machine of the catalogue over its check points or its plane."""
 
 from __future__ import annotations
 
@@ -8,11 +8,21 @@ from typing import Any
 
 import xarray as xr
 
-from machines import ThreeLegs, get, roll_angles
+from machines import GridMachine, Machine, ThreeLegs, get, roll_angles
 from reports.cli.output import console, print_json, table
 from reports.cli.progress import shown
 from strutwork.errors import ModelError
-from studies import Filters, hemisphere, stiffness_map, summary, write_csv, write_netcdf
+from studies import (
+    Filters,
+    hemisphere,
+    plane_map,
+    stiffness_map,
+    summary,
+    write_csv,
+    write_netcdf,
+)
+from studies.filters import REASONS
+from studies.progress import Progress
 
 RANGES: dict[str, tuple[str, ...] | None] = {"all": None, "revolute": ("revolute",), "none": ()}
 
@@ -41,13 +51,13 @@ def run(
             raise ModelError(f"machine {machine}", "has no apparent joint model.", "Leave it out.")
         made = made.apparent()
     with shown() as started:
-        dataset = stiffness_map(
+        dataset = _map(
             made,
-            hemisphere(made, lattice=lattice),
-            roll_angles(rolls),
+            lattice,
+            rolls,
             Filters(joint_kinds=RANGES[ranges]),
-            workers=workers,
-            progress=started(f"stiffness of {machine}"),
+            workers,
+            started(f"stiffness of {machine}"),
         )
     result = _result(machine, dataset)
     if out is not None:
@@ -64,15 +74,55 @@ def run(
         _print(result)
 
 
-def _result(machine: str, dataset: xr.Dataset) -> dict[str, Any]:
+def _map(
+    machine: Machine,
+    lattice: int,
+    rolls: int,
+    filters: Filters,
+    workers: int | None,
+    progress: Progress,
+) -> xr.Dataset:
+    """Over x and a tilt where the machine says so, else over the hemisphere."""
+    if isinstance(machine, GridMachine):
+        return plane_map(
+            machine, machine.pose_grid(lattice), filters, workers=workers, progress=progress
+        )
+    return stiffness_map(
+        machine,
+        hemisphere(machine, lattice=lattice),
+        roll_angles(rolls),
+        filters,
+        workers=workers,
+        progress=progress,
+    )
+
+
+def _counts(dataset: xr.Dataset) -> dict[str, Any]:
+    """Points and candidates, all and kept; on a plane every pose is the only candidate."""
+    if "pose" in dataset.dims:
+        status = dataset["status"].to_numpy()
+        total, kept = int(status.size), int(dataset.attrs["poses_kept"])
+        return {
+            "points": total,
+            "points_kept": kept,
+            "candidates": total,
+            "candidates_kept": kept,
+            "dropped": {code.word: int((status == code).sum()) for code in REASONS},
+        }
     dropped = dataset["dropped"].sum("point")
     return {
-        "machine": machine,
         "points": int(dataset.sizes["point"]),
         "points_kept": int(dataset.attrs["points_kept"]),
         "candidates": int(dataset.attrs["candidates"]),
         "candidates_kept": int(dataset.attrs["candidates_kept"]),
         "dropped": {str(r): int(dropped.sel(reason=r)) for r in dataset["reason"].to_numpy()},
+    }
+
+
+def _result(machine: str, dataset: xr.Dataset) -> dict[str, Any]:
+    return {
+        "machine": machine,
+        **_counts(dataset),
         "dropped_because": json_text.loads(dataset.attrs["dropped_by_reason"]),
         "stiffness": {
             meaning: {axis["direction"]: axis for axis in summed["axes"]}

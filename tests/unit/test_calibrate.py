@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelError, NumericalError
-from studies.calibrate import Parameter, Target, calibrate
+from studies.calibrate import calibrate
+from studies.calibration_problem import Parameter, Target
 from studies.identifiability import identifiability
 
 

@@ -34,11 +34,12 @@ from machines.mit_ss1_whole import MitSS1Whole
 from machines.published_son import MODES, MOUNT_MODES
 from msa.mass import mass_properties
 from strutwork.errors import ModelError
-from studies.calibrate import Target
+from studies.calibration_problem import Target
 from studies.mit_ss1_calibration import (
     K_X,
     K_Y,
     MASS,
+    calibrate_moving,
     measured_targets,
     moving_model,
     moving_targets,
@@ -106,6 +107,7 @@ def test_reduction_against_the_full_solid() -> None:
     np.testing.assert_allclose(modes(whole.granite_alone(), 8).frequencies, full, rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_whole_against_a_reduction_that_goes_higher() -> None:
     whole = calibrated_machine("numerical")
     found = named("numerical").modes.frequencies
@@ -139,6 +141,21 @@ def left(targets: tuple[Target, ...], computed: dict[str, float]) -> dict[str, f
     return {t.name: (computed[t.name] - t.value) / t.uncertainty for t in targets}
 
 
+@pytest.mark.slow
+def test_the_calibration_finds_the_stored_constants() -> None:
+    found = calibrate_moving(starts=1)
+    # what the data determine, well within its standard error: one start ends in another place of
+    # the valley that they leave open
+    for name, error in zip(found.identified.names, found.identified.standard_errors, strict=True):
+        if np.isfinite(error):
+            assert abs(np.log(found.best[name] / CALIBRATED_MOVING[name])) < 0.6 * error
+    # five targets cannot determine seven parameters
+    assert found.identified.rank == 5
+    assert len(found.identified.undetermined) == 2
+    assert "axial_stiffness" not in found.identified.determined
+    assert found.on_bounds == ("housing_mass", "housing_inertia")
+
+
 def test_stored_constants_are_those_of_the_calibration() -> None:
     residuals = left(moving_targets(), moving_model(CALIBRATED_MOVING))
     assert abs(residuals[TILT]) < 1.0
@@ -149,16 +166,28 @@ def test_stored_constants_are_those_of_the_calibration() -> None:
     assert -2.5 < residuals[MASS] < -1.5
 
 
-def test_measured_frequencies_with_softer_preloading_side_and_elastic_drives() -> None:
+def test_measured_frequencies_with_a_softer_preloading_side() -> None:
     found = named("measured").frequencies
-    residuals = left(measured_targets(), found)
     assert CALIBRATED_MEASURED["preload_factor"] < 1.0
-    # two parameters for three frequencies: within 10 % each
-    for target in measured_targets():
-        assert found[target.name] == pytest.approx(target.value, rel=0.10)
-    assert set(residuals) == {TILT, STRUTS, SCREW}
+    # one factor for two frequencies, the best compromise: 8.4 % above one, 7.3 % below the other
+    residuals = left(measured_targets(), found)
+    assert found[TILT] == pytest.approx(MODES.value(TILT, "measured"), rel=0.09)
+    assert found[STRUTS] == pytest.approx(MODES.value(STRUTS, "measured"), rel=0.08)
+    # the least squares balance: what one residual gains the other loses
+    assert residuals[TILT] > 0 > residuals[STRUTS]
     for name in (TILT, STRUTS):
-        assert found[name] < named("numerical").frequencies[name]
+        assert found[name] < named("numerical").frequencies[name] * 0.8
+
+
+def test_ball_screws_alone() -> None:
+    found = named("ball screw").frequencies
+    # one parameter for one frequency
+    assert found[SCREW] == pytest.approx(MODES.value(SCREW, "measured"), rel=1e-3)
+    # and what it spoils
+    assert found[TILT] < 0.75 * MODES.value(TILT, "measured")
+    assert SCREW not in named("measured").frequencies
+    with pytest.raises(ModelError, match='there is no set "as built"'):
+        calibrated_machine("as built")  # type: ignore[arg-type]
 
 
 def share(found: NamedModes, name: str, word: str) -> float:
@@ -168,13 +197,13 @@ def share(found: NamedModes, name: str, word: str) -> float:
 def test_modes_move_as_the_thesis_names_them() -> None:
     found = named("numerical")
     # the tilt bends the bearings, those on the housing most; the granite hardly takes part
-    assert share(found, TILT, "/housing") > 0.4
+    assert share(found, TILT, "/housing") > 0.5
     assert share(found, TILT, "granite") < 0.2
     # "dominated by joint bearing compliance at moving block side"
     assert share(found, STRUTS, "/block") > 0.5
     # granite modes strain the granite and its mounts
     for name in (BENDING, TWISTING):
-        assert share(found, name, "granite") + share(found, name, "joint mount") > 0.6
+        assert share(found, name, "granite") > 0.5
     for i in (1, 2, 3, 4):
         assert share(found, f"rigid body {i}", "joint mount") > 0.5
     assert all(s > 0.4 for s in found.shares.values())
@@ -220,10 +249,10 @@ def test_pictures_can_be_drawn() -> None:
 def test_mobility_and_mass_of_the_whole() -> None:
     whole = calibrated_machine("numerical")
     placement = whole.place(whole.poses([-0.04, 0.0, 0.03], 0.01, [0.2, 0.0, -0.3]))
-    count = mobility(whole.linkage, placement)
+    count = mobility(whole.linkage, placement[1])
     alone = mobility(whole.machine.linkage, whole.machine.place(whole.home()))
-    # three drives, and the frame's elastic mounts hold it as if they were rigid
-    assert count.mobility == alone.mobility
+    # three drives, and the elastic mounts hold the granite as if they were rigid
+    assert count.mobility == alone.mobility == 3
     volume = 0.9 * 1.0 * whole.frame.base + 0.9 * whole.frame.plate * (1.5 - whole.frame.base)
     placed = whole.structure.at(placement)
     moving = mass_properties(

@@ -1,0 +1,190 @@
+"""What a calibration varies and what it is to meet, and the residuals between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from math import isfinite, log
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError, NumericalError
+
+Array = NDArray[Any]
+
+#: What a model takes and gives: numbers by name.
+Model = Callable[[Mapping[str, float]], Mapping[str, float]]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number to be found.
+
+    Parameters
+    ----------
+    name : str
+    start, low, high : float
+    unit : str
+    scale : "log" or "linear"
+        "log": varied by factors, for numbers that are positive by nature.
+
+    Raises
+    ------
+    ModelError
+        Bounds that do not enclose the start, or a logarithm of what is not positive.
+    """
+
+    name: str
+    start: float
+    low: float
+    high: float
+    unit: str = ""
+    scale: Literal["log", "linear"] = "log"
+
+    def __post_init__(self) -> None:
+        part = f"parameter {self.name}"
+        if not all(isfinite(v) for v in (self.start, self.low, self.high)):
+            raise ModelError(part, "has a bound that is not finite.", "Give finite numbers.")
+        if not (self.low < self.high and self.low <= self.start <= self.high):
+            raise ModelError(
+                part,
+                f"starts at {self.start:g} between {self.low:g} and {self.high:g}.",
+                "Give low < high and a start between them.",
+            )
+        if self.scale == "log" and self.low <= 0:
+            raise ModelError(
+                part, f"its lower bound is {self.low:g}.", 'Give a positive one, or scale="linear".'
+            )
+
+    def scaled(self, value: float) -> float:
+        """The number that is varied."""
+        return log(value) if self.scale == "log" else value / (self.high - self.low)
+
+    def value(self, scaled: float) -> float:
+        """The inverse of `scaled`, kept within the bounds against rounding."""
+        number = np.exp(scaled) if self.scale == "log" else scaled * (self.high - self.low)
+        return float(min(max(number, self.low), self.high))
+
+
+@dataclass(frozen=True)
+class Target:
+    """A number to be met.
+
+    Parameters
+    ----------
+    name : str
+        As the model names it.
+    value : float
+    uncertainty : float
+        Standard deviation, in the value's unit: the weight is its inverse.
+    unit : str
+
+    Raises
+    ------
+    ModelError
+        An uncertainty that is not positive.
+    """
+
+    name: str
+    value: float
+    uncertainty: float
+    unit: str = ""
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.value) and isfinite(self.uncertainty) and self.uncertainty > 0):
+            raise ModelError(
+                f"target {self.name}",
+                f"is {self.value!r} with the uncertainty {self.uncertainty!r}.",
+                "Give finite numbers and a positive uncertainty.",
+            )
+
+
+class Problem:
+    """The residuals of a model over scaled parameters.
+
+    Parameters
+    ----------
+    model : callable
+    parameters : tuple of Parameter
+    targets : tuple of Target
+    step : float
+        Of the differences, in scaled parameters.
+
+    Attributes
+    ----------
+    bounds : (p,), (p,)
+        Lowest and highest scaled parameters.
+    evaluations : int
+        Of the model so far.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        parameters: tuple[Parameter, ...],
+        targets: tuple[Target, ...],
+        step: float,
+    ) -> None:
+        self.model, self.parameters, self.targets, self.step = model, parameters, targets, step
+        self.bounds = (
+            np.array([p.scaled(p.low) for p in parameters]),
+            np.array([p.scaled(p.high) for p in parameters]),
+        )
+        self.evaluations = 0
+        self._last: tuple[bytes, Array] = (b"", np.zeros(0))
+
+    def values(self, point: Array) -> dict[str, float]:
+        """Parameters by name; not a number stays so."""
+        return {
+            p.name: p.value(x) if isfinite(x) else x
+            for p, x in zip(self.parameters, point, strict=True)
+        }
+
+    def computed(self, point: Array) -> Array:
+        """The model's targets."""
+        self.evaluations += 1
+        given = self.model(self.values(point))
+        missing = [t.name for t in self.targets if t.name not in given]
+        if missing:
+            raise ModelError(
+                f"target {missing[0]}",
+                f"is not among what the model gives: {', '.join(given)}.",
+                "Name it as the model does.",
+            )
+        result = np.array([given[t.name] for t in self.targets], dtype=float)
+        if not np.isfinite(result).all():
+            raise NumericalError("model", "gave a number that is not finite.", "Narrow the bounds.")
+        return result
+
+    def residuals(self, point: Array) -> Array:
+        """(computed − target) / uncertainty."""
+        wanted = np.array([t.value for t in self.targets])
+        found = (self.computed(point) - wanted) / [t.uncertainty for t in self.targets]
+        self._last = (point.tobytes(), found)
+        return np.asarray(found)
+
+    def slopes(self, point: Array) -> Array:
+        """Forward differences of the residuals, backward at an upper bound: one run each."""
+        key, base = self._last
+        if key != point.tobytes():
+            base = self.residuals(point)
+        columns = []
+        for i in range(len(point)):
+            moved = point.copy()
+            moved[i] += self.step if point[i] + self.step <= self.bounds[1][i] else -self.step
+            columns.append((self.residuals(moved) - base) / (moved[i] - point[i]))
+        return np.stack(columns, axis=1)
+
+    def jacobian(self, point: Array) -> Array:
+        """Central differences of the residuals; one-sided at a bound."""
+        low, high = self.bounds
+        columns = []
+        for i in range(len(point)):
+            ahead, behind = point.copy(), point.copy()
+            ahead[i] = min(point[i] + self.step, high[i])
+            behind[i] = max(point[i] - self.step, low[i])
+            change = self.residuals(ahead) - self.residuals(behind)
+            columns.append(change / (ahead[i] - behind[i]))
+        return np.stack(columns, axis=1)
