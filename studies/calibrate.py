@@ -212,19 +212,63 @@ def calibrate(
             "Narrow the bounds.",
         )
     best = ends[_nearest(costs, ends, np.array([p.scaled(p.start) for p in chosen]))]
-    values = problem.values(best)
+    return _result(problem, best, costs, ends, seed, threshold, tuple(failures))
+
+
+def assess(
+    model: Model,
+    parameters: Sequence[Parameter],
+    targets: Sequence[Target],
+    *,
+    step: float = 1e-4,
+    threshold: float = 1e-3,
+) -> Calibration:
+    """What parameters as they start give and what the targets determine there, without a search.
+
+    Parameters
+    ----------
+    model, parameters, targets, step, threshold
+        As `calibrate`.
+
+    Returns
+    -------
+    Calibration
+
+    Raises
+    ------
+    StrutworkError
+        As `calibrate`, and whatever the model raises.
+    """
+    chosen, wanted = tuple(parameters), tuple(targets)
+    _check(chosen, wanted, 1)
+    problem = Problem(model, chosen, wanted, step)
+    point = np.array([p.scaled(p.start) for p in chosen])
+    cost = 0.5 * float(np.sum(problem.residuals(point) ** 2))
+    return _result(problem, point, np.array([cost]), point[None], 0, threshold, ())
+
+
+def _result(
+    problem: Problem,
+    best: Array,
+    costs: Array,
+    ends: Array,
+    seed: int,
+    threshold: float,
+    failures: tuple[str, ...],
+) -> Calibration:
+    names = tuple(p.name for p in problem.parameters)
     return Calibration(
-        chosen,
-        wanted,
-        np.array(list(values.values())),
+        problem.parameters,
+        problem.targets,
+        np.array(list(problem.values(best).values())),
         problem.computed(best),
         costs,
         np.array([list(problem.values(end).values()) for end in ends]),
-        identifiability(problem.jacobian(best), tuple(p.name for p in chosen), threshold),
-        _on_bounds(chosen, best),
+        identifiability(problem.jacobian(best), names, threshold),
+        _on_bounds(problem.parameters, best),
         seed,
         problem.evaluations,
-        tuple(failures),
+        failures,
     )
 
 
@@ -251,7 +295,8 @@ def _starts(parameters: tuple[Parameter, ...], count: int, seed: int) -> Array:
     cube = qmc.LatinHypercube(len(parameters), seed=seed).random(count - 1)
     # the reflective method wants to begin inside
     inside = 1e-6 * (high - low)
-    return np.clip(np.vstack([own, low + cube * (high - low)]), low + inside, high - inside)
+    points = np.vstack([own, low + cube * (high - low)])
+    return np.asarray(np.clip(points, low + inside, high - inside))
 
 
 def _nearest(costs: Array, ends: Array, own: Array) -> int:

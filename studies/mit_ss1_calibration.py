@@ -12,14 +12,18 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from machines import MitSS1
 from machines.mit_ss1_calibrated import (
+    CALIBRATED_GRANITE,
     CALIBRATED_MEASURED,
+    CALIBRATED_MOUNTS,
+    CALIBRATED_MOVING,
+    CALIBRATED_SCREW,
     calibrated_machine,
 )
 from machines.mit_ss1_frame import GraniteFrame
@@ -27,7 +31,7 @@ from machines.mit_ss1_whole import MitSS1Whole
 from machines.published_son import MACHINE, MODES, MOUNT_MODES, STIFFNESS
 from msa import tool_compliance
 from msa.mass import mass_properties
-from studies.calibrate import Calibration, calibrate
+from studies.calibrate import Calibration, assess, calibrate
 from studies.calibration_problem import Parameter, Target
 from studies.mit_ss1_modes import (
     BENDING,
@@ -42,6 +46,9 @@ from studies.mit_ss1_modes import (
 from studies.progress import Progress
 
 Array = NDArray[Any]
+
+#: What is calibrated.
+Part = Literal["granite", "moving", "measured", "ball screw"]
 
 K_Y, K_X, MASS = "Ky", "Kx", "moving mass"
 
@@ -180,13 +187,48 @@ def calibrate_screw(
     machine: see `machines.mit_ss1_calibrated`.
     """
     return calibrate(
-        lambda values: measured_model({**CALIBRATED_MEASURED, **values}),
+        screw_model,
         SCREW_PARAMETERS,
         screw_targets(),
         starts=starts,
         seed=seed,
         progress=progress,
     )
+
+
+def stored_calibration(which: Part) -> Calibration:
+    """What the stored constants give, and what the targets determine, without a search.
+
+    Parameters
+    ----------
+    which : "granite", "moving", "measured" or "ball screw"
+    """
+    across, down = CALIBRATED_MOUNTS
+    if which == "granite":
+        stored = {**CALIBRATED_GRANITE, "horizontal": across, "vertical": down}
+        with TemporaryDirectory() as folder:
+            return assess(
+                lambda values: granite_model(values, Path(folder)),
+                _at(GRANITE_PARAMETERS, stored),
+                granite_targets(),
+                step=1e-2,
+            )
+    model, parameters, targets, stored = {
+        "moving": (moving_model, MOVING_PARAMETERS, moving_targets(), dict(CALIBRATED_MOVING)),
+        "measured": (
+            measured_model,
+            MEASURED_PARAMETERS,
+            measured_targets(),
+            dict(CALIBRATED_MEASURED),
+        ),
+        "ball screw": (screw_model, SCREW_PARAMETERS, screw_targets(), dict(CALIBRATED_SCREW)),
+    }[which]
+    return assess(model, _at(parameters, stored), targets)
+
+
+def _at(parameters: tuple[Parameter, ...], values: Mapping[str, float]) -> tuple[Parameter, ...]:
+    """The parameters with other starts."""
+    return tuple(replace(p, start=values[p.name]) for p in parameters)
 
 
 def granite_model(values: Mapping[str, float], folder: Path | None = None) -> dict[str, float]:
@@ -226,6 +268,11 @@ def measured_model(values: Mapping[str, float]) -> dict[str, float]:
     whole = _numerical()
     softer = replace(whole, machine=replace(whole.machine, **values))  # type: ignore[arg-type]
     return named_modes(softer, granite=_patterns()).frequencies
+
+
+def screw_model(values: Mapping[str, float]) -> dict[str, float]:
+    """As `measured_model`, with the stored factor of the preloading side."""
+    return measured_model({**CALIBRATED_MEASURED, **values})
 
 
 @cache

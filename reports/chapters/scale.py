@@ -68,8 +68,7 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
         Figure(
             "size-frequency-whole",
             "Frequencies of the machine on its granite against size, counted from the lowest at "
-            "every size; the first six, of which four are the granite's on its mounts, are left "
-            "out.",
+            "every size; the first six, in which the granite moves on its mounts, are left out.",
             frequency_powers(whole, tuple(k for k in SHOWN if k < whole.frequencies.shape[-1])),
             "Lines of four frequencies over the size, for three laws of the joints.",
             FILE,
@@ -120,8 +119,8 @@ def _finding(moving: ScaleStudy, whole: ScaleStudy) -> str:
         f"Hz with the rails held. With similar joints its exponents are 1 and −1 within "
         f"{significant(error, 1)}. Its bearings give {share(float(moving.joint_share[0]))} of the "
         f"deflection in x and {share(float(moving.joint_share[1]))} in y, so that what they do "
-        f"counts: with roller bearings the stiffness in x goes with L^{fixed(float(rollers[0]), 2)} "
-        f"and the lowest frequency with L^{fixed(float(slower), 2)}, with the same bearings "
+        f"counts: with roller bearings the stiffness in x goes with "
+        f"L^{fixed(float(rollers[0]), 2)} and the lowest frequency with L^{fixed(float(slower), 2)}, with the same bearings "
         f"L^{fixed(float(same[0]), 2)} and L^{fixed(float(slowest), 2)}: a machine twice as large "
         f"with the same bearings is hardly stiffer."
     )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelError, NumericalError
-from studies.calibrate import calibrate
+from studies.calibrate import assess, calibrate
 from studies.calibration_problem import Parameter, Target
 from studies.identifiability import identifiability
 
@@ -157,6 +157,19 @@ def test_a_model_that_fails_costs_its_start_alone() -> None:
     start = (Parameter("x", 10.0, 5.0, 20.0),)
     with pytest.raises(NumericalError, match="failed from each of 2 starts; the first: start 0"):
         calibrate(touchy, start, wanted, starts=2, progress=silent)
+
+
+def test_an_assessment_searches_nothing() -> None:
+    chosen, wanted = parameters("k1", "k2", start=1.0), targets("first", "second", "static")
+    found = assess(with_known, chosen, wanted)
+    assert found.best == pytest.approx({"k1": TRUTH["k1"], "k2": TRUTH["k2"]})
+    assert found.cost == pytest.approx(0.0, abs=1e-12)
+    # one run for the residuals, one for the result, two a parameter for the slopes
+    assert found.evaluations == 6
+    searched = calibrate(with_known, chosen, wanted, starts=1, progress=silent)
+    np.testing.assert_allclose(
+        found.identified.standard_errors, searched.identified.standard_errors, rtol=1e-4
+    )
 
 
 def test_progress_counts_starts() -> None:

@@ -23,6 +23,7 @@ from machines.mit_ss1_whole import MitSS1Whole
 from msa import LoadCase, PlacedStructure, axis_stiffness_free, solve, tool_compliance
 from studies.mit_ss1_scale import mit_ss1_scale
 from studies.removal_rate import (
+    actuator_force,
     cutting_force,
     frequency_exponent,
     removal_exponents,
