@@ -54,7 +54,8 @@ def main() -> None:
     for one in (stiffness, mass):
         one.assemble()
         one.setOption(petsc.Mat.Option.SYMMETRIC, True)
-    petsc.Options()["st_mat_mumps_icntl_7"] = order
+    for prefix in ("", "st_"):
+        petsc.Options()[f"{prefix}mat_mumps_icntl_7"] = order
     solver = slepc.EPS().create(petsc.COMM_SELF)
     solver.setOperators(stiffness, mass)
     solver.setProblemType(slepc.EPS.ProblemType.GHEP)
@@ -70,8 +71,6 @@ def main() -> None:
     conditioner = linear.getPC()
     conditioner.setType(petsc.PC.Type.CHOLESKY)
     conditioner.setFactorSolverType("mumps")
-    conditioner.setFactorSetUpSolverType()
-    conditioner.getFactorMatrix().setMumpsIcntl(7, order)
     solver.setUp()
     factorised = time.process_time() - begin
     solver.solve()
@@ -88,6 +87,8 @@ def main() -> None:
         "megabytes": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0,
         "solver": "SLEPc with MUMPS",
         "order": conditioner.getFactorMatrix().getMumpsInfog(7),
+        "flops": conditioner.getFactorMatrix().getMumpsRinfog(3),
+        "its": solver.getIterationNumber(), "ncv": solver.getDimensions(),
         "frequencies": frequencies.tolist(),
     }
     print(json.dumps(said))

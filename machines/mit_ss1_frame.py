@@ -50,8 +50,9 @@ class GraniteFrame:
     envelope : (width, depth, height)
         m (Son 2002, section 6.1).
     plate, base : float
-        Thickness of the plate and of the base, m. Calibrated: see
-        `studies.mit_ss1_calibration`; the thesis prints neither.
+        Thickness of the plate and of the base, m. The thesis prints neither; these bring the
+        granite alone near its frequencies. With the machine on it, and calibrated, see
+        `machines.mit_ss1_calibrated`.
     rails : (3,) of float
         Where the rails stand along x, m.
     rail_foot : (low, high)

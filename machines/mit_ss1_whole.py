@@ -54,7 +54,8 @@ class MitSS1Whole:
         What moves.
     frame : GraniteFrame
     mount_stiffness : (horizontal, vertical)
-        Of one mount, N/m. Calibrated to the rigid-body frequencies of Fig. 57.
+        Of one mount, N/m. Near the rigid-body frequencies of Fig. 57 with the granite alone; for
+        the whole see `machines.mit_ss1_calibrated`.
     offset : float
         From the plate's front to the plane in which the machine moves, m. Our choice: the near
         bearings stand 60 mm clear of the granite.

@@ -21,6 +21,9 @@ COMPARISON = "azulay-2014"
 #: A planar machine: its report is about the forces that its assembly locks in.
 PLANAR = "mit-ss1"
 
+#: A hexapod beside that machine.
+HEXAPOD = "hexel-hexapod"
+
 #: A machine of which nothing is printed to stand beside.
 PROTOTYPE = "prototype-3ppprs"
 
@@ -90,6 +93,10 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
         from reports.mit_ss1_report import mit_ss1_chapters
 
         make = partial(mit_ss1_chapters, progress)
+    elif target == HEXAPOD:
+        from reports.hexapod_report import hexapod_chapters
+
+        make = partial(hexapod_chapters, progress)
     elif target in CATALOGUE:
         from reports.machine_report import machine_chapters
 

@@ -37,6 +37,9 @@ from studies.link_lengths import LINK_LENGTHS, link_lengths
 from studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
 from studies.progress import Lines, Progress
 from studies.published_table import PublishedRow, file_name, write_published
+from studies.removal_rate import RemovalExponents, removal_exponents
+from studies.scale import PowerLaw, ScaleStudy, power_law, scale_study
+from studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
 from studies.statistics import (
     QUANTILES,
     AxisSummary,
@@ -58,6 +61,9 @@ __all__ = [
     "LINK_LENGTHS",
     "MODELS",
     "QUANTILES",
+    "ROLLERS",
+    "SIMILAR",
+    "UNSCALED",
     "AxisSummary",
     "AzulayComparison",
     "AzulayDynamics",
@@ -65,11 +71,15 @@ __all__ = [
     "Executor",
     "Fall",
     "Filters",
+    "JointScaling",
     "Lines",
     "PoseStatus",
     "PoseValue",
+    "PowerLaw",
     "Progress",
     "PublishedRow",
+    "RemovalExponents",
+    "ScaleStudy",
     "Statistics",
     "StudyOptions",
     "Summary",
@@ -95,10 +105,14 @@ __all__ = [
     "offset_sensitivity",
     "on_plane",
     "plane_map",
+    "power_law",
     "published_dynamic_ranking",
     "published_ranking",
     "published_rows",
     "read_netcdf",
+    "removal_exponents",
+    "scale_study",
+    "scaled",
     "statistics",
     "stiffness_falls",
     "stiffness_map",

@@ -91,8 +91,8 @@ def table_6_rows(machine: MitSS1 | None = None) -> tuple[PublishedRow, ...]:
     """Table 6 beside the structure's stiffness at the tool tip, in both readings.
 
     None of it is reproduced: in x and z together neither reading is met better than by one
-    constant a column, see `table_6_fits`. Only the trends of section 9.2.1 are: flat in the middle, and the two corners
-    x = −50 mm, b = −30° and x = 50 mm, b = 30° much softer than home.
+    constant a column, see `table_6_fits`. Only the trend of section 9.2.1 is: the two corners
+    x = −50 mm, b = −30° and x = 50 mm, b = 30° are much softer than home.
     """
     ours = computed_stiffness(machine)
     rows = []

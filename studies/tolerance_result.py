@@ -48,7 +48,7 @@ class ToleranceStudy:
     distribution : Distribution or None
         At the governing pose.
     deviation : ToolDeviation or None
-        Largest displacement of the tool in any direction, at the governing pose.
+        Largest displacement of the tool in any direction, at every pose.
     allocation : Allocation or None
         Keeps the limits at all poses.
     """
@@ -186,16 +186,22 @@ class ToleranceStudy:
             else {f"{s:g}": float(v) for s, v in zip(found.shares, at.quantiles, strict=True)},
         }
 
+    @property
+    def farthest(self) -> int:
+        """Index of the pose at which the tool can be displaced most; 0 without a tool."""
+        return 0 if self.deviation is None else int(np.argmax(self.deviation.largest))
+
     def _moved(self) -> dict[str, Any] | None:
         found = self.deviation
         if found is None:
             return None
+        at = self.farthest
         return {
-            "pose": self.poses[self.governing],
-            "largest": float(found.largest),
-            "bound": float(found.bound),
-            "displacement": found.displacement.tolist(),
-            "misfits": self._by_joint(found.misfits),
+            "pose": self.poses[at],
+            "largest": float(found.largest[at]),
+            "bound": float(found.bound[at]),
+            "displacement": found.displacement[at].tolist(),
+            "misfits": self._by_joint(found.misfits[at]),
         }
 
     def to_dataset(self) -> xr.Dataset:

@@ -140,7 +140,7 @@ def tolerance_study(
         known,
         governing,
         sampled,
-        None if tool is None else tool_deviation(worst_case(there)),
+        None if tool is None else tool_deviation(worst),
         _allocation(responses, known, options),
     )
 

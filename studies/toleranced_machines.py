@@ -10,15 +10,11 @@ from types import MappingProxyType
 import numpy as np
 
 from machines import CATALOGUE, MitSS1
-from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
 from machines.mit_ss1_tolerances import bearing_limits, machine_bearings, mit_ss1_tolerances
 from msa.structure import PlacedStructure
 from overconstraint import Limits, Quantity, Tolerance
 from strutwork.errors import ModelError
-from studies.assembly_map import bearing_quantities
-
-#: Poses along x and tilts of the MIT-SS-1.
-STEPS = 5, 5
+from studies.assembly_map import bearing_quantities, nominal_grid
 
 
 @dataclass(frozen=True)
@@ -59,12 +55,7 @@ class TolerancedMachine:
 def mit_ss1() -> TolerancedMachine:
     """The MIT-SS-1 over its nominal workspace: pins, rails, and the ratings of its bearings."""
     machine = MitSS1()
-    grid = np.meshgrid(
-        np.linspace(*NOMINAL_X, STEPS[0]),
-        np.linspace(-NOMINAL_TILT, NOMINAL_TILT, STEPS[1]),
-        indexing="ij",
-    )
-    x, tilt = (np.append(0.0, values) for values in grid)
+    x, tilt = (np.append(0.0, values) for values in nominal_grid())
     placement = machine.place(machine.poses(x, 0.0, tilt))
     kept = np.flatnonzero(placement.reachable)
     return TolerancedMachine(

@@ -107,8 +107,8 @@ def tool_blocks(study: ToleranceStudy, key: str) -> list[Block]:
             continue
         rows.append([*row, shown(value, q.unit), UNITS[q.unit][0], main_cause(study, i)])
     if study.deviation is not None:
-        where = f" at {pose(study, study.governing)}" if len(study.poses) > 1 else ""
-        most = shown(float(study.deviation.largest), "m")
+        where = f" at {pose(study, study.farthest)}" if len(study.poses) > 1 else ""
+        most = shown(float(study.deviation.largest[study.farthest]), "m")
         rows.append([f"displacement in any direction{where}", most, UNITS["m"][0], ""])
     top = governing(study)
     beside = ""

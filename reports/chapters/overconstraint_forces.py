@@ -130,7 +130,7 @@ def _force_table(study: ToleranceStudy, key: str) -> Table:
     columns += [Column("unit", "", False)] if mixed else []
     columns.append(Column("worst case", unit))
     shares = [s for s in SHOWN if found is not None and s in found.shares]
-    columns += [Column(f"{100 * s:g} % stay below", unit) for s in shares]
+    columns += [Column(f"{100 * s:g} % below", unit) for s in shares]
     common = {float(v) for v in study.limit[loaded(study)]}
     each = limited and len(common) > 1
     columns += [Column("limit", unit)] if each else []

@@ -112,17 +112,15 @@ def _finding(moving: ScaleStudy, whole: ScaleStudy) -> str:
     )
     own = int(np.abs(np.log(moving.factors)).argmin())
     k, f = moving.stiffness[0, own, 0], moving.frequencies[0, own, 0]
-    rollers, same = (moving.stiffness_law(i).exponent for i in (1, 2))
-    slower, slowest = (moving.frequency_law(i).exponent[0] for i in (1, 2))
+    rollers, same = (fixed(float(moving.stiffness_law(i).exponent[0]), 2) for i in (1, 2))
+    slower, slowest = (fixed(float(moving.frequency_law(i).exponent[0]), 2) for i in (1, 2))
     return (
         f"The calibrated machine at home, {micro(float(k))} N/µm in x and {significant(float(f))} "
         f"Hz with the rails held. With similar joints its exponents are 1 and −1 within "
         f"{significant(error, 1)}. Its bearings give {share(float(moving.joint_share[0]))} of the "
-        f"deflection in x and {share(float(moving.joint_share[1]))} in y, so that what they do "
-        f"counts: with roller bearings the stiffness in x goes with "
-        f"L^{fixed(float(rollers[0]), 2)} and the lowest frequency with L^{fixed(float(slower), 2)}, with the same bearings "
-        f"L^{fixed(float(same[0]), 2)} and L^{fixed(float(slowest), 2)}: a machine twice as large "
-        f"with the same bearings is hardly stiffer."
+        f"deflection in x and {share(float(moving.joint_share[1]))} in y: with roller bearings the "
+        f"stiffness in x goes with L^{rollers} and the lowest frequency with L^{slower}, with the "
+        f"same bearings with L^{same} and L^{slowest}. A larger machine wants larger bearings."
     )
 
 
@@ -134,16 +132,17 @@ def _exponents(both: dict[str, ScaleStudy]) -> Table:
             off = max(float(stiffness.error[:3].max()), float(frequency.error[:4].max()))
             rows.append(
                 [
-                    f"{name}, {law} ({law.formula})",
+                    f"{name}, {law}",
                     *(_power(v) for v in stiffness.exponent[:3]),
                     *(_power(v) for v in frequency.exponent[:4]),
                     "< 1e−6" if off < 1e-6 else share(off),
                 ]
             )
-    low, high = next(iter(both.values())).factors[[0, -1]]
+    first = next(iter(both.values()))
+    laws, (low, high) = first.laws, first.factors[[0, -1]]
     return Table(
         f"Exponents of the size, fitted from L = {low:g} to {high:g}; the largest distance from "
-        "the fitted power",
+        "the fitted power. Joints: " + "; ".join(f"{law}, {law.formula}" for law in laws),
         (
             Column("machine and joints", "", False),
             *(Column(a, "", True, "stiffness") for a in "xyz"),
@@ -190,14 +189,15 @@ def _power(value: float) -> str:
 
 
 def _files(both: dict[str, ScaleStudy]) -> tuple[DataFile, ...]:
-    modes = min(s.frequencies.shape[-1] for s in both.values())
-    rows: list[list[str | float]] = []
+    modes = max(s.frequencies.shape[-1] for s in both.values())
+    rows: list[list[str | float | None]] = []
     for name, study in both.items():
         for i, law in enumerate(study.laws):
             for factor, k, f in zip(
                 study.factors, study.stiffness[i], study.frequencies[i], strict=True
             ):
-                rows.append([name, str(law), float(factor), *map(float, k), *map(float, f[:modes])])
+                rows.append([name, str(law), float(factor), *map(float, k), *map(float, f)])
+                rows[-1] += [None] * (modes - len(f))
     heads = ["machine", "joints", "factor", *(f"stiffness_{a}_N_per_m" for a in "xyz")]
     heads += [f"stiffness_r{a}_Nm_per_rad" for a in "xyz"]
     heads += [f"frequency_{k + 1}_Hz" for k in range(modes)]

@@ -6,13 +6,15 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from reports.figures.curves import Curve, curves
 from reports.figures.theme import LEGEND, PALETTE, axis
 from reports.numbers import fixed
 from studies.removal_rate import ACTUATOR_EXPONENTS, relative_deflection
 from studies.scale import ScaleStudy
+
+Array = NDArray[Any]
 
 #: Lines of the laws, in their order.
 DASHES = ("solid", "dash", "dot", "dashdot")
@@ -41,9 +43,17 @@ def powers(
     figure = curves(factors, named, (SIZE, title))
     ticks = [v for v in (0.25, 0.5, 1.0, 2.0, 4.0) if np.min(factors) <= v <= np.max(factors)]
     figure["layout"]["xaxis"] = axis(SIZE, type="log", tickvals=ticks)
-    figure["layout"]["yaxis"] = axis(title, type="log", dtick="D2", exponentformat="none")
+    rounds = _round_numbers(np.concatenate([np.ravel(c.y) for c in named]))
+    figure["layout"]["yaxis"] = axis(title, type="log", tickvals=rounds)
     figure["layout"]["legend"] = LEGEND | {"traceorder": "normal"}
     return figure
+
+
+def _round_numbers(values: Array) -> list[float]:
+    """1, 2 and 5 times powers of ten that span the values; all written out, unlike plotly's."""
+    low, high = np.floor(np.log10(values.min())), np.ceil(np.log10(values.max()))
+    decades = np.arange(low, high + 1)
+    return [float(f"{m}e{int(d)}") for d in decades for m in (1, 2, 5)]
 
 
 def stiffness_powers(study: ScaleStudy, axes: Sequence[int] = (0, 1, 2)) -> dict[str, Any]:

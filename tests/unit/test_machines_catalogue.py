@@ -19,13 +19,16 @@ def test_every_entry_makes_its_machine() -> None:
         "glozman-3prrs",
         "prototype-3ppprs",
         "mit-ss1",
+        "hexel-hexapod",
     ]
     for name, entry in CATALOGUE.items():
         machine = entry.factory()
         assert get(name) is entry
         assert isinstance(machine, Mechanism)
         assert machine.place(machine.home()).reachable
-        assert entry.paper.key == ("son-2002" if name == "mit-ss1" else "azulay-2014")
+        assert entry.paper.key == (
+            "son-2002" if name in ("mit-ss1", "hexel-hexapod") else "azulay-2014"
+        )
 
 
 def test_the_factory_takes_other_dimensions() -> None:

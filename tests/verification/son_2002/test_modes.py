@@ -43,6 +43,7 @@ from studies.mit_ss1_calibration import (
     measured_targets,
     moving_model,
     moving_targets,
+    stored_calibration,
 )
 from studies.mit_ss1_modes import (
     BENDING,
@@ -271,3 +272,17 @@ def test_bad_wholes_are_refused() -> None:
     with pytest.raises(ModelError, match="rail_foot"):
         GraniteFrame(rail_foot=(0.5, 1.4))
     assert CALIBRATED_MOUNTS[0] < CALIBRATED_MOUNTS[1]
+
+
+@pytest.mark.parametrize("part", ["moving", "measured", "ball screw"])
+def test_stored_calibrations_tell_what_they_leave_open(part: str) -> None:
+    found = stored_calibration(part)  # type: ignore[arg-type]
+    content = found.to_dict()
+    open_ones = [p["name"] for p in content["parameters"] if not p["determined"]]
+    if part == "moving":
+        # seven parameters on five targets
+        assert content["rank"] == 5
+        assert {"housing_inertia", "axial_stiffness", "block_radial_stiffness"} <= set(open_ones)
+    else:
+        assert open_ones == []
+    assert found.met(1.0) == (part == "ball screw")

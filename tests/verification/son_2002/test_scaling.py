@@ -83,8 +83,8 @@ def test_rollers_and_the_same_bearings(study: ScaleStudy) -> None:
         # by Rayleigh's quotient: half as much, of the share in the mode's strain energy
         slope = study.frequency_law(law).local[middle, :2]
         assert slope == pytest.approx(-1 - shares * (1 - a) / 2, abs=2e-3)
-    # "similar" costs the machine with rollers a sixth of the exponent in x and z
-    assert study.stiffness_law(1).exponent[[0, 2]] == pytest.approx([0.822, 0.822], abs=5e-3)
+    # most of the deflection is the bearings': rollers cost a sixth of the exponent, not a little
+    assert study.stiffness_law(1).exponent[[0, 2]] == pytest.approx([0.822, 0.822], abs=0.02)
 
 
 @pytest.mark.parametrize(("n", "feed", "deflection"), [(3.0, 0.0, -1.0), (3.5, 0.25, -1.25)])

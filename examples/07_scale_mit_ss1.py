@@ -1,0 +1,31 @@
+"""The MIT-SS-1 half and twice as large: what its bearings make of similarity.
+
+Run it where the package is installed: `python examples/07_scale_mit_ss1.py`.
+"""
+
+from kinematics import DIRECTIONS
+from studies.mit_ss1_scale import mit_ss1_scale
+from studies.removal_rate import removal_exponents
+from studies.scale import LAWS
+from studies.similarity import JointScaling
+
+# bearings chosen one size smaller than similarity would: a law of one's own beside the thesis's
+laws = (*LAWS, JointScaling(0.5, name="half a power"))
+study = mit_ss1_scale((0.5, 0.7, 1.0, 1.4, 2.0), laws)
+
+print("exponents of the size      x      y      z     f 1     f 2")
+for i, law in enumerate(laws):
+    stiffness = study.stiffness_law(i).exponent[:3]
+    frequency = study.frequency_law(i).exponent[:2]
+    numbers = "".join(f"{v:7.3f}" for v in stiffness) + "".join(f"{v:8.3f}" for v in frequency)
+    print(f"{law!s:20}{numbers}")
+
+print()
+print("bearings' share in the deflection:")
+for axis, share in zip(DIRECTIONS[:3], study.joint_share, strict=False):
+    print(f"  {axis}: {100 * share:.1f} %")
+
+print()
+print("deflection at constant removal rate, drives' force ~ L^n, similar machine:")
+for n in (1.0, 3.0, 3.5):
+    print(f"  n = {n:g}: L^{removal_exponents(n).deflection:g}")
