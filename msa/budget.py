@@ -109,6 +109,9 @@ def compliance_budget(
             "the parts' energies do not add to the work of the wrench.",
             "The structure is badly conditioned, or the wrench does no work.",
         )
-    shares = energies / total[:, None]
+    # a wrench that rigid joints take alone stores nothing: no part has a share
+    shares = np.divide(
+        energies, total[:, None], out=np.zeros_like(energies), where=total[:, None] > 0
+    )
     batch = placed.batch
     return ComplianceBudget(tuple(parts), shares.reshape(*batch, -1), work.reshape(batch), w)

@@ -18,6 +18,12 @@ Array = NDArray[Any]
 
 ToolMethod = Literal["compiled", "saddle_point", "null_space", "condensed", "sparse"]
 
+#: A compliance below this share of the largest of its kind is the rounding of a rigid direction.
+RIGID = 1e-14
+
+#: A compliance below this, in m/N or rad/(N m), is rounding wherever it stands.
+NOTHING = 1e-25
+
 #: Poses from which the compiled kernel is worth loading.
 COMPILED_FROM = 256
 
@@ -129,8 +135,20 @@ def tool_stiffness(compliance: Array) -> Array:
 
 
 def axis_stiffness_free(compliance: Array) -> Array:
-    """Stiffness along each axis with the other directions free to follow, 1/C_ii, (..., 6)."""
-    return np.asarray(1.0 / np.einsum("...ii->...i", compliance))
+    """Stiffness along each axis with the other directions free to follow, 1/C_ii, (..., 6).
+
+    Infinite where the tool cannot move in a direction at all.
+    """
+    flexible = np.einsum("...ii->...i", compliance)
+    blocks = [_inverse(flexible[..., :3]), _inverse(flexible[..., 3:])]
+    return np.concatenate(blocks, axis=-1)
+
+
+def _inverse(flexible: Array) -> Array:
+    """One over compliances of one kind; infinite for what is rounding beside the largest."""
+    largest = np.abs(flexible).max(axis=-1, keepdims=True)
+    moves = (flexible > RIGID * largest) & (flexible > NOTHING)
+    return np.divide(1.0, flexible, out=np.full(flexible.shape, np.inf), where=moves)
 
 
 def axis_stiffness_blocked(compliance: Array) -> Array:
@@ -145,7 +163,7 @@ class StiffnessEllipsoid:
     Parameters
     ----------
     values : (..., 3)
-        Principal stiffnesses, ascending, N/m.
+        Principal stiffnesses, ascending, N/m; infinite where the tool cannot move.
     directions : (..., 3, 3)
         Unit vectors as columns, in the order of `values`.
     rotation : "free" or "blocked"
@@ -183,6 +201,6 @@ def stiffness_ellipsoid(compliance: Array, rotation: str = "free") -> StiffnessE
         raise ModelError("ellipsoid", f'rotation is "{rotation}".', 'Say "free" or "blocked".')
     if rotation == "free":
         values, vectors = np.linalg.eigh(compliance[..., :3, :3])
-        return StiffnessEllipsoid(1.0 / values[..., ::-1], vectors[..., ::-1], rotation)
+        return StiffnessEllipsoid(_inverse(values[..., ::-1]), vectors[..., ::-1], rotation)
     values, vectors = np.linalg.eigh(tool_stiffness(compliance)[..., :3, :3])
     return StiffnessEllipsoid(values, vectors, rotation)

@@ -14,7 +14,6 @@ from machines import HexelHexapod, MitSS1, get
 from machines.hexel_hexapod import LEVEL, MAP_REACH, MAP_TILT, REACH, TILT
 from machines.published_son import MANIPULABILITY
 from reports.chapters.closing import closing_chapter
-from reports.chapters.machine import DRAWING
 from reports.chapters.plane_stiffness import falls_table, plane_figures
 from reports.chapters.stiffness import map_files
 from reports.content import (
@@ -55,6 +54,12 @@ ENDS = ("least", "most")
 
 #: Steps to either side of the stiffness maps.
 STEPS = 20
+
+DRAWING = (
+    "Drag to turn, scroll to zoom; names show under the pointer. Lengths are in mm; the legs' "
+    "diameters, joint symbols and the table are not to scale. Black arrows show the driven "
+    "motions."
+)
 
 COLUMN_NAMES = tuple(Column(h, "", False) for h in ("assumption", "value", "source"))
 
@@ -188,7 +193,7 @@ def _drawing(study: HexapodStudy) -> Chapter:
         f"Mobility {found.mobility} with the legs driven and {found.mobility_locked} with them "
         f"held; {found.redundant} redundant constraints. Unlike the planar machine's pins, its "
         "joints fit whatever the errors of its parts: those move the tool but lock no force in. "
-        f"Over x = ±{1e3 * REACH:g} mm and A = ±{degrees(TILT):g}° the legs are from "
+        f"Over x = ±{1e3 * REACH:g} mm and a = ±{degrees(TILT):g}° the legs are from "
         f"{fixed(1e3 * float(lengths.min()), 0)} to {fixed(1e3 * float(lengths.max()), 0)} mm "
         "long."
     )
@@ -212,7 +217,7 @@ def _stiffness(study: HexapodStudy) -> Chapter:
     blocks: list[Block] = [
         Text(
             "1/C_ii at the tool tip, other directions free to follow, legs of "
-            f"{k} N/µm each and everything else rigid, over x and the tilt A about x "
+            f"{k} N/µm each and everything else rigid, over x and the tilt a about x "
             f"(Fig. 29-(b), whose axes are legible to ±{1e3 * MAP_REACH:g} mm and "
             f"±{degrees(MAP_TILT):g}°; of its values nothing is)."
         ),
@@ -270,7 +275,7 @@ def _manipulability(study: HexapodStudy) -> Chapter:
                 Figure(
                     f"{part}-{name}",
                     f"{part.capitalize()}: {words} of the velocity ellipsoid.",
-                    heat(x, a, values, ("x (mm)", "tilt A (deg)", title), marks),
+                    heat(x, a, values, ("x (mm)", "tilt a (deg)", title), marks),
                     f"Map of the {words} of the {part} ellipsoid over x and tilt, least and most "
                     "marked.",
                     file,
@@ -283,15 +288,20 @@ def _manipulability(study: HexapodStudy) -> Chapter:
         Text(
             "Velocity ellipsoids for leg rates of size one (eqs 11 to 13): of the tool's "
             "velocity with its orientation held, and of its angular velocity with its position "
-            f"held, over x = ±{1e3 * REACH:g} mm and A = ±{degrees(TILT):g}°."
+            f"held, over x = ±{1e3 * REACH:g} mm and a = ±{degrees(TILT):g}°."
         ),
         *rows,
         _published(published),
         Points(
             (
-                f"{IDENTITY[0].upper()}{IDENTITY[1:]}. Ours: {significant(_identity(found), 13)}.",
-                "A hexapod with three-fold symmetry has two equal axes at home, so a condition "
-                "number of 2.76 makes a volume of at least 0.73.",
+                (
+                    f"{IDENTITY[0].upper()}{IDENTITY[1:]}. Ours add to six within "
+                    f"{_identity(found):.0e}."
+                ),
+                (
+                    "A hexapod with three-fold symmetry has two equal axes at home, so a "
+                    "condition number of 2.76 makes a volume of at least 0.73."
+                ),
                 "Nothing was fitted. A row within 5 % counts as predicted.",
             )
         ),
@@ -322,9 +332,9 @@ def _manipulability(study: HexapodStudy) -> Chapter:
 
 
 def _identity(found: xr.Dataset) -> float:
-    """Sum of the inverse squares of the position's semi-axes, where it is farthest from six."""
+    """How far the inverse squares of the position's semi-axes add to something else than six."""
     sums = (found["position_semi_axes"].to_numpy() ** -2).sum(axis=-1)
-    return float(sums.flat[np.nanargmax(np.abs(sums - 6.0))])
+    return float(np.nanmax(np.abs(sums - 6.0)))
 
 
 def _published(rows: tuple[PublishedRow, ...]) -> Table:
@@ -368,8 +378,8 @@ def _assumptions(study: HexapodStudy) -> Chapter:
             thesis,
         ],
         [
-            "Two legs to each joint centre, which faces the middle of a short side",
-            "“6 x 3 type”",
+            "Two legs to a joint centre (“6 x 3 type”)",
+            "facing the short sides",
             "our reading: facing the long sides the condition number is 2.31 to 2.59",
         ],
         ["A long side along x", "", "our reading"],

@@ -1,4 +1,4 @@
-"""The report of the MIT-SS-1: kinematics and over-constraint."""
+"""The report of the MIT-SS-1: kinematics, stiffness and over-constraint."""
 
 from __future__ import annotations
 
@@ -35,6 +35,7 @@ from reports.chapters.overconstraint_son import (
     published_markers,
     table_2_blocks,
 )
+from reports.chapters.son_stiffness import stiffness_chapter
 from reports.content import Block, Chapter, Figure, Text
 from reports.data_files import DataFile, json_file
 from reports.figures.assembly_scene import assembled, machine_misfit_view
@@ -62,6 +63,7 @@ def mit_ss1_chapters(
         summary_chapter(study),
         drawing_chapter(study),
         kinematics_chapter(study),
+        stiffness_chapter(),
         machine_chapter(study),
         table_2_chapter(study),
         scale_chapter(study),
@@ -70,7 +72,7 @@ def mit_ss1_chapters(
     ]
     chapters.append(closing_chapter(NAME, _settings(study), _content(study), chapters))
     return (
-        f"{entry.title}: kinematics and assembly forces",
+        f"{entry.title}: kinematics, stiffness and assembly forces",
         f"{entry.topology} · {entry.paper.citation}",
         tuple(chapters),
     )

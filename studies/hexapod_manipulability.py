@@ -122,4 +122,4 @@ def manipulability_rows(found: xr.Dataset) -> tuple[PublishedRow, ...]:
 
 
 def _cubed(unit: str) -> str:
-    return unit if unit == "1" else f"({unit})^3"
+    return unit if unit == "1" else "rad^3/m^3"

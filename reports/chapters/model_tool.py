@@ -78,10 +78,11 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         "tool": solution.model.tool,
         "compliance": compliance.tolist(),
         "stiffness": None if stiffness is None else stiffness.tolist(),
-        "axis_stiffness_free": free.tolist(),
-        "axis_stiffness_blocked": None if blocked is None else blocked.tolist(),
+        # null stands for a direction in which the tool cannot move: its stiffness is infinite
+        "axis_stiffness_free": _finite(free),
+        "axis_stiffness_blocked": None if blocked is None else _finite(blocked),
         "principal_stiffness_rotations_free": {
-            "values": ellipsoid.values.tolist(),
+            "values": _finite(ellipsoid.values),
             "directions_as_columns": ellipsoid.directions.tolist(),
         },
     }
@@ -135,6 +136,10 @@ def budget_chapter(model: Model) -> Chapter:
         ],
     )
     return Chapter("budget", "Compliance budget", tuple(blocks), (file,))
+
+
+def _finite(values: Array) -> list[float | None]:
+    return [float(v) if np.isfinite(v) else None for v in values]
 
 
 def _matrix(title: str, matrix: Array) -> Table:

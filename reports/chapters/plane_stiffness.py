@@ -57,7 +57,7 @@ def plane_figures(
                 400,
             )
         )
-    return Row(tuple(figures), 340)
+    return Row(tuple(figures), 320)
 
 
 def falls_table(falls: Mapping[str, Sequence[Fall]], data: str) -> Table:

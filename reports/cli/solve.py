@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,6 +73,7 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
     for i, axis in enumerate((*_AXES, *(f"r{a}" for a in _AXES))):
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
         held = "infinite" if blocked is None else float(blocked[i]) * scale
-        rows.append((axis, unit, float(free[i]) * scale, held))
+        follows = float(free[i]) * scale if isfinite(free[i]) else "infinite"
+        rows.append((axis, unit, follows, held))
     title = f"Stiffness at the tool {found.model.tool}"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))

@@ -18,7 +18,7 @@ Array = NDArray[Any]
 #: Sizes that matter for the drawing alone, m.
 CYLINDER, ROD, SYMBOL, PLATE, TABLE = 0.022, 0.013, 0.03, 0.02, 0.35
 
-CAMERA = {"eye": {"x": 1.1, "y": -1.75, "z": 0.55}, "center": {"x": 0, "y": 0, "z": -0.08}}
+CAMERA = {"eye": {"x": 1.1, "y": -1.9, "z": 0.6}, "center": {"x": 0, "y": 0, "z": -0.16}}
 
 
 def hexapod_view(machine: HexelHexapod, placement: Placement) -> dict[str, Any]:

@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
 from msa import (
+    PlacedStructure,
+    Structure,
     axis_stiffness_blocked,
     axis_stiffness_free,
+    compliance_budget,
     stiffness_ellipsoid,
     tool_compliance,
     tool_stiffness,
@@ -112,3 +116,30 @@ def test_a_tool_on_a_slide_with_a_soft_drive_is_stiff_elsewhere() -> None:
 def test_an_ellipsoid_is_free_or_blocked() -> None:
     with pytest.raises(ModelError, match='rotation is "half"'):
         stiffness_ellipsoid(np.eye(6), "half")
+
+
+def slide_on_a_spring() -> PlacedStructure:
+    """A tool that a prismatic joint lets move along global x alone, on a spring."""
+    linkage = Linkage(
+        ("A", "B"),
+        (Body(GROUND, ("A",)),),
+        (Joint("slide", "prismatic", ("A", "B"), stiffness={"z": 1e6}),),
+        "B",
+    )
+    frame = axes_frame([1.0, 0.0, 0.0])
+    return Structure(linkage).at(Placement(np.zeros((2, 3)), frame[None], np.zeros(0)))
+
+
+def test_a_direction_in_which_the_tool_cannot_move_is_infinitely_stiff() -> None:
+    placed = slide_on_a_spring()
+    compliance = tool_compliance(placed)
+    with np.errstate(all="raise"):
+        free = axis_stiffness_free(compliance)
+        ellipsoid = stiffness_ellipsoid(compliance, "free")
+        across = compliance_budget(placed, np.eye(6)[1])
+    np.testing.assert_allclose(free[0], 1e6)
+    assert np.all(np.isposinf(free[1:]))
+    np.testing.assert_allclose(ellipsoid.values[0], 1e6)
+    assert np.all(np.isposinf(ellipsoid.values[1:]))
+    # the joint takes a force along y alone: nothing stores energy
+    np.testing.assert_array_equal(across.shares, 0.0)
