@@ -308,14 +308,14 @@ def _manipulability(study: HexapodStudy) -> Chapter:
     ]
     lines = [row.to_dict() for row in published]
     names = [str(n) for n, v in found.data_vars.items() if v.dims == ("x", "a")]
-    values = [found[n].to_numpy() for n in names]
+    columns = [found[n].to_numpy() for n in names]
     files = (
         csv_file(
             file,
             "condition, smallest axis and volume of both ellipsoids over x and tilt",
             ["x_m", "a_rad", *names],
             [
-                [float(u), float(t), *(float(v[i, j]) for v in values)]
+                [float(u), float(t), *(float(v[i, j]) for v in columns)]
                 for i, u in enumerate(found["x"].to_numpy())
                 for j, t in enumerate(found["a"].to_numpy())
             ],

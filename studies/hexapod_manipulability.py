@@ -61,7 +61,7 @@ def hexapod_manipulability(
     along = np.linspace(-REACH, REACH, 21) if x is None else np.asarray(x, dtype=float)
     tilts = np.linspace(-TILT, TILT, 29) if a is None else np.asarray(a, dtype=float)
     grid = np.meshgrid(along, tilts, indexing="ij")
-    placement = machine.place(machine.poses(*grid, z))
+    placement = machine.place(machine.poses(grid[0], grid[1], z))
     good = placement.reachable
     inverse = jacobians(machine.linkage, placement[good]).inverse
     variables = {}

@@ -143,7 +143,9 @@ def stiffness_falls(found: xr.Dataset, directions: tuple[str, ...] = ("x", "y", 
     """
     falls = []
     for direction in directions:
-        x, tilts, values = on_plane(found, found["stiffness_free"].sel(direction=direction))
+        x, tilts, values = on_plane(
+            found, found["stiffness_free"].sel(direction=direction).to_numpy()
+        )
         away = [np.abs(v - v.mean()) / max(float(np.ptp(v)), 1e-300) for v in (x, tilts)]
         near = (away[0][:, None] <= 0.25 + 1e-9) & (away[1] <= 0.25 + 1e-9)
         middle = np.where(near, values, np.nan)

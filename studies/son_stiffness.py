@@ -106,9 +106,9 @@ def planar_compliance(
     if screw_stiffness is not None:
         c = c + along / screw_stiffness
     # a strut's elongation per unit of tool motion is its row: the inverse maps back
-    regular = np.isfinite(rows).all(axis=(-1, -2))
+    regular = np.asarray(np.isfinite(rows).all(axis=(-1, -2)))
     safe = np.where(regular[..., None, None], rows, np.eye(3))
-    singular = np.linalg.det(safe) == 0.0
+    singular = np.asarray(np.linalg.det(safe) == 0.0)
     back = np.linalg.inv(np.where(singular[..., None, None], np.eye(3), safe))
     found = (back * c[..., None, :]) @ np.swapaxes(back, -1, -2)
     found = np.where(singular[..., None, None], np.inf, found)
@@ -146,7 +146,9 @@ def planar_stiffness_map(
     grid = np.meshgrid(along, tilts, indexing="ij")
     compliance = np.stack(
         [
-            planar_compliance(machine, *grid, strut_stiffness, guide_stiffness, formula=f)
+            planar_compliance(
+                machine, grid[0], grid[1], strut_stiffness, guide_stiffness, formula=f
+            )
             for f in FORMULAS
         ]
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -77,12 +77,17 @@ def published_stiffness(reading: Reading = "as printed") -> Array:
     return 1e6 * found[list(READINGS[reading])]
 
 
+def calibrated_alone() -> MitSS1:
+    """The machine on rigid ground, calibrated to the thesis's numerical frequencies."""
+    return replace(MitSS1(), **CALIBRATED_MOVING)  # type: ignore[arg-type]
+
+
 def computed_stiffness(machine: MitSS1 | None = None) -> Array:
     """1/C_ii at the tool tip of the structure at the places of Table 6, N/m, (5, 3).
 
     Default: the machine calibrated to the thesis's numerical frequencies and to its K_y at home.
     """
-    machine = machine or MitSS1(**CALIBRATED_MOVING)
+    machine = machine or calibrated_alone()
     placed = machine.structure.at(machine.place(machine.poses(*_places())))
     return axis_stiffness_free(tool_compliance(placed))[:, :3]
 
@@ -123,7 +128,7 @@ def table_6_fits(machine: MitSS1 | None = None) -> tuple[ColumnFit, ...]:
     nothing of the machine. Ours has nothing fitted to Table 6. The fits have two numbers, k_i
     and k_tr (eq. 51), to x and z together, by each of the formulas of `planar_compliance`.
     """
-    machine = machine or MitSS1(**CALIBRATED_MOVING)
+    machine = machine or calibrated_alone()
     ours = computed_stiffness(machine)
     found = []
     for reading in READINGS:

@@ -5,9 +5,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from machines import Proposed3PPRS, roll_angles
-from msa import axis_stiffness_blocked
-from studies import AS_IN_AZULAY, hemisphere, read_netcdf, stiffness_map
+from machines import Proposed3PPRS, get, roll_angles
+from msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
+from studies import (
+    AS_IN_AZULAY,
+    hemisphere,
+    on_plane,
+    plane_map,
+    read_netcdf,
+    stiffness_map,
+)
 from tests.cli.conftest import Program
 
 FEW = ("--lattice", "1", "--rolls", "2", "--workers", "1", "--ranges", "revolute")
@@ -80,3 +87,32 @@ def test_table_for_people(strutwork: Program) -> None:
     assert run.status == 0
     assert "Stiffness in N/µm, other directions blocked" in run.out
     assert "5 points" in run.out
+
+
+@pytest.mark.parametrize(("name", "tilt"), [("mit-ss1", "b"), ("hexel-hexapod", "a")])
+def test_planar_machine_and_hexapod_are_mapped_over_x_and_a_tilt(
+    name: str, tilt: str, strutwork: Program, tmp_path: Path
+) -> None:
+    found = strutwork(
+        "map", name, "--lattice", "1", "--workers", "1", "-o", tmp_path, "--json"
+    ).result
+    # three places along x with three tilts each
+    assert (found["points"], found["points_kept"], found["candidates"]) == (9, 9, 9)
+    assert set(found["dropped"].values()) == {0}
+    machine = get(name).factory()
+    study = plane_map(machine, machine.pose_grid(1), workers=1)  # type: ignore[attr-defined]
+    free = study["stiffness_free"].sel(direction="x").to_numpy()
+    assert found["stiffness"]["free"]["x"]["worst"]["value"] == pytest.approx(free.min(), rel=1e-12)
+    file = read_netcdf(tmp_path / f"{name}-map.nc")
+    assert file.attrs["tilt"] == tilt
+    x, tilts, values = on_plane(file, file["stiffness_free"].sel(direction="x").to_numpy())
+    assert values.shape == (3, 3)
+    placed = machine.structure.at(machine.place(machine.home()))
+    home = axis_stiffness_free(tool_compliance(placed))[0]
+    if name == "hexel-hexapod":
+        assert (x[1], tilts[1]) == (0.0, 0.0)
+        assert values[1, 1] == pytest.approx(home, rel=1e-9)
+    else:
+        # the nominal workspace is shifted by 10 mm
+        assert x[1] == pytest.approx(-0.01)
+        assert values[1, 1] == pytest.approx(home, rel=0.02)

@@ -111,7 +111,14 @@ def tolerance_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
     return write_report(str(example), tmp_path_factory.mktemp("tolerance"))
 
 
-@pytest.fixture(params=["machine", "comparison", "prototype", "model", "planar", "tolerance"])
+@pytest.fixture(scope="session")
+def hexapod_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
+    return write_report("hexel-hexapod", tmp_path_factory.mktemp("hexapod"))
+
+
+@pytest.fixture(
+    params=["machine", "comparison", "prototype", "model", "planar", "hexapod", "tolerance"]
+)
 def any_report(request: pytest.FixtureRequest) -> WrittenReport:
     """Each kind of report in turn."""
     written: WrittenReport = request.getfixturevalue(f"{request.param}_report")
