@@ -1,8 +1,9 @@
-"""Ten lowest modes of an L-frame beside CalculiX, and a reduced frequency response, in one run.
+"""Ten lowest modes of an L-frame beside CalculiX and SLEPc, and a reduced frequency response.
 
-Run `python -m benchmarks.solid_speed`; with `--write` its table goes to
-docs/performance-solids.md. Each engine runs in a process of its own, and its processor time and
-largest memory are the system's own count. CalculiX is Debian's `calculix-ccx`.
+Run `python -m benchmarks.solid_speed`; with `--write` its tables go to
+docs/performance-solids.md, those of other sizes than `--size` left as they are. Each engine runs
+in a process of its own, and its processor time and largest memory are the system's own count.
+CalculiX is Debian's `calculix-ccx`; SLEPc with MUMPS its `python3-petsc4py` and `python3-slepc4py`.
 """
 
 from __future__ import annotations
@@ -10,7 +11,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import resource
 import shutil
 import subprocess
 import sys
@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy.sparse as sp
 
 from benchmarks.solid_cases import SIZES, deck, frame_mesh, frame_pencil
 from benchmarks.static_speed import machine_line
@@ -28,17 +29,18 @@ from fea.block_krylov import KrylovOptions, krylov_reduction
 from fea.block_krylov_damping import MatrixDamping
 from fea.factorize import factorize, installed_solvers
 from fea.large_modes import lowest_modes
-from fea.petsc import Ranks
+from fea.petsc import petsc_environment, petsc_python
 from strutwork.files import write_text
 
 DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "performance-solids.md"
-BEGIN, END = "<!-- measured -->", "<!-- end -->"
 
-#: SLEPc with MUMPS in one process, for comparison; the launcher may be started by root.
-ONE_RANK = Ranks(1, ("mpiexec", "--allow-run-as-root", "-n"))
+#: Modes of every engine.
+MODES = 10
 
-#: Lines of the frequency response.
-LINES = 1000
+#: Lines of the frequency response, and the size at which it is measured.
+LINES, RESPONSE_SIZE = 1000, "92k"
+
+CALCULIX, SLEPC = "CalculiX", "SLEPc with MUMPS"
 
 
 @dataclass(frozen=True)
@@ -52,19 +54,21 @@ class Run:
     said: dict[str, Any]
 
 
-def start(engine: str, command: list[str], folder: Path) -> Run:
+def start(
+    engine: str, command: list[str], folder: Path, environment: dict[str, str] | None = None
+) -> Run:
     """Run a command to its end; its last line is JSON, or it leaves a .dat file."""
     output = folder / "output"
     begin = time.perf_counter()
     with output.open("wb") as sink:
-        process = subprocess.Popen(command, stdout=sink, stderr=subprocess.STDOUT)
+        process = subprocess.Popen(command, stdout=sink, stderr=subprocess.STDOUT, env=environment)
         _, status, usage = os.wait4(process.pid, 0)
     wall = time.perf_counter() - begin
     text = output.read_text(errors="replace")
     if status:
         message = f"{engine} failed:\n{text[-2000:]}"
         raise RuntimeError(message)
-    said = json.loads(text.splitlines()[-1]) if engine != "CalculiX" else calculix_said(folder)
+    said = json.loads(text.splitlines()[-1]) if engine != CALCULIX else calculix_said(folder)
     processor = usage.ru_utime + usage.ru_stime
     return Run(engine, wall, processor, usage.ru_maxrss / 1024.0, said)
 
@@ -73,23 +77,44 @@ def calculix_said(folder: Path) -> dict[str, Any]:
     """Frequencies from CalculiX's .dat file, Hz."""
     rows = [line.split() for line in (folder / "frame.dat").read_text().splitlines()]
     found = [float(r[3]) for r in rows if len(r) == 5 and r[0].isdigit()]
-    return {"frequencies": found[:10]}
+    return {"frequencies": found[:MODES]}
 
 
 def ours(size: str, solver: str) -> dict[str, Any]:
     """Assembly and ten modes."""
     begin = time.process_time()
     stiffness, mass, _ = frame_pencil(size)
-    assembled = time.process_time()
-    found = lowest_modes(stiffness, mass, 10, solver=solver, ranks=ONE_RANK)
-    worker = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return _modes(stiffness, mass, solver) | {"whole": time.process_time() - begin}
+
+
+def ours_from(folder: Path, solver: str) -> dict[str, Any]:
+    """Ten modes of matrices from files."""
+    stiffness, mass = (sp.csc_array(sp.load_npz(folder / name)) for name in ("K.npz", "M.npz"))
+    return _modes(stiffness, mass, solver)
+
+
+def _modes(stiffness: sp.csc_array, mass: sp.csc_array, solver: str) -> dict[str, Any]:
+    begin = time.process_time()
+    found = lowest_modes(stiffness, mass, MODES, solver=solver)
     return {
         "dofs": stiffness.shape[0],
-        "assembly": assembled - begin,
-        "modes": time.process_time() - assembled + worker.ru_utime + worker.ru_stime,
+        "modes": time.process_time() - begin,
         "frequencies": found.frequencies.tolist(),
         "solver": found.solver,
     }
+
+
+def prepare(size: str, folder: Path) -> dict[str, Any]:
+    """Write CalculiX's input and the matrices.
+
+    In a process of its own: a child's largest memory is never less than its parent's.
+    """
+    mesh, held = frame_mesh(size)
+    write_text(folder / "frame.inp", deck(mesh, held))
+    stiffness, mass, _ = frame_pencil(size)
+    sp.save_npz(folder / "K.npz", stiffness, compressed=False)
+    sp.save_npz(folder / "M.npz", mass, compressed=False)
+    return {"dofs": stiffness.shape[0]}
 
 
 def response(size: str, solver: str) -> dict[str, Any]:
@@ -137,8 +162,6 @@ def _error(
     stiffness: Any, mass: Any, loads: Any, damping: MatrixDamping, model: Any, frequency: float
 ) -> float:
     """Error of one line beside a direct solution."""
-    import scipy.sparse as sp  # noqa: PLC0415 - only here
-
     w = 2.0 * np.pi * frequency
     dynamic = (1.0 + 1j * damping.loss_factor) * stiffness - w**2 * mass
     if damping.ports is not None:
@@ -148,88 +171,141 @@ def _error(
     return float(np.linalg.norm(model.receptance([frequency])[0] - exact) / np.linalg.norm(exact))
 
 
-def engines(size: str, solvers: list[str]) -> list[Run]:
-    """CalculiX's run and ours with each solver."""
-    runs = []
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        ccx = shutil.which("ccx")
-        if ccx is not None:
-            mesh, held = frame_mesh(size)
-            write_text(folder / "frame.inp", deck(mesh, held))
-            runs.append(start("CalculiX", [ccx, "-i", str(folder / "frame")], folder))
-        here = [sys.executable, "-m", "benchmarks.solid_speed", "--size", size, "--engine"]
-        runs += [start(s, [*here, s], folder) for s in solvers]
-    return runs
+def engines(size: str, solvers: list[str], folder: Path) -> tuple[list[Run], list[Run]]:
+    """Whole runs, CalculiX's first, and runs from the matrices on, SLEPc's first."""
+    here = [sys.executable, "-m", "benchmarks.solid_speed", "--size", size]
+    start("preparation", [*here, "--prepare", str(folder)], folder)
+    whole, rest = [], []
+    ccx = shutil.which("ccx")
+    if ccx is not None:
+        whole.append(start(CALCULIX, [ccx, "-i", str(folder / "frame")], folder))
+    whole += [start(s, [*here, "--engine", s], folder) for s in solvers]
+    python = petsc_python()
+    if python is not None:
+        command = [python, str(Path(__file__).with_name("slepc_modes.py")), str(folder), str(MODES)]
+        rest.append(start(SLEPC, command, folder, petsc_environment()))
+    rest += [start(s, [*here, "--engine", s, "--matrices", str(folder)], folder) for s in solvers]
+    return whole, rest
 
 
-def table(sizes: list[str], solvers: list[str], response_size: str) -> str:
-    """Measure everything and return the table."""
+def _apart(run: Run, peer: Run) -> str:
+    """Largest relative difference of a frequency."""
+    difference = np.array(run.said["frequencies"]) / peer.said["frequencies"] - 1.0
+    return f"{np.abs(difference).max():.0e}" if run is not peer else ""
+
+
+def whole_table(runs: list[Run]) -> list[str]:
+    """Whole runs beside CalculiX's."""
     lines = [
-        machine_line(),
-        "",
-        "| dofs | engine | wall s | processor s | peak MB | of CalculiX's | modes s | apart |",
-        "|---:|---|---:|---:|---:|---:|---:|---:|",
+        "| engine | wall s | processor s | peak MB | of CalculiX's time | apart |",
+        "|---|---:|---:|---:|---:|---:|",
     ]
-    for size in sizes:
-        runs = engines(size, solvers)
-        peer = runs[0] if runs[0].engine == "CalculiX" else None
-        for run in runs:
-            dofs = next(r.said["dofs"] for r in runs if "dofs" in r.said)
-            ratio = f"{run.processor / peer.processor:.2f}" if peer else ""
-            apart = (
-                np.abs(np.array(run.said["frequencies"]) / peer.said["frequencies"] - 1).max()
-                if peer
-                else np.nan
-            )
-            lines.append(
-                f"| {dofs:,} | {run.said.get('solver', run.engine)} | {run.wall:.1f} | "
-                f"{run.processor:.1f} | {run.megabytes:,.0f} | {ratio} | "
-                f"{run.said.get('modes', np.nan):.1f} | {apart:.1e} |"
-            )
-            sys.stderr.write(lines[-1] + "\n")
-    lines += [
-        "",
-        f"{LINES} lines of the 3 x 3 receptance on top of one factorisation, {response_size} dofs:",
-        "",
+    peer = runs[0] if runs[0].engine == CALCULIX else None
+    for run in runs:
+        beside = f"{run.processor / peer.processor:.2f} | {_apart(run, peer)}" if peer else " | "
+        lines.append(
+            f"| {run.said.get('solver', run.engine)} | {run.wall:.1f} | {run.processor:.1f} | "
+            f"{run.megabytes:,.0f} | {beside} |"
+        )
+    return lines
+
+
+def matrices_table(runs: list[Run]) -> list[str]:
+    """Runs from the matrices on beside SLEPc's."""
+    lines = [
+        "| engine | processor s | peak MB | of SLEPc's time | of SLEPc's memory | apart |",
+        "|---|---:|---:|---:|---:|---:|",
+    ]
+    peer = runs[0] if runs[0].engine == SLEPC else None
+    for run in runs:
+        beside = " | | "
+        if peer:
+            seconds = run.said["modes"] / peer.said["modes"]
+            memory = run.megabytes / peer.megabytes
+            beside = f"{seconds:.2f} | {memory:.2f} | {_apart(run, peer)}"
+        lines.append(
+            f"| {run.said['solver']} | {run.said['modes']:.1f} | {run.megabytes:,.0f} | {beside} |"
+        )
+    return lines
+
+
+def response_table(size: str, solvers: list[str], folder: Path) -> list[str]:
+    """Lines of a response on top of a factorisation."""
+    lines = [
         "| factorisation | s | damping | s on top | share | vectors | error estimated | measured |",
         "|---|---:|---|---:|---:|---:|---:|---:|",
     ]
+    for solver in solvers:
+        command = [sys.executable, "-m", "benchmarks.solid_speed", "--size", size]
+        said = start(solver, [*command, "--engine", solver, "--response"], folder).said
+        lines += [
+            f"| {said['solver']} | {said['factorisation']:.1f} | {case} | {c['seconds']:.1f} | "
+            f"{c['share']:.2f} | {c['vectors']} | {c['estimated']:.1e} | {c['error']:.1e} |"
+            for case, c in said["cases"].items()
+        ]
+    return lines
+
+
+def tables(size: str, solvers: list[str]) -> str:
+    """Measure one size and return its tables."""
     with tempfile.TemporaryDirectory() as name:
-        for solver in (s for s in solvers if s != "slepc"):
-            command = [sys.executable, "-m", "benchmarks.solid_speed", "--size", response_size]
-            said = start(solver, [*command, "--engine", solver, "--response"], Path(name)).said
-            lines += [
-                f"| {said['solver']} | {said['factorisation']:.1f} | {case} | {c['seconds']:.1f} | "
-                f"{c['share']:.2f} | {c['vectors']} | {c['estimated']:.1e} | {c['error']:.1e} |"
-                for case, c in said["cases"].items()
-            ]
+        folder = Path(name)
+        whole, rest = engines(size, solvers, folder)
+        lines = [
+            f"{rest[-1].said['dofs']:,} degrees of freedom. {machine_line()}",
+            "",
+            "Whole runs:",
+            "",
+            *whole_table(whole),
+            "",
+            "From the assembled matrices on:",
+            "",
+            *matrices_table(rest),
+        ]
+        sys.stderr.write("\n".join(lines) + "\n")
+        if size == RESPONSE_SIZE:
+            lines += ["", f"{LINES} lines of the 3 x 3 receptance on top of one factorisation:", ""]
+            lines += response_table(size, solvers, folder)
     return "\n".join(lines)
 
 
+def merged(page: str, size: str, text: str) -> str:
+    """The page with one size's tables replaced."""
+    begin, end = f"<!-- measured {size} -->", f"<!-- end {size} -->"
+    before, found, rest = page.partition(begin)
+    _, closed, after = rest.partition(end)
+    if not (found and closed):
+        message = f"docs/performance-solids.md has no place for {size}: {begin} ... {end}"
+        raise RuntimeError(message)
+    return f"{before}{begin}\n{text}\n{end}{after}"
+
+
 def main() -> None:
-    """Measure, print and perhaps write the table."""
+    """Measure, print and perhaps write the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--size", choices=SIZES, action="append")
-    parser.add_argument(
-        "--solver", action="append", help="superlu, slepc, ...; by default all but slepc"
-    )
+    parser.add_argument("--size", choices=SIZES, action="append", help="by default 92k and 300k")
+    parser.add_argument("--solver", action="append", help="by default all that are installed")
     parser.add_argument("--engine", help="run one solver and print JSON")
+    parser.add_argument("--matrices", type=Path, help="with --engine: the folder they come from")
     parser.add_argument("--response", action="store_true", help="with --engine: the response")
+    parser.add_argument("--prepare", type=Path, help="write the input of all engines to a folder")
     parser.add_argument("--write", action="store_true", help="write docs/performance-solids.md")
     arguments = parser.parse_args()
     sizes = arguments.size or ["92k", "300k"]
-    if arguments.engine:
+    if arguments.prepare:
+        print(json.dumps(prepare(sizes[0], arguments.prepare)))
+    elif arguments.matrices:
+        print(json.dumps(ours_from(arguments.matrices, arguments.engine)))
+    elif arguments.engine:
         task = response if arguments.response else ours
         print(json.dumps(task(sizes[0], arguments.engine)))
-        return
-    text = table(sizes, arguments.solver or list(installed_solvers()), sizes[0])
-    print(text)
-    if arguments.write:
-        page = DOCUMENT.read_text(encoding="utf-8")
-        before, _, rest = page.partition(BEGIN)
-        _, _, after = rest.partition(END)
-        write_text(DOCUMENT, f"{before}{BEGIN}\n{text}\n{END}{after}")
+    else:
+        for size in sizes:
+            text = tables(size, arguments.solver or list(installed_solvers()))
+            print(text)
+            if arguments.write:
+                page = DOCUMENT.read_text(encoding="utf-8")
+                write_text(DOCUMENT, merged(page, size, text))
 
 
 if __name__ == "__main__":

@@ -68,11 +68,8 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
     )
     context.set_silent()
     size = matrix.shape[0]
-    lower = sp.coo_array(sp.tril(matrix))
     context.set_shape(size)
-    row, column = ((x + 1).astype(np.int32) for x in (lower.row, lower.col))
-    values = np.ascontiguousarray(lower.data)
-    context.set_centralized_assembled(row, column, values)
+    context.set_centralized_assembled(*_entries(matrix))
     context.set_icntl(13, 1)
     context.set_icntl(14, 30)
     if ordering is None:
@@ -92,6 +89,8 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
         raise NumericalError(
             "factorisation", f"failed with MUMPS's error {code}.", "Try another solver."
         ) from error
+    # refinement and error analysis alone would read the entries again, and neither is asked for
+    context._refs.clear()  # noqa: SLF001 - 16 bytes an entry through the solutions
     negative = int(context.get_infog(12))
     handle = _Handle(context)
 
@@ -99,6 +98,15 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
         return handle.solve(np.asarray(right, dtype=complex if kind else float))
 
     return Factor(solve if kind else complex_too(solve), NAME, lambda: negative)
+
+
+def _entries(matrix: sp.csc_array) -> tuple[Array, Array, Array]:
+    """Rows and columns, counted from one, and values of the lower triangle."""
+    lower = sp.coo_array(sp.tril(matrix))
+    row, column = (np.array(x, dtype=np.int32) for x in lower.coords)
+    row += 1
+    column += 1
+    return row, column, np.ascontiguousarray(lower.data)
 
 
 class _Handle:

@@ -66,7 +66,7 @@ def petsc_python() -> str | None:
                 [python, "-c", "import petsc4py, slepc4py, numpy, scipy"],
                 capture_output=True,
                 check=False,
-                env=_environment(),
+                env=petsc_environment(),
             )
             if check.returncode == 0:
                 return python
@@ -127,7 +127,8 @@ def _require_small(miss: Array, beside: Array, part: str) -> None:
         )
 
 
-def _environment() -> dict[str, str]:
+def petsc_environment() -> dict[str, str]:
+    """Variables under which another Python finds PETSc and works on one thread a rank."""
     # ranks fill the cores; this Python's packages are none of the worker's
     kept = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
     # Debian's modules find themselves through a link that only its development packages make
@@ -169,7 +170,7 @@ def _run(
             name,
         )
         done = subprocess.run(  # noqa: S603 - the caller's own launcher
-            command, capture_output=True, text=True, check=False, env=_environment()
+            command, capture_output=True, text=True, check=False, env=petsc_environment()
         )
         if done.returncode or not (folder / "answer.json").exists():
             raise NumericalError(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
 
 from strutwork import units
@@ -72,6 +72,12 @@ class Quantity:
         return ""
 
 
+class Table(BaseModel):
+    """A table whose keys are all known."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
 Name = Annotated[str, Field(min_length=1, max_length=100)]
 Direction = Literal["x", "y", "z", "rx", "ry", "rz"]
 Pair = tuple[Name, Name]
@@ -101,6 +107,7 @@ StiffTurn = Annotated[float, Quantity(units.ROTATIONAL_STIFFNESS, above=0.0)]
 Damp = Annotated[float, Quantity(units.DAMPING, low=0.0)]
 DampTurn = Annotated[float, Quantity(units.ROTATIONAL_DAMPING, low=0.0)]
 Ratio = Annotated[float, Quantity(units.NUMBER, low=0.0, below=1.0)]
+Frequency = Annotated[float, Quantity(units.FREQUENCY, above=0.0)]
 
 #: Entries of a bushing's matrix by block.
 K_TT = Annotated[float, Quantity(units.STIFFNESS)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, StrictBool
+from pydantic import BeforeValidator, Field, StrictBool
 
 from kinematics import DIRECTIONS
 from machines.model_fields import (
@@ -38,8 +38,10 @@ from machines.model_fields import (
     Slope,
     Stiff,
     StiffTurn,
+    Table,
     Vector,
 )
+from machines.model_solid_schema import SolidTable
 from strutwork import units
 
 #: A beam may be divided into this many elements at most.
@@ -58,12 +60,6 @@ def _diagonal_as_rows(value: object) -> object:
 
 def _all_directions(value: object) -> object:
     return list(DIRECTIONS) if value == "all" else value
-
-
-class Table(BaseModel):
-    """A table whose keys are all known."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class StiffnessTable(Table):
@@ -337,6 +333,7 @@ class ModelTable(Table):
     sections: dict[Name, SectionTable] = {}
     nodes: dict[Name, Point]
     beams: tuple[BeamTable, ...] = ()
+    solids: tuple[SolidTable, ...] = ()
     bodies: tuple[BodyTable, ...] = ()
     masses: tuple[MassTable, ...] = ()
     joints: tuple[JointTable, ...] = ()

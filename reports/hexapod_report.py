@@ -14,39 +14,32 @@ from machines import HexelHexapod, MitSS1, get
 from machines.hexel_hexapod import LEVEL, MAP_REACH, MAP_TILT, REACH, TILT
 from machines.published_son import MANIPULABILITY
 from reports.chapters.closing import closing_chapter
+from reports.chapters.manipulability import manipulability_chapter
 from reports.chapters.plane_stiffness import falls_table, plane_figures
 from reports.chapters.stiffness import map_files
 from reports.content import (
     Block,
-    Cell,
     Chapter,
     Column,
     Fact,
     Facts,
     Figure,
     Note,
-    Points,
-    Row,
     Table,
     Text,
 )
-from reports.data_files import csv_file, json_file, netcdf_file
-from reports.figures.curves import heat
+from reports.data_files import json_file
 from reports.figures.hexapod import hexapod_view
 from reports.machine_study import Teller
-from reports.numbers import fixed, micro, percent, significant
-from studies import PublishedRow, file_name, plane_map, stiffness_falls
+from reports.numbers import fixed, micro, significant
+from studies import plane_map, stiffness_falls
 from studies.description import parameters
 from studies.hexapod_manipulability import (
-    IDENTITY,
-    MEASURES,
-    PARTS,
     hexapod_manipulability,
     manipulability_rows,
 )
 from studies.plane_map import Fall
 from studies.progress import silent
-from studies.published_table import COLUMNS
 
 NAME = "hexel-hexapod"
 
@@ -112,7 +105,7 @@ def hexapod_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[Ch
         _summary(study),
         _drawing(study),
         _stiffness(study),
-        _manipulability(study),
+        manipulability_chapter(study.ellipsoids),
         _assumptions(study),
     ]
     chapters.append(closing_chapter(NAME, _settings(study), _content(study), chapters))
@@ -253,111 +246,6 @@ def _verdict(study: HexapodStudy) -> Text:
         f"moves away from the middle” (section 6.2). {sentence('x')}; {sentence('z')}. Over the "
         "whole maps the MIT-SS-1 falls as well, towards the two corners where its struts come "
         "near a common point."
-    )
-
-
-def _manipulability(study: HexapodStudy) -> Chapter:
-    found = study.ellipsoids
-    x, a = 1e3 * found["x"].to_numpy(), np.degrees(found["a"].to_numpy())
-    file = "manipulability.csv"
-    rows = []
-    for part in PARTS:
-        figures = []
-        for words, name in MEASURES.items():
-            values = found[f"{part}_{name}"].to_numpy()
-            marks = {}
-            for word, pick in (("least", np.nanargmin), ("most", np.nanargmax)):
-                i, j = np.unravel_index(int(pick(values)), values.shape)
-                marks[f"{word}, {significant(float(values[i, j]))}"] = (x[i], a[j])
-            unit = found[f"{part}_{name}"].attrs["units"].replace("^3", "³")
-            title = words if unit == "1" else f"{words} ({unit})"
-            figures.append(
-                Figure(
-                    f"{part}-{name}",
-                    f"{part.capitalize()}: {words} of the velocity ellipsoid.",
-                    heat(x, a, values, ("x (mm)", "tilt a (deg)", title), marks),
-                    f"Map of the {words} of the {part} ellipsoid over x and tilt, least and most "
-                    "marked.",
-                    file,
-                    380,
-                )
-            )
-        rows.append(Row(tuple(figures), 330))
-    published = manipulability_rows(found)
-    blocks: list[Block] = [
-        Text(
-            "Velocity ellipsoids for leg rates of size one (eqs 11 to 13): of the tool's "
-            "velocity with its orientation held, and of its angular velocity with its position "
-            f"held, over x = ±{1e3 * REACH:g} mm and a = ±{degrees(TILT):g}°."
-        ),
-        *rows,
-        _published(published),
-        Points(
-            (
-                (
-                    f"{IDENTITY[0].upper()}{IDENTITY[1:]}. Ours add to six within "
-                    f"{_identity(found):.0e}."
-                ),
-                (
-                    "A hexapod with three-fold symmetry has two equal axes at home, so a "
-                    "condition number of 2.76 makes a volume of at least 0.73."
-                ),
-                "Nothing was fitted. A row within 5 % counts as predicted.",
-            )
-        ),
-    ]
-    lines = [row.to_dict() for row in published]
-    names = [str(n) for n, v in found.data_vars.items() if v.dims == ("x", "a")]
-    columns = [found[n].to_numpy() for n in names]
-    files = (
-        csv_file(
-            file,
-            "condition, smallest axis and volume of both ellipsoids over x and tilt",
-            ["x_m", "a_rad", *names],
-            [
-                [float(u), float(t), *(float(v[i, j]) for v in columns)]
-                for i, u in enumerate(found["x"].to_numpy())
-                for j, t in enumerate(found["a"].to_numpy())
-            ],
-        ),
-        netcdf_file("manipulability.nc", "the same as a dataset, with all semi-axes", found),
-        csv_file(
-            file_name(MANIPULABILITY.key),
-            "manipulability of the thesis beside ours",
-            COLUMNS,
-            [[line[c] for c in COLUMNS] for line in lines],
-        ),
-    )
-    return Chapter("manipulability", "Manipulability", tuple(blocks), files)
-
-
-def _identity(found: xr.Dataset) -> float:
-    """How far the inverse squares of the position's semi-axes add to something else than six."""
-    sums = (found["position_semi_axes"].to_numpy() ** -2).sum(axis=-1)
-    return float(np.nanmax(np.abs(sums - 6.0)))
-
-
-def _published(rows: tuple[PublishedRow, ...]) -> Table:
-    return Table(
-        "Section 2.2 of the thesis beside ours",
-        (
-            Column("quantity", "", False),
-            Column("published"),
-            Column("ours"),
-            Column("difference"),
-            Column("status", "", False),
-        ),
-        [
-            [
-                r.quantity,
-                significant(r.published, 4),
-                significant(r.computed, 4),
-                Cell(percent(r.difference_percent), "good" if r.status == "predicted" else "poor"),
-                r.status,
-            ]
-            for r in rows
-        ],
-        file_name(MANIPULABILITY.key),
     )
 
 

@@ -88,9 +88,13 @@ class VibrationStudy:
 
 
 def study_machine_vibration(
-    key: str, title: str, machine: Machine, damping: ModalRatio = ONE_PERCENT
+    key: str,
+    title: str,
+    machine: Machine,
+    damping: ModalRatio = ONE_PERCENT,
+    band: tuple[float, float] = BAND,
 ) -> VibrationStudy:
-    """A machine at home.
+    """A machine at home; the band of its minima in Hz.
 
     Raises
     ------
@@ -101,7 +105,7 @@ def study_machine_vibration(
     target = Target(title, key, placed, placed.structure.linkage.nodes, damping)
     beams = {frozenset(b.nodes) for b in placed.structure.beams}
     lines = [(a, b) for a, b in machine.skeleton() if frozenset((a, b)) not in beams]
-    return _study(target, lines, BAND)
+    return _study(target, lines, band)
 
 
 def study_model_vibration(model: Model, key: str) -> VibrationStudy:

@@ -214,9 +214,14 @@ def vibration_files(study: VibrationStudy) -> tuple[DataFile, ...]:
         ),
         _shape_file(study),
     ]
-    response = study.response
+    return (*files, *response_files(study))
+
+
+def response_files(study: VibrationStudy) -> tuple[DataFile, ...]:
+    """The responses at the tool and their minima; none where there is no response."""
+    key, what, response = study.key, study.title, study.response
     if response is None:
-        return tuple(files)
+        return ()
     diagonal = np.einsum("fii->fi", response.receptance)
     heads = [f"{part}_{a}_m/N" for a in AXES for part in ("real", "imaginary")]
     columns = [c for i in range(3) for c in (diagonal[:, i].real, diagonal[:, i].imag)]
@@ -227,7 +232,7 @@ def vibration_files(study: VibrationStudy) -> tuple[DataFile, ...]:
     def write(path: Path) -> object:
         return write_universal(path, content)
 
-    files += [
+    return (
         csv_file(
             f"{key}-frf.csv",
             f"{what}: receptances at the tool",
@@ -244,8 +249,7 @@ def vibration_files(study: VibrationStudy) -> tuple[DataFile, ...]:
                 for a, o, g in zip(AXES, study.least, study.grid, strict=True)
             ],
         ),
-    ]
-    return tuple(files)
+    )
 
 
 def _shape_file(study: VibrationStudy) -> DataFile:

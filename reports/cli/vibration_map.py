@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from machines import dynamic_machine, get, roll_angles
+from machines import GridMachine, dynamic_machine, get, roll_angles
 from machines.published_azulay import TABLE_5
 from reports.cli.output import console, print_json, table
 from reports.cli.progress import shown
 from reports.cli.stiffness import RANGES
+from strutwork.errors import ModelError
 from studies import Filters, dynamic_map, hemisphere, write_csv, write_netcdf
 
 
@@ -34,6 +35,13 @@ def run(
     entry = get(machine)
     calibrated = machine in {value.row for value in TABLE_5.values}
     made = dynamic_machine(machine, "calibrated") if calibrated else entry.factory()
+    if isinstance(made, GridMachine):
+        raise ModelError(
+            f"machine {machine}",
+            "takes hardly a pose of the hemisphere over which vibration is mapped.",
+            "Leave --vibration out for its stiffness over x and a tilt, or use `strutwork modes` "
+            "at home.",
+        )
     with shown() as started:
         dataset = dynamic_map(
             made,

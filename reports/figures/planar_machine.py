@@ -41,6 +41,24 @@ def planar_machine_view(machine: MitSS1, placement: Placement) -> dict[str, Any]
     dict
         A plotly figure; lengths in mm.
     """
+    figure = scene(planar_machine_traces(machine, placement))
+    figure["layout"]["scene"]["camera"] = CAMERA
+    return figure
+
+
+def planar_machine_traces(
+    machine: MitSS1, placement: Placement, rails: tuple[float, float, float] | None = None
+) -> list[dict[str, Any]]:
+    """What `planar_machine_view` shows, as traces.
+
+    Parameters
+    ----------
+    machine : MitSS1
+    placement : Placement
+        Single pose.
+    rails : (y, low, high), optional
+        Where the rails stand, m; default behind the blocks, as far as these are drawn to travel.
+    """
     at = dict(zip(machine.linkage.nodes, placement.positions, strict=True))
     tool = at[parts.TOOL]
     corners = np.array([at[parts.strut(i, "housing", "end")] for i in parts.STRUTS])
@@ -48,8 +66,8 @@ def planar_machine_view(machine: MitSS1, placement: Placement) -> dict[str, Any]
     axis = axis / np.linalg.norm(axis)
     rotation = np.stack([np.cross([0.0, 1.0, 0.0], axis), [0.0, 1.0, 0.0], axis], axis=-1)
     spindle = cylinder(tool + 0.03 * axis, corners[2] + 0.02 * axis, 0.03, "spindle housing")
-    traces = [
-        mesh(_rails(machine, at), "guide", "#7b8794"),
+    return [
+        mesh(_rails(at, rails or _travel(machine, at)), "guide", "#7b8794"),
         mesh(_struts(machine, placement, at), "strut, flexible", "#8fa1b3", opacity=0.75),
         mesh(
             [plate(corners, HOUSING_THICKNESS, "spindle housing, rigid"), spindle],
@@ -62,16 +80,17 @@ def planar_machine_view(machine: MitSS1, placement: Placement) -> dict[str, Any]
         mesh([ball(tool, 0.007, "tool centre point")], "tool centre point", "#a02c2c"),
         *triad(tool, rotation, 0.07),
     ]
-    figure = scene(traces)
-    figure["layout"]["scene"]["camera"] = CAMERA
-    return figure
 
 
-def _rails(machine: MitSS1, at: dict[str, Array]) -> list[Shape]:
-    """The guides on the granite's side, as far as the blocks are drawn to travel."""
+def _travel(machine: MitSS1, at: dict[str, Array]) -> tuple[float, float, float]:
+    """The guides' place on the granite's side, as far as the blocks are drawn to travel."""
     heights = [at[parts.rail(i)][2] for i in parts.STRUTS]
-    low, high = min(heights) - RAIL_REACH, max(heights) + RAIL_REACH
     y = machine.bearing_planes[0] - 2.2 * RAIL_SIDE
+    return y, min(heights) - RAIL_REACH, max(heights) + RAIL_REACH
+
+
+def _rails(at: dict[str, Array], where: tuple[float, float, float]) -> list[Shape]:
+    y, low, high = where
     return [
         box(
             np.array([at[parts.rail(i)][0], y, (low + high) / 2]),

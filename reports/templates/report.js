@@ -22,16 +22,17 @@
   const solid = [["toImage"], ["orbitRotation", "zoom3d", "pan3d", "resetCameraDefault3d"]];
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
   // a mode swings about the shape at rest; with reduced motion each press shows the other extreme
-  const swing = (figure, drawing, { trace, rest, modes }) => {
+  const swing = (figure, drawing, { trace, colour = "line.color", rest, modes }) => {
     const choice = figure.querySelector(".modes select");
     const button = figure.querySelector(".modes button");
+    const reach = figure.querySelector(".modes input");
     let phase = Math.PI / 2;
     let before = null;
     const show = () => {
       const mode = modes[choice.value];
-      const turn = Math.sin(phase);
+      const turn = Math.sin(phase) * reach.value;
       const at = (side) => rest[side].map((v, i) => (v === null ? null : v + turn * mode[side][i]));
-      const moved = { x: [at("x")], y: [at("y")], z: [at("z")], "line.color": [mode.size] };
+      const moved = { x: [at("x")], y: [at("y")], z: [at("z")], [colour]: [mode.size] };
       return Plotly.restyle(drawing, moved, [trace]);
     };
     const stop = () => {
@@ -59,11 +60,13 @@
         stop();
       }
     });
-    choice.addEventListener("change", async () => {
+    const chosen = async () => {
       if (before === null) phase = Math.PI / 2;
       await show();
       if (before === null) photograph(drawing);
-    });
+    };
+    choice.addEventListener("change", chosen);
+    reach.addEventListener("change", chosen);
     still.addEventListener("change", stop);
     // nobody sees it: let the processor rest
     new IntersectionObserver(([seen]) => seen.isIntersecting || stop()).observe(drawing);

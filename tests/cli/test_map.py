@@ -116,3 +116,10 @@ def test_planar_machine_and_hexapod_are_mapped_over_x_and_a_tilt(
         # the nominal workspace is shifted by 10 mm
         assert x[1] == pytest.approx(-0.01)
         assert values[1, 1] == pytest.approx(home, rel=0.02)
+
+
+def test_vibration_is_not_mapped_where_the_hemisphere_cannot_be_reached(strutwork: Program) -> None:
+    run = strutwork("map", "mit-ss1", "--vibration", "--lattice", "1")
+    assert (run.status, run.out) == (1, "")
+    assert "machine mit-ss1: takes hardly a pose" in run.err
+    assert "strutwork modes" in run.err
