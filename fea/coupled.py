@@ -30,7 +30,7 @@ class PartDamping:
     background : Damping or None
         Acts on every mode beside the parts.
     materials : bool
-        Take the loss factors of the beams' materials.
+        Take the loss factors of the beams' materials, and of elements that have one.
     joints : mapping of joint name to float
         Loss factors of elastic joints.
     dashpots : bool
@@ -92,6 +92,8 @@ def part_matrices(system: System, damping: PartDamping) -> tuple[Array, Array]:
                 "Name an elastic joint.",
             )
     material = {f"beam {b.name}": b.material.loss_factor or 0.0 for b in structure.beams}
+    for element in structure.elements:
+        material[f"element {element.name}"] = getattr(element, "loss_factor", None) or 0.0
     for name, nodes, part in system.contributions():
         factor = 0.0
         if damping.materials:

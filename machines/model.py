@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from kinematics import Placement
+from machines.model_solid_element import SolidElement
 from msa import LoadCase, PlacedStructure, Structure
 from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError
@@ -61,6 +62,9 @@ class Model:
         Weights of an allocation.
     force_limits : mapping of (joint name, kind of quantity) to float
         Greatest forces and moments that joints may bear, N and N·m.
+    solids : tuple of SolidElement
+        Its elements that are solids. Their monitors, nodes inside a solid, are nodes of the
+        linkage and none of the file.
     """
 
     title: str
@@ -74,6 +78,7 @@ class Model:
     tolerances: tuple[Tolerance, ...] = ()
     tolerance_costs: Mapping[str, float] = field(default_factory=dict)
     force_limits: Mapping[tuple[str, str], float] = field(default_factory=dict)
+    solids: tuple[SolidElement, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from machines.model import Damping, Model
 from machines.model_cases import load_cases
 from machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
 from machines.model_schema import ModelTable
+from machines.model_solid_element import SolidElement
 from machines.model_tolerances import model_tolerances
 from msa import Beam, Structure
 from strutwork.errors import ModelError
@@ -21,15 +23,17 @@ MAX_MESH_NODES = 20_000
 MAX_JOINTS = 1_000
 
 
-def build_model(tables: ModelTable) -> Model:
+def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     """Build the structure that the tables describe.
 
-    Rigid bodies and beams that share nodes are one body of the linkage. A supported node is
-    joined to a ground node of its own, at the same place, by a joint in global axes.
+    Rigid bodies, beams and solids that share nodes are one body of the linkage. A supported node
+    is joined to a ground node of its own, at the same place, by a joint in global axes.
 
     Parameters
     ----------
     tables : ModelTable
+    folder : Path
+        Where names of solids' files begin.
 
     Returns
     -------
@@ -48,18 +52,32 @@ def build_model(tables: ModelTable) -> Model:
     supports = _supports(tables)
     nodes = tuple(tables.nodes)
     grounds = tuple(joint.between[0] for joint in supports.values())
-    beams = beams_of(tables)
-    bodies, rigid = _bodies(tables, beams)
+    beams, springs, masses = beams_of(tables), springs_of(tables), masses_of(tables)
+    cases = load_cases(tables, joints, supports)
+    toleranced = model_tolerances(tables, joints, supports)
+    # last, for a solid may take minutes
+    solids = _solids(tables, folder)
+    monitors = {
+        node: place
+        for solid in solids
+        for node, place in zip(solid.nodes, solid.positions, strict=True)
+        if node not in solid.tied
+    }
+    bodies, rigid = _bodies(tables, beams, solids)
     if grounds:
         bodies = (*bodies, Body(GROUND, grounds))
     linkage = Linkage(
-        nodes=(*nodes, *grounds),
+        nodes=(*nodes, *monitors, *grounds),
         bodies=bodies,
         joints=(*joints, *supports.values()),
         tool=None if tables.tool is None else tables.tool.tcp,
     )
-    structure = Structure(linkage, beams, springs_of(tables), rigid, masses_of(tables))
-    positions = [tables.nodes[n] for n in (*nodes, *supports)]
+    structure = Structure(linkage, beams, springs, rigid, masses, solids)
+    positions = [
+        *(tables.nodes[n] for n in nodes),
+        *monitors.values(),
+        *(tables.nodes[n] for n in supports),
+    ]
     frames = [
         *(axes_frame(t.axis, t.second_axis, f"joint {t.name}") for t in tables.joints),
         *(np.eye(3) for _ in supports),
@@ -69,12 +87,11 @@ def build_model(tables: ModelTable) -> Model:
         np.array(frames, dtype=float).reshape(-1, 3, 3),
         np.zeros(0),
     )
-    toleranced = model_tolerances(tables, joints, supports)
     model = Model(
         title=tables.title,
         structure=structure,
         placement=placement,
-        cases=load_cases(tables, joints, supports),
+        cases=cases,
         nodes=nodes,
         joints=tuple(joint.name for joint in joints),
         supports={node: joint.name for node, joint in supports.items()},
@@ -82,6 +99,7 @@ def build_model(tables: ModelTable) -> Model:
         tolerances=toleranced.tolerances,
         tolerance_costs=toleranced.costs,
         force_limits=toleranced.limits,
+        solids=solids,
     )
     # coincidence of joint nodes, lengths and orientations of beams: now, not at the first solve
     _ = model.placed
@@ -112,6 +130,7 @@ def _check_names(tables: ModelTable) -> None:
     """Names of one table are unique, and none collides with a name made here."""
     for kind, names in (
         ("beam", [t.name for t in tables.beams]),
+        ("solid", [t.name for t in tables.solids]),
         ("body", [t.name for t in tables.bodies]),
         ("joint", [t.name for t in tables.joints]),
         ("spring", [t.name for t in tables.springs if t.name is not None]),
@@ -120,6 +139,11 @@ def _check_names(tables: ModelTable) -> None:
         if repeated:
             raise ModelError(
                 f"{kind} {repeated[0]}", "is defined twice.", f"Give every {kind} its own name."
+            )
+    for solid in tables.solids:
+        if solid.name in {t.name for t in tables.beams}:
+            raise ModelError(
+                f"solid {solid.name}", "has the name of a beam.", "Rename one of the two."
             )
     supports = {support_name(t.node) for t in tables.supports}
     for joint in tables.joints:
@@ -167,6 +191,11 @@ def _check_nodes(tables: ModelTable) -> None:
     connecting: list[tuple[str, Sequence[str]]] = [
         *((f"beam {t.name}", (t.from_, t.to)) for t in tables.beams),
         *((f"body {t.name}", t.nodes) for t in tables.bodies),
+        *(
+            (f"solids.{t.name}.interfaces[{i}].node", (interface.node,))
+            for t in tables.solids
+            for i, interface in enumerate(t.interfaces)
+        ),
         *((f"joint {t.name}", t.between) for t in tables.joints),
         *(
             (f"springs[{i}]", (*(t.between or ()), *((t.node,) if t.node else ())))
@@ -189,18 +218,40 @@ def _check_nodes(tables: ModelTable) -> None:
         if node not in held:
             raise ModelError(
                 f"node {node}",
-                "is disconnected: no beam, body, joint, spring or support has it.",
+                "is disconnected: no beam, body, solid, joint, spring or support has it.",
                 "Connect it, or remove it.",
             )
 
 
-def _bodies(tables: ModelTable, beams: Sequence[Beam]) -> tuple[tuple[Body, ...], tuple[Body, ...]]:
+def _solids(tables: ModelTable, folder: Path) -> tuple[SolidElement, ...]:
+    if not tables.solids:
+        return ()
+    # meshes and SfePy take longer to load than a file without solids to check
+    from machines.model_solids import solids_of  # noqa: PLC0415
+
+    solids = solids_of(tables, folder)
+    for solid in solids:
+        for node in solid.monitors:
+            if node in tables.nodes:
+                raise ModelError(
+                    f"node {node}",
+                    f"has the name of a node inside the solid {solid.name}.",
+                    "Rename the node.",
+                )
+    return solids
+
+
+def _bodies(
+    tables: ModelTable, beams: Sequence[Beam], solids: Sequence[SolidElement]
+) -> tuple[tuple[Body, ...], tuple[Body, ...]]:
     """Bodies of the linkage, and the rigid groups inside those that bend."""
     groups = [
         *((t.name, t.nodes) for t in tables.bodies),
         *((b.name, b.nodes) for b in beams),
+        *((s.name, s.nodes) for s in solids),
     ]
-    piece = {node: node for node in tables.nodes}
+    known = dict.fromkeys((*tables.nodes, *(n for s in solids for n in s.nodes)))
+    piece = {node: node for node in known}
 
     def root(node: str) -> str:
         while piece[node] != node:
@@ -215,7 +266,7 @@ def _bodies(tables: ModelTable, beams: Sequence[Beam]) -> tuple[tuple[Body, ...]
     for name, members in groups:
         parts.setdefault(root(members[0]), []).append(name)
     nodes: dict[str, list[str]] = {}
-    for node in tables.nodes:
+    for node in known:
         nodes.setdefault(root(node), []).append(node)
     taken = {GROUND}
     bodies = []
@@ -225,7 +276,7 @@ def _bodies(tables: ModelTable, beams: Sequence[Beam]) -> tuple[tuple[Body, ...]
             name += "'"
         taken.add(name)
         bodies.append(Body(name, tuple(nodes[key])))
-    bending = {root(beam.nodes[0]) for beam in beams}
+    bending = {root(b.nodes[0]) for b in beams} | {root(s.nodes[0]) for s in solids}
     rigid = tuple(Body(t.name, t.nodes) for t in tables.bodies if root(t.nodes[0]) in bending)
     return tuple(bodies), rigid
 

@@ -43,11 +43,20 @@ def read_model(path: str | Path) -> Model:
     ModelWarning
         poissons_ratio and shear_modulus of a material that contradict one another.
     """
-    return parse_model(_text(Path(path)), str(path))
+    return parse_model(_text(Path(path)), str(path), Path(path).parent)
 
 
-def parse_model(text: str, source: str = "model") -> Model:
-    """Read a model from the text of a model file; `source` is named in messages."""
+def parse_model(text: str, source: str = "model", folder: Path | None = None) -> Model:
+    """Read a model from the text of a model file.
+
+    Parameters
+    ----------
+    text : str
+    source : str
+        Named in messages.
+    folder : Path, optional
+        Where the names of solids' files begin; by default the working directory.
+    """
     try:
         data = tomllib.loads(text)
     except RecursionError:
@@ -61,7 +70,7 @@ def parse_model(text: str, source: str = "model") -> Model:
         tables = ModelTable.model_validate(data)
     except ValidationError as error:
         raise model_error(error, data, source) from None
-    return build_model(tables)
+    return build_model(tables, Path() if folder is None else folder)
 
 
 def _text(path: Path) -> str:

@@ -329,8 +329,8 @@ class ModelTable(Table):
 
     title: str = ""
     gravity: tuple[Acceleration, Acceleration, Acceleration] | None = None
-    materials: dict[Name, MaterialTable] = {}
-    sections: dict[Name, SectionTable] = {}
+    materials: dict[Name, MaterialTable] = Field(default_factory=dict)
+    sections: dict[Name, SectionTable] = Field(default_factory=dict)
     nodes: dict[Name, Point]
     beams: tuple[BeamTable, ...] = ()
     solids: tuple[SolidTable, ...] = ()

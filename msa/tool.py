@@ -148,7 +148,7 @@ def _inverse(flexible: Array) -> Array:
     """One over compliances of one kind; infinite for what is rounding beside the largest."""
     largest = np.abs(flexible).max(axis=-1, keepdims=True)
     moves = (flexible > RIGID * largest) & (flexible > NOTHING)
-    return np.divide(1.0, flexible, out=np.full(flexible.shape, np.inf), where=moves)
+    return np.asarray(np.divide(1.0, flexible, out=np.full(flexible.shape, np.inf), where=moves))
 
 
 def axis_stiffness_blocked(compliance: Array) -> Array:

@@ -1,14 +1,18 @@
-"""The report of the MIT-SS-1: kinematics, stiffness and over-constraint."""
+"""The report of the MIT-SS-1: kinematics, stiffness, modes, over-constraint, size."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from machines import get
 from machines.mit_ss1_tolerances import STATIC_RATING
 from reports.chapters.closing import closing_chapter
 from reports.chapters.mit_ss1 import assumptions_chapter, drawing_chapter, summary_chapter
+from reports.chapters.mit_ss1_calibration import calibration_chapter
 from reports.chapters.mit_ss1_kinematics import kinematics_chapter, map_blocks
+from reports.chapters.mit_ss1_modes import modes_chapter, response_chapter
+from reports.chapters.mit_ss1_whole import calibrated_blocks
 from reports.chapters.overconstraint import (
     governing,
     headline,
@@ -35,7 +39,8 @@ from reports.chapters.overconstraint_son import (
     published_markers,
     table_2_blocks,
 )
-from reports.chapters.son_stiffness import stiffness_chapter
+from reports.chapters.scale import scale_chapter as size_chapter
+from reports.chapters.son_stiffness import stiffness_chapter as planar_stiffness_chapter
 from reports.content import Block, Chapter, Figure, Text
 from reports.data_files import DataFile, json_file
 from reports.figures.assembly_scene import assembled, machine_misfit_view
@@ -63,19 +68,30 @@ def mit_ss1_chapters(
         summary_chapter(study),
         drawing_chapter(study),
         kinematics_chapter(study),
-        stiffness_chapter(),
+        stiffness_chapter(study),
+        modes_chapter(study.whole),
+        response_chapter(study.whole),
+        calibration_chapter(study.whole),
         machine_chapter(study),
         table_2_chapter(study),
         scale_chapter(study),
         design_chapter(study),
+        size_chapter(study.moving_size, study.whole_size),
         assumptions_chapter(study),
     ]
     chapters.append(closing_chapter(NAME, _settings(study), _content(study), chapters))
     return (
-        f"{entry.title}: kinematics, stiffness and assembly forces",
+        f"{entry.title}: kinematics, stiffness, modes, assembly forces and size",
         f"{entry.topology} · {entry.paper.citation}",
         tuple(chapters),
     )
+
+
+def stiffness_chapter(study: MitSS1Study) -> Chapter:
+    """The planar stiffness of the thesis, and that of the calibrated machine."""
+    planar = planar_stiffness_chapter()
+    blocks, files = calibrated_blocks(study.whole)
+    return replace(planar, blocks=(*planar.blocks, *blocks), files=(*planar.files, *files))
 
 
 def machine_chapter(study: MitSS1Study) -> Chapter:
@@ -190,7 +206,9 @@ def _settings(study: MitSS1Study) -> dict[str, Any]:
         "sampling": METHODS.get(found.method, found.method) if found else "none",
         "static rating, kN": f"{STATIC_RATING / 1e3:g}",
         "struts": study.machine.struts,
-        "drives and guides": "rigid",
+        "drives and guides": "rigid, but for the ball screw mode",
+        "damping of the responses": "1 % of critical in every mode, assumed",
+        "solver of the granite": study.whole.whole.granite.solver,
     }
 
 
@@ -203,5 +221,6 @@ def _content(study: MitSS1Study) -> dict[str, Any]:
         "scale": study.scale.to_dict(),
         "designs": [d.to_dict() for d in study.designs],
         "allocations": {o: a.to_dict() for o, a in study.allocations.items()},
+        "whole": study.whole.to_dict(),
         "case_allocations": {n: a.to_dict() for n, a in study.case_allocations.items()},
     }

@@ -15,6 +15,7 @@ from machines.mit_ss1_assembly import CASES
 from machines.mit_ss1_tolerances import bearing_limits, table_2_joints, table_2_tolerances
 from overconstraint import Allocation, allocate
 from reports.machine_study import Teller
+from reports.mit_ss1_whole_study import WholeStudy, study_whole
 from studies.assembly_map import DesignForces, assembly_map, compare_designs, nominal_grid
 from studies.assembly_scale import AssemblyScale, assembly_scale
 from studies.assembly_table import (
@@ -24,9 +25,11 @@ from studies.assembly_table import (
     calibrate_assembly,
     table_2_rows,
 )
+from studies.mit_ss1_scale import mit_ss1_scale
 from studies.planar_kinematics import SINGULAR_X, planar_kinematics, singular_tilt
 from studies.progress import silent
 from studies.published_table import PublishedRow
+from studies.scale import ScaleStudy
 from studies.tolerance_result import ToleranceStudy
 from studies.tolerance_study import tolerance_study
 from studies.toleranced_machines import TolerancedMachine, toleranced_machine
@@ -66,6 +69,10 @@ class MitSS1Study:
         Of the machine's tolerances, at all poses.
     case_allocations : mapping of numeral to Allocation
         Of Table 2's, all by one factor.
+    whole : WholeStudy
+        The machine on its granite.
+    moving_size, whole_size : ScaleStudy
+        Stiffness and frequencies against size, rails held and on the granite.
     """
 
     machine: MitSS1
@@ -81,6 +88,9 @@ class MitSS1Study:
     forces: xr.Dataset
     allocations: Mapping[str, Allocation]
     case_allocations: Mapping[str, Allocation]
+    whole: WholeStudy
+    moving_size: ScaleStudy
+    whole_size: ScaleStudy
 
     def __repr__(self) -> str:
         return f"<MitSS1Study: {len(self.cases)} cases of Table 2, {self.own!r}>"
@@ -91,6 +101,12 @@ def study_mit_ss1(progress: Teller | None = None) -> MitSS1Study:
     machine = MitSS1()
     tell: Teller = progress or (lambda _: silent)
     cases = {numeral: _case(numeral, tell) for numeral in CASES}
+    whole = study_whole(progress)
+    sizes = tell("stiffness and frequencies against size")
+    moving_size = mit_ss1_scale()
+    sizes(1, 2)
+    whole_size = mit_ss1_scale(granite=True)
+    sizes(2, 2)
     toleranced = _over_the_map(machine, toleranced_machine(NAME))
     own = tolerance_study(
         toleranced.placed,
@@ -122,6 +138,9 @@ def study_mit_ss1(progress: Teller | None = None) -> MitSS1Study:
             numeral: allocate(s.responses, s.limits, objective="uniform")
             for numeral, s in cases.items()
         },
+        whole,
+        moving_size,
+        whole_size,
     )
 
 

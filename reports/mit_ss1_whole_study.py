@@ -87,13 +87,13 @@ class WholeStudy:
     @property
     def shown(self) -> dict[str, tuple[Which, str]]:
         """Set and name of every mode that the page draws, by its label, lowest first."""
-        found = {
+        found: dict[str, tuple[Which, str]] = {
             f"{name.capitalize()}, {frequency:.1f} Hz": ("numerical", name)
             for name, frequency in self.named["numerical"].frequencies.items()
         }
         screw = self.named["ball screw"].frequencies[SCREW]
-        elastic: tuple[Which, str] = ("ball screw", SCREW)
-        return {**found, f"Ball screw, {screw:.1f} Hz, drives elastic": elastic}
+        found[f"Ball screw, {screw:.1f} Hz, drives elastic"] = ("ball screw", SCREW)
+        return found
 
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers in SI."""

@@ -39,7 +39,7 @@ def mode_fields(name: str, what: str, pictures: Mapping[str, ModePicture]) -> Da
     }
 
     def write(path: Path) -> None:
-        import meshio  # noqa: PLC0415 - half a second that most commands never need
+        import meshio
 
         made = meshio.Mesh(
             np.concatenate([picture.points, picture.nodes]),

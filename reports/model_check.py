@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from kinematics import DIRECTIONS, FreeMotion, Mobility, SelfStress, mobility
 from kinematics.mobility import RANK_TOLERANCE
 from machines.model import Model, ModelWarning
+from machines.model_solid_element import SolidElement
 from msa import PlacedStructure, system_of
 from msa.constraints import scales
 
@@ -74,6 +75,15 @@ class ModelCheck:
             "mass": None
             if self.mass is None
             else {"total": self.mass.total, "center": self.mass.center},
+            "solids": {
+                s.name: {
+                    "mass": s.weighed[0],
+                    "degrees_of_freedom": s.reduced.shapes.shape[0],
+                    "kept": 6 * len(s.nodes),
+                    "accurate_to": s.accurate_to,
+                }
+                for s in self.model.solids
+            },
         }
 
     def _motions(self, motions: Sequence[FreeMotion]) -> list[dict[str, Any]]:
@@ -125,7 +135,7 @@ def degrees_of_freedom(placed: PlacedStructure) -> int:
 
 
 def mass_properties(placed: PlacedStructure) -> MassProperties | None:
-    """Mass of beams and point masses; None, with a warning, where a density is missing."""
+    """Mass of beams, solids and point masses; None, with a warning, without a density."""
     structure = placed.structure
     without = {b.material.name for b in structure.beams if b.material.density is None}
     if without:
@@ -143,6 +153,10 @@ def mass_properties(placed: PlacedStructure) -> MassProperties | None:
             mass = float((beam.material.density or 0.0) * beam.section.area * length[i])
             total += mass
             moment += mass * (start[i] + end[i]) / 2.0
+    for solid in (e for e in structure.elements if isinstance(e, SolidElement)):
+        mass, centre = solid.weighed
+        total += mass
+        moment += mass * centre
     for point in structure.masses:
         at = placed.placement.positions[structure.linkage.node_index[point.node]]
         total += point.mass

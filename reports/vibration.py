@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,8 @@ from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
-from machines.model import Model
+from machines.model import Model, ModelWarning
+from machines.model_solid_element import SolidElement
 from msa import PlacedStructure
 from reports.data_files import csv_file
 from strutwork.errors import ModelError
@@ -176,10 +178,49 @@ def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | No
             found = Rayleigh(*table.rayleigh)
     structure = model.structure
     dashpots = any(any(j.damping.values()) for j in structure.linkage.joints)
-    materials = found is None and any(b.material.loss_factor for b in structure.beams)
+    lossy = [b.material.loss_factor for b in structure.beams]
+    lossy += [solid.loss_factor for solid in model.solids]
+    materials = found is None and any(lossy)
     if dashpots or materials:
         return PartDamping(found, materials=materials, dashpots=dashpots)
     return found
+
+
+def beyond(placed: PlacedStructure, highest: float) -> str:
+    """What to say of frequencies above those to which a solid's reduction holds.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    highest : float
+        Hz.
+
+    Returns
+    -------
+    str
+        Empty where all is well.
+    """
+    solids = [e for e in placed.structure.elements if isinstance(e, SolidElement)]
+    short = [s for s in solids if highest > s.accurate_to]
+    if not short:
+        return ""
+    named = ", ".join(f"{s.name} {s.accurate_to:.4g} Hz" for s in short)
+    return (
+        f"Frequencies up to {highest:.4g} Hz are shown. Above half of a solid's cutoff their "
+        f"accuracy is not promised: {named}. Raise its cutoff or its number of modes."
+    )
+
+
+def warn_beyond(placed: PlacedStructure, highest: float) -> None:
+    """Warn of what `beyond` says.
+
+    Warns
+    -----
+    ModelWarning
+    """
+    text = beyond(placed, highest)
+    if text:
+        warnings.warn(text, ModelWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)
@@ -229,6 +270,7 @@ class TargetModes:
 def target_modes(target: Target, count: int) -> TargetModes:
     """Lowest modes of a target, with damping ratios where it has damping."""
     found = modes(target.placed, count)
+    warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
     ratios = None if target.damping is None else damping_ratios(found, target.damping)
     return TargetModes(target, found, ratios)
 
@@ -318,6 +360,7 @@ def target_response(
         An empty band, fewer than two lines, no damping, a port that cannot move.
     """
     check_band(*band)
+    warn_beyond(target.placed, band[1])
     damping = target.require_damping()
     if lines < 2:
         raise ModelError("lines", f"{lines} asked for.", "Ask for at least two.")

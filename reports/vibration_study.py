@@ -119,9 +119,13 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
     target = Target(model.title or key, key, model.placed, model.nodes, model_damping(model))
     known = set(model.placed.structure.mesh_nodes)
     beams = {frozenset(b.nodes) for b in model.structure.beams}
+    linkage = model.structure.linkage
+    inside = {node for solid in model.solids for node in solid.nodes}
+    # a solid is drawn by its own edges
+    drawn = [b for b in linkage.bodies if not inside.intersection(b.nodes)]
     lines = [
         (body.nodes[0], other)
-        for body in model.structure.linkage.bodies
+        for body in (*drawn, *(model.structure.rigid if inside else ()))
         for other in body.nodes[1:]
         if {body.nodes[0], other} <= known and frozenset((body.nodes[0], other)) not in beams
     ]
@@ -131,7 +135,8 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
 def has_mass(model: Model) -> bool:
     """Whether a model's structure has mass to vibrate."""
     structure = model.structure
-    return bool(structure.masses) or any(b.material.density for b in structure.beams)
+    heavy = structure.masses or model.solids
+    return bool(heavy) or any(b.material.density for b in structure.beams)
 
 
 def _study(

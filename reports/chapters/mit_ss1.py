@@ -6,7 +6,9 @@ import numpy as np
 
 from machines import MitSS1, get
 from machines.mit_ss1_tolerances import AXIAL_FACTOR, HOUSING_TILT, RAIL_HEIGHT, STATIC_RATING
-from machines.published_son import DIMENSIONS, MACHINE, MANIPULABILITY
+from machines.published_son import DIMENSIONS, MACHINE, MANIPULABILITY, MODES, STIFFNESS
+from reports.chapters.mit_ss1_modes import MET, place_shares
+from reports.chapters.mit_ss1_whole import whole_assumptions, whole_blocks
 from reports.chapters.overconstraint import governing, label, shown
 from reports.content import (
     Chapter,
@@ -21,11 +23,13 @@ from reports.content import (
 from reports.data_files import json_file
 from reports.figures.planar_machine import planar_machine_view
 from reports.mit_ss1_study import NAME, MitSS1Study
-from reports.numbers import micro, significant
+from reports.numbers import MINUS, micro, significant
 from studies.assembly_table import SETS
+from studies.mit_ss1_modes import TILT
+from studies.son_stiffness import map_figures
 
 DRAWING = (
-    "Seen from outside towards the granite. Drag to turn, scroll to zoom; names show under the "
+    "The mechanism alone, with its joints. Seen from outside towards the granite. Drag to turn, scroll to zoom; names show under the "
     "pointer. Lengths are in mm; struts have their section, blocks, rails and housing are not to "
     "scale. Black arrows show the driven motions."
 )
@@ -33,17 +37,114 @@ DRAWING = (
 
 def summary_chapter(study: MitSS1Study) -> Chapter:
     """The machine in a sentence and its headline numbers."""
-    own = study.own
-    text = (
-        "MIT-SS-1: three blocks on vertical guides move a spindle housing in the x-z plane by "
-        "struts of fixed length, a planar 3-PRR mechanism, [P vertical] R R (P prismatic, R "
-        "revolute; driven ones in brackets). All pins are parallel, so the machine is constrained "
-        "more than once, and what its parts deviate from each other is locked in as forces in its "
-        "bearings. This report says how large they can become."
+    states = int(study.own.responses.influence.redundant.max(initial=0))
+    blocks = (
+        Text(
+            "MIT-SS-1: three blocks on vertical guides move a spindle housing in the x-z plane by "
+            "struts of fixed length, a planar 3-PRR mechanism, [P vertical] R R (P prismatic, R "
+            "revolute; driven ones in brackets), before a granite L on four mounts. How it moves, "
+            "how stiff it is, at which frequencies it vibrates, and what all of this becomes in "
+            "another size:"
+        ),
+        Facts((*_plane_facts(study), *_whole_facts(study))),
+        Text(
+            "All pins are parallel, so the machine is constrained more than once, and what its "
+            "parts deviate from each other is locked in as forces in its bearings:"
+        ),
+        Facts(tuple(_force_facts(study))),
+        Note(
+            f"With two elastic bearings a pin the machine has {states} states of self-stress. The "
+            "dimensions are the thesis's; stiffnesses, masses and thicknesses are calibrated; the "
+            "static rating, the damping and some tolerances are our assumptions, each named below. "
+            "The thesis's numbers do not all come from one machine: stiffness map and assembly "
+            "forces, the modes of its finite element model and the measured ones each have their "
+            "own set of bearings, and each chapter says which it uses."
+        ),
     )
+    return Chapter("summary", "Summary", blocks)
+
+
+def _plane_facts(study: MitSS1Study) -> list[Fact]:
+    """Kinematics and planar stiffness."""
+    condition = study.kinematics["condition"]
+    low, high = float(condition.min()), float(condition.max())
+    printed = [
+        MANIPULABILITY.value(MACHINE, f"position condition number, {end}")
+        for end in ("least", "most")
+    ]
+    plane = map_figures(study.whole.planar)
+    along_x = STIFFNESS.value(MACHINE, "Kx, flat part of the map")
+    return [
+        Fact(
+            "Position condition number",
+            f"{low:.2f}–{high:.2f}",
+            "",
+            f"published {printed[0]:g} to {printed[1]:g}; nothing fitted",
+        ),
+        Fact(
+            "Stiffness along x at home",
+            micro(plane["home"]),
+            "N/µm",
+            f"published {along_x:g}, calibrated to it; at the two soft corners "
+            f"{significant(plane['home over lower left'], 2)} and "
+            f"{significant(plane['home over upper right'], 2)} times less",
+        ),
+    ]
+
+
+def _whole_facts(study: MitSS1Study) -> list[Fact]:
+    """Modes, responses and size."""
+    whole = study.whole
+    facts = []
+    modes = {v.row for v in MODES}
+    for quantity, words in (("numerical", "finite element model"), ("measured", "measurement")):
+        some = [r for r in whole.rows if r.quantity == quantity and r.row in modes]
+        worst = max(some, key=lambda r: abs(r.difference_percent))
+        facts.append(
+            Fact(
+                f"Modes beside the thesis's {words}",
+                f"{len([r for r in some if abs(r.difference_percent) <= MET])} of {len(some)}",
+                "",
+                f"within {MET:g} %, calibrated; farthest: {worst.row} {worst.computed:.1f} for "
+                f"{worst.published:g} Hz",
+            )
+        )
+    tilt = whole.named["numerical"].frequencies[TILT]
+    least = min(whole.vibration.least, key=lambda one: one.value)
+    exponents = (study.moving_size.stiffness_law(0), study.moving_size.frequency_law(0))
+    rollers = (study.moving_size.stiffness_law(1), study.moving_size.frequency_law(1))
+    facts += [
+        Fact(
+            "Lowest mode of the mechanism",
+            f"{tilt:.1f}",
+            "Hz",
+            "the housing's tilt at home; "
+            f"{place_shares(whole.named['numerical'], TILT)['bearings on the housing']:.0f} % of "
+            "its energy in the bearings on the housing",
+        ),
+        Fact(
+            "Least dynamic stiffness at the tool",
+            significant(least.value / 1e6),
+            "N/µm",
+            f"along {least.output.direction} at {significant(least.frequency)} Hz, to the floor; "
+            "1 % damping assumed",
+        ),
+        Fact(
+            "Exponents of size: stiffness, frequency",
+            f"{float(exponents[0].exponent[0]):.2f}, {MINUS}{-float(exponents[1].exponent[0]):.2f}",
+            "",
+            "similar joints; with catalogue roller bearings "
+            f"{float(rollers[0].exponent[0]):.2f} and {MINUS}{-float(rollers[1].exponent[0]):.2f}",
+        ),
+    ]
+    return facts
+
+
+def _force_facts(study: MitSS1Study) -> list[Fact]:
+    """Assembly forces."""
+    own = study.own
     top, case = governing(own), study.cases["I"]
     first = governing(case)
-    condition = study.kinematics["condition"]
     facts = []
     if top is not None:
         facts.append(
@@ -78,31 +179,11 @@ def summary_chapter(study: MitSS1Study) -> Chapter:
             f"Table 2's structure, no bearing above {significant(STATIC_RATING / 1e3)} kN",
         )
     )
-    low, high = float(condition.min()), float(condition.max())
-    printed = [
-        MANIPULABILITY.value(MACHINE, f"position condition number, {end}")
-        for end in ("least", "most")
-    ]
-    facts.append(
-        Fact(
-            "Position condition number",
-            f"{low:.2f}–{high:.2f}",
-            "",
-            f"published {printed[0]:g} to {printed[1]:g}; nothing fitted",
-        )
-    )
-    states = int(own.responses.influence.redundant.max(initial=0))
-    note = (
-        f"With two elastic bearings a pin the machine has {states} states of self-stress. The "
-        "dimensions are the thesis's; stiffnesses are calibrated; the static rating and some "
-        "tolerances are our assumptions, each named below."
-    )
-    blocks = (Text(text), Facts(tuple(facts)), Note(note))
-    return Chapter("summary", "Summary", blocks)
+    return facts
 
 
 def drawing_chapter(study: MitSS1Study) -> Chapter:
-    """The machine in 3-D at home."""
+    """The whole machine and its mechanism in 3-D at home."""
     machine = study.machine
     placement = machine.place(machine.home())
     file = f"drawing-{NAME}.json"
@@ -118,16 +199,20 @@ def drawing_chapter(study: MitSS1Study) -> Chapter:
     }
     figure = Figure(
         f"drawing-{NAME}",
-        "The MIT-SS-1 at home.",
+        "The mechanism of the MIT-SS-1 at home.",
         planar_machine_view(machine, placement),
         "Three-dimensional drawing of the MIT-SS-1: three guides with blocks, three struts, the "
         "spindle housing, pins with two bearings each, and the tool.",
         file,
         600,
     )
-    what = "what the drawing shows: nodes, lines and joints"
+    what = "what the drawing of the mechanism shows: nodes, lines and joints"
+    blocks, files = whole_blocks(study.whole)
     return Chapter(
-        "drawing", "The machine", (Text(DRAWING), figure), (json_file(file, what, content),)
+        "drawing",
+        "The whole machine",
+        (*blocks, Text(DRAWING), figure),
+        (*files, json_file(file, what, content)),
     )
 
 
@@ -140,10 +225,11 @@ def assumptions_chapter(study: MitSS1Study) -> Chapter:
         (
             Text(f"The thesis: {get(NAME).paper.citation}"),
             Table(
-                "Dimensions, properties and tolerances",
+                "Dimensions, properties and tolerances of the assembly forces",
                 [Column(h, "", False) for h in ("assumption", "value", "source")],
                 _assumed(machine),
             ),
+            whole_assumptions(study.whole.whole),
         ),
     )
 

@@ -69,7 +69,8 @@ def calibration_chapter(study: WholeStudy) -> Chapter:
             "Below the dashed line a combination of parameters is not determined; zeros stand at "
             "the foot.",
             singular_values(
-                {STEPS[k]: c.identified.singular_values for k, c in found.items()}, threshold
+                {STEPS[k]: c.identified.singular_values.tolist() for k, c in found.items()},
+                threshold,
             ),
             "Singular values of four calibrations; two of the moving structure's are zero.",
             "calibration-singular-values.csv",

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from math import degrees
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 
@@ -40,14 +42,16 @@ PUBLISHED = (TILT, STRUTS, SCREW, BENDING, TWISTING)
 #: Differences up to this count as met, %.
 MET = 2.0
 
-#: Where strain energy sits, by the names of parts.
-PLACES = (
-    ("granite", lambda p: p == "element granite"),
-    ("mounts", lambda p: p.startswith("joint mount")),
-    ("bearings on the housing", lambda p: "/housing" in p),
-    ("bearings on the blocks", lambda p: "/block" in p),
-    ("struts", lambda p: p.startswith("beam strut")),
-    ("drives", lambda p: p.startswith("joint guide") or "guide" in p),
+#: Where strain energy sits: how the names of parts begin.
+PLACES: Mapping[str, str] = MappingProxyType(
+    {
+        "granite": r"element granite",
+        "mounts": r"joint mount\d",
+        "bearings on the housing": r"joint strut\d/housing",
+        "bearings on the blocks": r"joint strut\d/block",
+        "struts": r"beam strut",
+        "drives": r"joint block\d/guide",
+    }
 )
 
 
@@ -199,9 +203,9 @@ def place_shares(found: NamedModes, name: str) -> dict[str, float]:
     """Strain energy of a mode by place, %; what is in none of `PLACES` under "rest"."""
     parts = found.modes.energy_parts
     shares = 100.0 * found.modes.energy_shares[found.index[name]]
-    result = {place: 0.0 for place, _ in PLACES} | {"rest": 0.0}
+    result = dict.fromkeys((*PLACES, "rest"), 0.0)
     for part, share in zip(parts, shares, strict=True):
-        place = next((p for p, holds in PLACES if holds(part)), "rest")
+        place = next((p for p, begins in PLACES.items() if re.match(begins, part)), "rest")
         result[place] += float(share)
     return result
 
@@ -390,9 +394,3 @@ def _files(study: WholeStudy) -> list[DataFile]:
         ),
         netcdf_file("mode-postures.nc", "the same as a dataset", postures),
     ]  # fmt: skip
-
-
-def worst_angle(study: WholeStudy) -> float:
-    """Tilt at which the housing's mode is lowest, degrees."""
-    values = study.postures["tilt"].to_numpy()
-    return degrees(float(study.postures["b"][np.unravel_index(values.argmin(), values.shape)[1]]))

@@ -8,7 +8,7 @@ from machines.mit_ss1_calibrated import CALIBRATED_GRANITE
 from machines.mit_ss1_frame import MOUNTS
 from machines.mit_ss1_whole import MitSS1Whole
 from machines.published_son import MACHINE, STIFFNESS
-from reports.content import Block, Column, Fact, Facts, Figure, Note, Row, Table, Text
+from reports.content import Block, Column, Fact, Facts, Figure, Row, Table, Text
 from reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from reports.figures.curves import heat
 from reports.figures.whole_machine import whole_machine_view
@@ -202,32 +202,42 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
             ],
             [
                 "Footings of rails and mounts",
-                f"{mm * frame.rail_width:g} mm wide; {mm * frame.mount_size:g} mm square, "
-                f"{mm * frame.mount_inset:g} mm from the edges",
+                (
+                    f"{mm * frame.rail_width:g} mm wide; {mm * frame.mount_size:g} mm square, "
+                    f"{mm * frame.mount_inset:g} mm from the edges"
+                ),
                 "ours; mean motion of the footing (RBE3), the blocks' rails rigid",
             ],
             [
                 "Plane of the mechanism",
-                f"{mm * whole.offset:g} mm before the plate, origin {mm * whole.height:g} mm "
-                "above the base",
+                (
+                    f"{mm * whole.offset:g} mm before the plate, origin {mm * whole.height:g} mm "
+                    "above the base"
+                ),
                 "ours",
             ],
             [
                 "Bearings on the housing, radial and axial",
-                f"{micro(machine.radial_stiffness or np.inf)} and "
-                f"{micro(machine.axial_stiffness or np.inf)} N/µm",
+                (
+                    f"{micro(machine.radial_stiffness or np.inf)} and "
+                    f"{micro(machine.axial_stiffness or np.inf)} N/µm"
+                ),
                 "calibrated",
             ],
             [
                 "Bearings on the blocks, radial and axial",
-                f"{micro(machine.block_radial_stiffness or np.inf)} and "
-                f"{micro(machine.block_axial_stiffness or np.inf)} N/µm",
+                (
+                    f"{micro(machine.block_radial_stiffness or np.inf)} and "
+                    f"{micro(machine.block_axial_stiffness or np.inf)} N/µm"
+                ),
                 "calibrated",
             ],
             [
                 "Housing; each strut",
-                f"{machine.housing_mass:g} kg, {machine.housing_inertia:g} kg m²; "
-                f"{machine.strut_mass:g} kg",
+                (
+                    f"{machine.housing_mass:g} kg, {machine.housing_inertia:g} kg m²; "
+                    f"{machine.strut_mass:g} kg"
+                ),
                 "calibrated; housing on its lower bounds",
             ],
             ["Damping of every mode", "1 %", "ours; the thesis prints none"],
@@ -237,13 +247,4 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
                 "not published; the table's own modes lie above 400 Hz (section 9.2.2)",
             ],
         ],
-    )
-
-
-def home_note() -> Note:
-    """Which machine a chapter is about."""
-    return Note(
-        "Three sets of bearings stand in this report, because the thesis's numbers do not all "
-        "come from one machine: that of Fig. 29 and Table 2 (assembly forces), that of the modes "
-        "of the finite element model, and that of the modes measured. Each chapter says which."
     )

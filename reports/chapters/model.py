@@ -21,6 +21,7 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
     parts = [
         count(len(model.nodes), "node"),
         count(len(structure.beams), "beam"),
+        count(len(model.solids), "solid"),
         count(len(model.joints), "joint"),
         count(len(structure.springs), "spring"),
         count(len(model.supports), "supported node"),
@@ -63,6 +64,15 @@ def structure_chapter(model: Model) -> Chapter:
         "unit": "m",
         "nodes": dict(zip(linkage.nodes, model.placement.positions.tolist(), strict=True)),
         "beams": {b.name: list(b.nodes) for b in model.structure.beams},
+        "solids": {
+            s.name: {
+                "nodes": list(s.tied),
+                "inside": list(s.monitors),
+                "materials": list(s.materials),
+                "surface": {"points": s.points.tolist(), "triangles": s.triangles.tolist()},
+            }
+            for s in model.solids
+        },
         "bodies": {b.name: list(b.nodes) for b in (*model.structure.rigid, *linkage.bodies)},
         "joints": {
             joint.name: {

@@ -31,6 +31,13 @@ def _print(found: ModelCheck) -> None:
             center = ", ".join(show(round(1e3 * v, 6)) for v in found.mass.center)
             rows.append(("centre of mass, mm", center))
     out.print(table(found.model.title or "Model", ["", ""], rows))
+    if found.model.solids:
+        heads = ["solid", "mass, kg", "degrees of freedom", "kept", "accurate below, Hz"]
+        solids = [
+            (s.name, s.weighed[0], s.reduced.shapes.shape[0], 6 * len(s.nodes), s.accurate_to)
+            for s in found.model.solids
+        ]
+        out.print(table("Solids, reduced to their interfaces", heads, solids))
     for title, motions in (
         ("Motions left with the drives held", counts.motions),
         ("Motions with the drives free", counts.driven_motions),

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from machines.model import Model
+from machines.model_solid_element import SolidElement
 from msa import LoadCase, StaticSolution
 from msa.sections import Section
 from reports.figures.shapes import Shape, ball, box, cylinder, mesh
@@ -45,6 +46,12 @@ def model_view(model: Model) -> dict[str, Any]:
     traces = []
     if structure.beams:
         traces.append(mesh(_beams(model, size), "beam", "#8fa1b3"))
+    if model.solids:
+        shapes = [Shape(s.points, s.triangles, _named(s)) for s in model.solids]
+        # glass, so that nodes and joints behind it stay in sight
+        traces.append(mesh(shapes, "solid", "#b9b2a6", opacity=0.45, flatshading=True))
+        edges = [tuple(s.points[pair]) for s in model.solids for pair in s.outline]
+        traces.append(segments(edges, "edge of a solid", "#7d766b", 2, showlegend=False))
     spokes = _spokes(model, at)
     if spokes:
         traces.append(segments(spokes, "rigid body", "#3d4854", 5))
@@ -89,6 +96,7 @@ def deformed_view(
     at = dict(zip(model.structure.linkage.nodes, model.placement.positions, strict=True))
     start, end = model.placed.beam_ends
     resting = [*zip(start, end, strict=True), *_spokes(model, at)]
+    resting += [tuple(s.points[pair]) for s in model.solids for pair in s.outline]
     scale = {
         "color": rounded(np.nan_to_num(moved) * 1e6, 5),
         "colorscale": "Viridis",
@@ -126,7 +134,7 @@ def deformed_shape(
     """Points of the deformed lines, (n, 3) in m, and the true displacement there, (n,) in m.
 
     Along a beam element between the cubic (Hermite) shape of its end displacements and
-    rotations; across rigid bodies straight. NaN parts the lines.
+    rotations; across rigid bodies straight; of a solid its edges. NaN parts the lines.
     """
     structure = model.structure
     positions, u = model.placed.positions, solution.displacements[..., case]
@@ -139,6 +147,11 @@ def deformed_shape(
         lines += [a + share * (b - a) + factor * move, gap]
         moves += [move, gap]
     index = structure.linkage.node_index
+    for solid in model.solids:
+        motion = solid.motion(u[[index[n] for n in solid.nodes]])
+        for pair in solid.outline:
+            lines += [solid.points[pair] + factor * motion[pair], gap]
+            moves += [motion[pair], gap]
     for group in _rigid_groups(model):
         rows = [index[n] for n in group]
         centre, shift = positions[rows].mean(axis=0), u[rows, :3].mean(axis=0)
@@ -178,6 +191,10 @@ def _beams(model: Model, size: float) -> list[Shape]:
             sizes = (float(length[i]), widths[0], widths[1])
             shapes.append(box((start[i] + end[i]) / 2, axes[i].T, sizes, label))
     return shapes
+
+
+def _named(solid: SolidElement) -> str:
+    return f"{solid.name}: {', '.join(solid.materials)}, {solid.weighed[0]:.4g} kg"
 
 
 def _is_round(section: Section) -> bool:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from numpy.typing import ArrayLike
-
 from reports.figures.theme import INK, LEGEND, PALETTE, axis, layout, rounded
 from reports.page import plain
 
@@ -103,7 +101,7 @@ def energy_bars(
     }
 
 
-def singular_values(some: Mapping[str, ArrayLike], threshold: float) -> dict[str, Any]:
+def singular_values(some: Mapping[str, Sequence[float]], threshold: float) -> dict[str, Any]:
     """Singular values beside the largest of each set; below the threshold nothing is determined.
 
     Parameters
@@ -117,16 +115,15 @@ def singular_values(some: Mapping[str, ArrayLike], threshold: float) -> dict[str
     symbols = ("circle", "square", "diamond", "triangle-up")
     traces = []
     for i, (name, values) in enumerate(some.items()):
-        v = [float(x) for x in values]  # type: ignore[union-attr]
-        shown = [max(x / v[0], foot) for x in v]
+        shown = [max(v / values[0], foot) for v in values]
         traces.append(
             {
                 "type": "scatter",
                 "mode": "lines+markers",
                 "name": plain(name),
-                "x": list(range(1, len(v) + 1)),
+                "x": list(range(1, len(values) + 1)),
                 "y": rounded(shown, 4),
-                "customdata": rounded(v, 4),
+                "customdata": rounded(values, 4),
                 "line": {"color": PALETTE[i % len(PALETTE)], "width": 1.5},
                 "marker": {"size": 9, "symbol": symbols[i % len(symbols)]},
                 "hovertemplate": "combination %{x}: %{customdata:.3g}<extra>"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from machines.model_solid_element import SolidElement
 from reports.figures.solid import path, scene
 from reports.figures.theme import INK, LEGEND, axis, layout, rounded
 from reports.numbers import significant
@@ -32,8 +33,8 @@ def drawn_amplitude(study: VibrationStudy) -> float:
 def mode_lines(study: VibrationStudy) -> tuple[Array, Array]:
     """Points of the structure's lines, (n, 3), and their motion in each mode, (m, n, 3).
 
-    Along beams by the cubic of the ends' displacements and rotations; rigid parts straight. NaN
-    parts the lines. Each mode's largest motion is one.
+    Along beams by the cubic of the ends' displacements and rotations; rigid parts straight; of
+    solids their edges. NaN parts the lines. Each mode's largest motion is one.
     """
     structure, at = study.placed.structure, study.placed.positions
     shapes = study.modes.shapes
@@ -63,6 +64,11 @@ def mode_lines(study: VibrationStudy) -> tuple[Array, Array]:
         where += [at[a] + s * span, gap]
         moves += [cubic + axial[..., None] * t, gaps]
     index = structure.mesh_index
+    for solid in (e for e in structure.elements if isinstance(e, SolidElement)):
+        motion_of = solid.motion(shapes[:, [index[n] for n in solid.nodes]])
+        for pair in solid.outline:
+            where += [solid.points[pair], gap]
+            moves += [motion_of[:, pair], gaps]
     for a, b in study.lines:
         where += [at[[index[a], index[b]]], gap]
         moves += [shapes[:, [index[a], index[b]], :3], gaps]

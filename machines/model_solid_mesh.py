@@ -1,0 +1,251 @@
+"""Meshes of the solids of a model file: read, filled with tetrahedra, or generated."""
+
+from __future__ import annotations
+
+import stat
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from math import ceil, pi, prod
+from pathlib import Path, PurePosixPath, PureWindowsPath
+from typing import TypeVar
+
+from machines.model_solid_schema import SolidTable
+from meshes.cells import CELL_TYPES
+from meshes.gmsh_volumes import tetrahedra
+from meshes.grading import lines_through
+from meshes.grids import grid
+from meshes.l_frame import l_frame
+from meshes.mesh import Mesh
+from meshes.mesh_files import read_mesh
+from meshes.order import linear
+from meshes.quality import check_quality
+from meshes.selection import Box, patches
+from meshes.surfaces import read_surface
+from meshes.tube import tube
+from strutwork.errors import ModelError, StrutworkError
+
+Value = TypeVar("Value")
+
+#: Larger files of parts are refused, bytes.
+MAX_PART = 500_000_000
+
+#: Generated meshes of more cells are refused.
+MAX_CELLS = 200_000
+
+#: Cells around a tube: its section is a polygon, 1.1 % short of the ring with these.
+LEAST_AROUND = 24
+
+SOURCES = ("mesh", "step", "surface", "shape")
+
+#: What each source needs, and what it may have.
+KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "mesh": ((), ("unit",)),
+    "step": (("cell",), ()),
+    "surface": (("cell",), ("unit",)),
+    "block": (("size", "cell"), ()),
+    "l_frame": (("envelope", "plate", "base", "cell"), ()),
+    "tube": (("inner_diameter", "outer_diameter", "length", "cell"), ()),
+}
+
+
+def field_of(table: SolidTable) -> str:
+    """Path of a solid's table in messages."""
+    return f"solids.{table.name}"
+
+
+@contextmanager
+def at_field(field: str) -> Iterator[None]:
+    """Errors of deeper floors, told as errors of a field of the file."""
+    try:
+        yield
+    except StrutworkError as error:
+        raise type(error)(field, f"{error.part}: {error.problem}", error.remedy) from error
+
+
+def check_source(table: SolidTable) -> str:
+    """The source of a solid's mesh: mesh, step, surface, or the name of its shape.
+
+    Raises
+    ------
+    ModelError
+        None or several of them, a key that is missing, or one of another source.
+    """
+    field = field_of(table)
+    given = [name for name in SOURCES if getattr(table, name) is not None]
+    if len(given) != 1:
+        raise ModelError(
+            field,
+            f"has {' and '.join(given) or 'no mesh'}.",
+            f"Give exactly one of {', '.join(SOURCES)}.",
+        )
+    source = table.shape or given[0]
+    needed, allowed = KEYS[source]
+    for key in needed:
+        if getattr(table, key) is None:
+            raise ModelError(f"{field}.{key}", "is missing.", f"A {source} needs it.")
+    others = {key for keys in KEYS.values() for group in keys for key in group}
+    for key in sorted(others - {*needed, *allowed}):
+        if getattr(table, key) is not None:
+            raise ModelError(
+                f"{field}.{key}",
+                f"is no key of a {source}.",
+                f"A {source} has: {', '.join((*needed, *allowed)) or 'no further keys'}.",
+            )
+    return source
+
+
+def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
+    """The mesh of a solid in its own frame, with a patch for every interface.
+
+    Mesh lines of a block and of an l_frame fall on the edges of the interfaces' boxes. Of
+    quadratic cells the corners are kept. A patch found by a box is named as `patch_name` says.
+
+    Parameters
+    ----------
+    table : SolidTable
+    folder : Path
+        Where relative names of files begin.
+
+    Returns
+    -------
+    Mesh
+
+    Raises
+    ------
+    ModelError
+        A file that is missing, too large, damaged or outside the folder, inverted cells, an
+        unknown patch, a box without a face; names the field.
+    """
+    source = check_source(table)
+    field = field_of(table)
+    if source == "mesh" and table.mesh is not None:
+        path = part_file(table.mesh, folder, f"{field}.mesh")
+        with at_field(f"{field}.mesh"):
+            mesh = read_mesh(path, table.unit or "m")
+    elif source == "step" and table.step is not None:
+        path = part_file(table.step, folder, f"{field}.step")
+        with at_field(f"{field}.step"):
+            mesh = tetrahedra(path, _given(table.cell))
+    elif source == "surface" and table.surface is not None:
+        path = part_file(table.surface, folder, f"{field}.surface")
+        with at_field(f"{field}.surface"):
+            mesh = tetrahedra(read_surface(path, table.unit or "m"), _given(table.cell))
+    else:
+        with at_field(field):
+            mesh = _generated(table)
+    with at_field(field):
+        if any(CELL_TYPES[b.kind].linear_kind != b.kind for b in mesh.blocks):
+            mesh = linear(mesh)
+            check_quality(mesh)
+    return _with_patches(table, mesh)
+
+
+def part_file(name: str, folder: Path, field: str) -> Path:
+    """Path of a file that a model file names: beside it or below.
+
+    A model file may come from elsewhere; it reaches nothing that does not lie with it.
+
+    Raises
+    ------
+    ModelError
+        An absolute name or one that leads upwards; no ordinary file; a file that is too large.
+    """
+    pure = (PurePosixPath(name), PureWindowsPath(name))
+    if any(p.is_absolute() or p.drive or ".." in p.parts for p in pure):
+        raise ModelError(
+            field,
+            f'"{name}" leads out of the folder of the model file.',
+            "Put the file, or a link to it, beside the model file or below it.",
+        )
+    path = folder / name
+    try:
+        status = path.stat()
+    except (OSError, ValueError):
+        raise ModelError(
+            field, f'there is no file "{name}" beside the model file.', "Check its name."
+        ) from None
+    if not stat.S_ISREG(status.st_mode):
+        raise ModelError(field, f'"{name}" is not an ordinary file.', "Name a file.")
+    if status.st_size > MAX_PART:
+        raise ModelError(
+            field,
+            f'"{name}" has {status.st_size / 1e6:.0f} MB, more than {MAX_PART / 1e6:.0f} MB.',
+            "Mesh it coarser.",
+        )
+    return path
+
+
+def patch_name(table: SolidTable, index: int) -> str:
+    """Name of the patch of an interface: the file's, or that of its box."""
+    named = table.interfaces[index].patch
+    return f"interface {index + 1}" if named is None else named
+
+
+def _generated(table: SolidTable) -> Mesh:
+    cell, name = _given(table.cell), table.name
+    if table.shape == "block":
+        size = _given(table.size)
+        _check_count(size, cell)
+        x, y, z = (
+            lines_through((0.0, length, *inner), cell)
+            for length, inner in zip(size, _box_stops(table, size), strict=True)
+        )
+        return grid(x, y, z, name=name)
+    if table.shape == "l_frame":
+        envelope = _given(table.envelope)
+        _check_count(envelope, cell)
+        further = dict(zip("xyz", _box_stops(table, envelope), strict=True))
+        plate, base = _given(table.plate), _given(table.base)
+        return l_frame(envelope, plate, base, size=cell, stops=further, name=name)
+    inner, outer = _given(table.inner_diameter) / 2.0, _given(table.outer_diameter) / 2.0
+    lengths = (outer - inner, max(LEAST_AROUND * cell, 2.0 * pi * outer), _given(table.length))
+    _check_count(lengths, cell)
+    # a length that is a whole number of cells must not gain one by rounding
+    divisions = [max(1, ceil(length / cell * (1.0 - 1e-9))) for length in lengths]
+    return tube(inner, outer, lengths[2], divisions, name=name)
+
+
+def _given(value: Value | None) -> Value:
+    """A value that `check_source` has asked for."""
+    if value is None:
+        raise ModelError("shape", "lacks a size.", "Give all sizes of the shape.")
+    return value
+
+
+def _check_count(lengths: Sequence[float], cell: float) -> None:
+    count = prod(max(1.0, length / cell) for length in lengths)
+    if count > MAX_CELLS:
+        raise ModelError(
+            "cell",
+            f"{cell:g} m makes about {count:.2g} cells; {MAX_CELLS} is the limit.",
+            "Choose larger cells, or check the unit.",
+        )
+
+
+def _box_stops(table: SolidTable, lengths: Sequence[float]) -> list[list[float]]:
+    """Coordinates inside the envelope at which boxes of interfaces begin and end, by axis."""
+    boxes = [i.box for i in table.interfaces if i.box is not None]
+    return [
+        sorted({corner[axis] for box in boxes for corner in box if 0.0 < corner[axis] < length})
+        for axis, length in enumerate(lengths)
+    ]
+
+
+def _with_patches(table: SolidTable, mesh: Mesh) -> Mesh:
+    for i, interface in enumerate(table.interfaces):
+        field = f"{field_of(table)}.interfaces[{i}]"
+        if interface.patch is not None:
+            with at_field(f"{field}.patch"):
+                mesh.patch(interface.patch)
+        elif interface.box is not None:
+            low, high = interface.box
+            if any(a > b for a, b in zip(low, high, strict=True)):
+                raise ModelError(
+                    f"{field}.box",
+                    f"begins at {list(low)} m and ends at {list(high)} m, below it.",
+                    "Give the lowest corner first.",
+                )
+            box: Box = (low, high, interface.normal)
+            with at_field(f"{field}.box"):
+                mesh = patches(mesh, {patch_name(table, i): box})
+    return mesh
