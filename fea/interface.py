@@ -94,6 +94,8 @@ def tie(interface: Interface, points: Array, nodes: NDArray[np.intp], weights: A
         A patch without nodes or area, or on one line, which gives no rotation about the line.
     """
     part = f"interface {interface.name}"
+    # corners of quadratic triangles stand for no area: round-off may put them below zero
+    weights = np.maximum(weights, 0.0)
     total = float(np.sum(weights)) if len(nodes) else 0.0
     if len(nodes) == 0 or total <= 0:
         raise ModelError(

@@ -9,6 +9,8 @@ from math import ceil, pi, prod
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import TypeVar
 
+import numpy as np
+
 from machines.model_solid_schema import SolidTable
 from meshes.cells import CELL_TYPES
 from meshes.gmsh_volumes import tetrahedra
@@ -34,6 +36,9 @@ MAX_CELLS = 200_000
 
 #: Cells around a tube: its section is a polygon, 1.1 % short of the ring with these.
 LEAST_AROUND = 24
+
+#: How far a face may stand out of a box, as a share of the mesh's diagonal.
+BOX_SLACK = 1e-6
 
 SOURCES = ("mesh", "step", "surface", "shape")
 
@@ -232,6 +237,8 @@ def _box_stops(table: SolidTable, lengths: Sequence[float]) -> list[list[float]]
 
 
 def _with_patches(table: SolidTable, mesh: Mesh) -> Mesh:
+    # an STL has single precision, and so may a mesh file's author
+    slack = BOX_SLACK * float(np.linalg.norm(mesh.extent))
     for i, interface in enumerate(table.interfaces):
         field = f"{field_of(table)}.interfaces[{i}]"
         if interface.patch is not None:
@@ -245,7 +252,11 @@ def _with_patches(table: SolidTable, mesh: Mesh) -> Mesh:
                     f"begins at {list(low)} m and ends at {list(high)} m, below it.",
                     "Give the lowest corner first.",
                 )
-            box: Box = (low, high, interface.normal)
+            box: Box = (
+                [v - slack for v in low],
+                [v + slack for v in high],
+                interface.normal,
+            )
             with at_field(f"{field}.box"):
                 mesh = patches(mesh, {patch_name(table, i): box})
     return mesh

@@ -25,12 +25,15 @@ from meshes.boundary import boundary
 from meshes.mesh import Mesh
 from meshes.surfaces import surface_of
 from msa import Material
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, NumericalError
 
 Array = NDArray[Any]
 
 #: Modes with the interfaces held, where the file says neither how many nor up to where.
 MODES = 12
+
+#: Largest over smallest stiffness of a reduced solid; beyond it rounding spoils the statics.
+SPREAD = 1e9
 
 #: How far a node may stand from its patch's middle, beside the farthest point of the patch.
 REACH = 1.0 + 1e-6
@@ -124,6 +127,7 @@ def _solid(table: SolidTable, tables: ModelTable, folder: Path) -> SolidElement:
         solid = Solid(mesh, materials, table.order, table.name)
         modes = MODES if table.modes is None else table.modes
         reduced = reduce_solid(solid, interfaces, cutoff=table.cutoff, modes=modes)
+    _check_spread(field, reduced.local_stiffness)
     outer = boundary(mesh)
     surface = surface_of(mesh, outer)
     return SolidElement(
@@ -137,6 +141,20 @@ def _solid(table: SolidTable, tables: ModelTable, folder: Path) -> SolidElement:
         surface.points @ rotation.T + shift,
         np.asarray(surface.triangles, dtype=np.int64),
     )
+
+
+def _check_spread(field: str, stiffness: Array) -> None:
+    """NumericalError where no static answer could hold its residual."""
+    values = np.linalg.eigvalsh(stiffness)
+    # rigid motions cost nothing
+    spread = float(values[-1] / max(values[6], 1e-300))
+    if spread > SPREAD:
+        raise NumericalError(
+            field,
+            f"the stiffnesses of its reduced model spread over {spread:.2g}: its mesh is too "
+            "coarse to tell so many modes apart.",
+            "Choose smaller cells, or retain fewer modes.",
+        )
 
 
 def _materials(table: SolidTable, tables: ModelTable, mesh: Mesh) -> dict[str, Material]:

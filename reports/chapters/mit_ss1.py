@@ -29,9 +29,9 @@ from studies.mit_ss1_modes import TILT
 from studies.son_stiffness import map_figures
 
 DRAWING = (
-    "The mechanism alone, with its joints. Seen from outside towards the granite. Drag to turn, scroll to zoom; names show under the "
-    "pointer. Lengths are in mm; struts have their section, blocks, rails and housing are not to "
-    "scale. Black arrows show the driven motions."
+    "The mechanism alone, with its joints. Seen from outside towards the granite. Drag to turn, "
+    "scroll to zoom; names show under the pointer. Lengths are in mm; struts have their section, "
+    "blocks, rails and housing are not to scale. Black arrows show the driven motions."
 )
 
 
@@ -110,6 +110,7 @@ def _whole_facts(study: MitSS1Study) -> list[Fact]:
             )
         )
     tilt = whole.named["numerical"].frequencies[TILT]
+    beyond = min(whole.beyond_mounts.least, key=lambda one: one.value)
     least = min(whole.vibration.least, key=lambda one: one.value)
     exponents = (study.moving_size.stiffness_law(0), study.moving_size.frequency_law(0))
     rollers = (study.moving_size.stiffness_law(1), study.moving_size.frequency_law(1))
@@ -119,15 +120,16 @@ def _whole_facts(study: MitSS1Study) -> list[Fact]:
             f"{tilt:.1f}",
             "Hz",
             "the housing's tilt at home; "
-            f"{place_shares(whole.named['numerical'], TILT)['bearings on the housing']:.0f} % of "
+            f"{place_shares(whole.named['numerical'], TILT)['housing bearings']:.0f} % of "
             "its energy in the bearings on the housing",
         ),
         Fact(
             "Least dynamic stiffness at the tool",
             significant(least.value / 1e6),
             "N/µm",
-            f"along {least.output.direction} at {significant(least.frequency)} Hz, to the floor; "
-            "1 % damping assumed",
+            f"along {least.output.direction} at {significant(least.frequency)} Hz, on the mounts; "
+            f"{significant(beyond.value / 1e6)} at {significant(beyond.frequency)} Hz; 1 % damping "
+            "assumed",
         ),
         Fact(
             "Exponents of size: stiffness, frequency",

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from math import isfinite
 from types import MappingProxyType
 
+from reports.chapters.mit_ss1_modes import nearly
 from reports.content import Block, Cell, Chapter, Column, Figure, Points, Table, Text
 from reports.data_files import csv_file, json_file
 from reports.figures.modes import singular_values
@@ -113,24 +114,24 @@ def _parameters(found: Mapping[Part, Calibration]) -> Table:
             rows.append(
                 [
                     words,
-                    STEPS[part],
                     significant(factor * float(value)),
                     unit,
                     f"±{100 * float(error):.1f} %" if known else Cell("not determined", "poor"),
                     f"{significant(factor * p.low, 2)} to {significant(factor * p.high, 2)}",
                     Cell("on its bound", "poor") if bound else "within",
+                    STEPS[part],
                 ]
             )
     return Table(
         "Calibrated parameters",
         (
             Column("parameter", "", False),
-            Column("step", "", False),
             Column("value"),
             Column("unit", "", False),
             Column("standard error"),
             Column("bounds", "", False),
             Column("", "", False),
+            Column("step", "", False),
         ),
         rows,
         FILE,
@@ -147,27 +148,27 @@ def _targets(found: Mapping[Part, Calibration]) -> Table:
             rows.append(
                 [
                     t.name,
-                    STEPS[part],
                     f"{significant(t.value, 4)} ± {significant(t.uncertainty, 2)}",
                     significant(float(computed), 4),
                     t.unit.replace("um", "µm"),
-                    percent(100 * (float(computed) / t.value - 1)),
+                    percent(nearly(100 * (float(computed) / t.value - 1))),
                     Cell(
                         f"{shown:+.2f}".replace("-", MINUS) if shown else "0.00",
                         "good" if size <= 2 else "poor",
                     ),
+                    STEPS[part],
                 ]
             )
     return Table(
         "Targets; residuals in units of the stated uncertainty, red beyond two",
         (
             Column("target", "", False),
-            Column("step", "", False),
             Column("published and weight"),
             Column("ours"),
             Column("unit", "", False),
             Column("difference"),
             Column("residual"),
+            Column("step", "", False),
         ),
         rows,
         FILE,

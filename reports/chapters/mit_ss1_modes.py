@@ -47,8 +47,8 @@ PLACES: Mapping[str, str] = MappingProxyType(
     {
         "granite": r"element granite",
         "mounts": r"joint mount\d",
-        "bearings on the housing": r"joint strut\d/housing",
-        "bearings on the blocks": r"joint strut\d/block",
+        "housing bearings": r"joint strut\d/housing",
+        "block bearings": r"joint strut\d/block",
         "struts": r"beam strut",
         "drives": r"joint block\d/guide",
     }
@@ -68,7 +68,7 @@ def modes_chapter(study: WholeStudy) -> Chapter:
         Note(
             "All agreement here is calibration: the thesis prints neither the granite's "
             "thicknesses nor the masses and bearing stiffnesses of its model. What each number "
-            "was calibrated on stands below, what the data leave open in the next chapter but one."
+            "was calibrated on stands below, what the data leave open under Calibration."
         ),
         _published(study),
         _dots(study),
@@ -89,6 +89,8 @@ def response_chapter(study: WholeStudy) -> Chapter:
     """The tool's receptance on the granite and its exact least dynamic stiffness."""
     some = study.vibration
     least = min(some.least, key=lambda one: one.value)
+    elastic = study.beyond_mounts
+    softest = min(elastic.least, key=lambda one: one.value)
     blocks: list[Block] = [
         Note(
             "Damping is assumed: 1 % of critical in every mode; the thesis prints none. Peaks are "
@@ -97,15 +99,23 @@ def response_chapter(study: WholeStudy) -> Chapter:
         ),
         response_figure(some),
         minima_table([("", some)], f"{some.key}-minima.csv"),
+        minima_table([("", elastic)], f"{elastic.key}-minima.csv"),
         Text(
             f"The least of all is {significant(least.value / 1e6)} N/µm at "
             f"{significant(least.frequency)} Hz: the machine on its soft mounts, where tool and "
-            f"work move together. Band {BAND[0]:g} to {BAND[1]:g} Hz, to which the reduced granite "
-            "holds. The minimum is that of the continuous curve, not of drawn points."
+            "work move together. Beyond the mounts' modes it is "
+            f"{significant(softest.value / 1e6)} N/µm along {softest.output.direction} at "
+            f"{significant(softest.frequency)} Hz, the strut assembly's. The bands end at "
+            f"{BAND[1]:g} Hz, to which the reduced granite holds. The minima are those of the "
+            "continuous curve, not of drawn points."
         ),
     ]
     return Chapter(
-        "dynamic-stiffness", "Dynamic stiffness at the tool", tuple(blocks), response_files(some)
+        "dynamic-stiffness",
+        "Dynamic stiffness at the tool",
+        tuple(blocks),
+        # the second band's curves are part of the first's
+        (*response_files(some), response_files(elastic)[-1]),
     )
 
 
@@ -117,9 +127,9 @@ def _published(study: WholeStudy) -> Table:
             [
                 _row_name(r),
                 r.quantity,
-                f"{r.published:g}",
+                str(r.published),
                 fixed(r.computed, 1),
-                Cell(percent(r.difference_percent), "good" if met else "poor"),
+                Cell(percent(nearly(r.difference_percent)), "good" if met else "poor"),
                 r.status,
             ]
         )
@@ -136,6 +146,11 @@ def _published(study: WholeStudy) -> Table:
         rows,
         file_name(MODES.key),
     )
+
+
+def nearly(difference: float) -> float:
+    """A difference in percent whose rounding to one decimal keeps no sign of zero."""
+    return difference if abs(difference) >= 0.05 else 0.0
 
 
 def _row_name(row: PublishedRow) -> str:
@@ -167,7 +182,8 @@ def _notes(study: WholeStudy) -> tuple[str, ...]:
     found: dict[str, list[str]] = {}
     for r in study.rows:
         found.setdefault(r.note, []).append(f"{_row_name(r)} ({r.quantity})")
-    return tuple(f"{', '.join(names)}: {note}.".capitalize() for note, names in found.items())
+    lines = (f"{', '.join(names)}: {note}." for note, names in found.items())
+    return tuple(f"{line[0].upper()}{line[1:]}" for line in lines)
 
 
 def _shapes(study: WholeStudy) -> Figure:
@@ -180,8 +196,8 @@ def _shapes(study: WholeStudy) -> Figure:
     return Figure(
         "mode-shapes",
         "Mode shapes of the whole machine: the granite's surface and the mechanism's rods "
-        "coloured by displacement, at rest in grey. At the slider's middle the largest motion is "
-        f"drawn as {significant(1e3 * length, 2)} mm.",
+        "coloured by displacement as a share of the largest, at rest in grey. At the slider's "
+        f"middle the largest motion is drawn as {significant(1e3 * length, 2)} mm.",
         modes_view(pictures),
         "Three-dimensional drawing of the mode shapes of granite and mechanism.",
         SHAPES_FILE,
@@ -319,16 +335,19 @@ def _left_open(study: WholeStudy) -> tuple[str, ...]:
         (
             "The granite's twist parts into two modes with the strut assembly; the one that holds "
             f"more of it, {100 * study.named['numerical'].shares[TWISTING]:.0f} %, is shown. With "
-            "the measured machine's bearings the other one does, so that row is "
+            "the measured machine's softer bearings that is the upper one, at "
             f"{ours['measured'][TWISTING]:.0f} Hz."
         ),
-        (
-            "Rigid-body modes: the thesis's shapes are in pictures only; "
-            + "; ".join(f"its {a.removeprefix('rigid body ')} beside our {b.removeprefix('rigid body ')}"
-                        for a, b in MOUNT_ROWS.items())
-            + "."
-        ),
-    )  # fmt: skip
+        f"Rigid-body modes: the thesis's shapes are in pictures only; {_beside()}.",
+    )
+
+
+def _beside() -> str:
+    pairs = (
+        " beside our ".join(name.removeprefix("rigid body ") for name in pair)
+        for pair in MOUNT_ROWS.items()
+    )
+    return "its " + ", ".join(pairs)
 
 
 def _files(study: WholeStudy) -> list[DataFile]:

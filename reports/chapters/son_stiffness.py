@@ -11,7 +11,7 @@ from machines.published_son import TABLE_6
 from reports.content import Block, Cell, Chapter, Column, Fact, Facts, Figure, Row, Table, Text
 from reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from reports.figures.curves import heat
-from reports.numbers import fixed, micro, percent, significant
+from reports.numbers import MINUS, fixed, micro, percent, significant
 from studies import PublishedRow, file_name
 from studies.published_table import COLUMNS
 from studies.son_stiffness import (
@@ -115,7 +115,7 @@ def _table_6(rows: tuple[PublishedRow, ...]) -> Table:
     for one, other in zip(printed, swapped, strict=True):
         lines.append(
             [
-                one.row.removesuffix(", as printed"),
+                one.row.removesuffix(", as printed").replace("-", MINUS),
                 one.quantity,
                 significant(one.computed),
                 *_beside(one),

@@ -12,7 +12,7 @@ from reports.cli.progress import shown
 def run(target: str, out: str | None, json: bool) -> None:
     """Write the report and say where it lies."""
     folder = Path(out) if out is not None else Path("out") / Path(target).stem
-    with shown() as started:
+    with shown("steps") as started:
         written = write_report(target, folder, started)
     if json:
         print_json({"report": str(written.report), "data": [str(p) for p in written.data]})

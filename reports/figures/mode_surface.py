@@ -23,7 +23,7 @@ LINE_RADIUS = 0.011
 EDGE = 0.5
 
 #: From the front, where the machine stands before the granite's plate.
-CAMERA = {"eye": {"x": 1.05, "y": 1.75, "z": 0.75}, "center": {"x": 0, "y": 0, "z": -0.12}}
+CAMERA = {"eye": {"x": 1.1, "y": 1.85, "z": 0.75}, "center": {"x": 0, "y": 0, "z": -0.2}}
 
 
 def mode_surface(picture: ModePicture, name: str = "displacement") -> SurfaceField:
@@ -98,12 +98,7 @@ def modes_view(pictures: Mapping[str, ModePicture]) -> dict[str, Any]:
         flatshading=True,
         showlegend=False,
         hoverinfo="skip",
-        colorbar={
-            "title": {"text": "displacement / largest", "side": "right"},
-            "thickness": 12,
-            "len": 0.6,
-            "outlinewidth": 0,
-        },
+        colorbar={"thickness": 12, "len": 0.6, "outlinewidth": 0},
     )
     del swung["text"]
     # the invisible trace only sizes the view

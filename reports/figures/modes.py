@@ -16,6 +16,9 @@ STYLES = (
     ("circle", PALETTE[1]),
 )
 
+#: Hz; on a logarithmic axis plotly leaves the decade out of its own labels.
+TICKS = [10, 20, 30, 50, 70, 100, 150, 200, 300, 500, 1000]
+
 
 def frequency_dots(
     categories: Sequence[str], series: Mapping[str, Sequence[float | None]]
@@ -51,7 +54,9 @@ def frequency_dots(
     return {
         "data": traces,
         "layout": layout(
-            xaxis=axis("frequency (Hz)", type="log", dtick="D2", tickangle=0),
+            xaxis=axis(
+                "frequency (Hz)", type="log", tickvals=TICKS, ticktext=list(map(str, TICKS))
+            ),
             yaxis=axis(
                 "",
                 categoryorder="array",

@@ -58,9 +58,10 @@ def test_another_solver_takes_over_where_choleskys_method_fails() -> None:
         np.testing.assert_allclose(matrix @ factor.solve(right), right, atol=1e-9)
 
 
-@pytest.mark.parametrize("solver", [s for s in INSTALLED if not SOLVERS[s].INDEFINITE])
+@pytest.mark.parametrize("solver", [s for s in SOLVERS if not SOLVERS[s].INDEFINITE])
 def test_choleskys_method_refuses_what_is_not_positive(solver: str) -> None:
-    with pytest.raises(ModelError, match="positive definite matrices only"):
+    words = "positive definite matrices only" if solver in INSTALLED else "not installed"
+    with pytest.raises(ModelError, match=words):
         factorize(sp.csc_array(-definite()), solver)
 
 
@@ -73,9 +74,10 @@ def test_complex_symmetric_matrices(solver: str) -> None:
         np.testing.assert_allclose(matrix @ factor.solve(given), given, atol=1e-11)
 
 
-@pytest.mark.parametrize("solver", [s for s in INSTALLED if not SOLVERS[s].COMPLEX])
+@pytest.mark.parametrize("solver", [s for s in SOLVERS if not SOLVERS[s].COMPLEX])
 def test_a_solver_for_real_matrices_refuses_complex_ones(solver: str) -> None:
-    with pytest.raises(ModelError, match="no complex matrices"):
+    words = "no complex matrices" if solver in INSTALLED else "not installed"
+    with pytest.raises(ModelError, match=words):
         factorize(sp.csc_array(definite() * 1j), solver)
 
 

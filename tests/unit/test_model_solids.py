@@ -1,0 +1,533 @@
+from __future__ import annotations
+
+import importlib.util
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from fea import modes
+from fea.interface import Interface
+from fea.mode_damping import damping_ratios
+from fea.reduce_solid import reduce_solid
+from fea.solid import Solid
+from kinematics import GROUND, Body
+from machines import model_solid_mesh
+from machines.model import Model, ModelWarning
+from machines.model_file import parse_model, read_model
+from machines.model_solid_element import SolidElement
+from meshes import (
+    Mesh,
+    block,
+    grid,
+    joined,
+    lines_through,
+    moved,
+    patch,
+    quadratic,
+    surface_of,
+    write_mesh,
+)
+from meshes.boundary import boundary
+from meshes.surfaces import write_surface
+from msa import Material, tool_compliance
+from msa.mass import mass_properties
+from reports.model_check import check_model
+from reports.vibration import model_damping
+from strutwork.errors import ModelError, StrutworkError
+from strutwork.units import LENGTH, quantity
+from tests.model_files import Content, Edit, add, drop, put, toml
+from tests.solid_models import column
+
+INSTALLED = importlib.util.find_spec("gmsh") is not None
+GRANITE = Material.isotropic(60e9, 0.25, density=2900.0, name="granite")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def cache(tmp_path_factory: pytest.TempPathFactory) -> None:
+    """Superelements of these tests stay with them; equal solids are reduced once."""
+    os.environ["XDG_CACHE_HOME"] = str(tmp_path_factory.getbasetemp() / "superelements")
+
+
+def model_of(*edits: Edit, folder: Path | None = None) -> Model:
+    return parse_model(toml(column(*edits)), folder=folder)
+
+
+def from_file(name: str, **changes: object) -> Edit:
+    """The column's shape from a file in place of a block."""
+
+    def edit(content: Content) -> None:
+        solid = content["solids"][0]
+        for key in ("shape", "size", "cell"):
+            solid.pop(key)
+        solid |= {"mesh": name, **changes}
+        solid["interfaces"][1] |= {"kind": "average"}
+
+    return edit
+
+
+def brick(divisions: tuple[int, int, int] = (2, 2, 6)) -> Mesh:
+    mesh = block((0.2, 0.15, 0.6), divisions, name="brick")
+    return patch(mesh, "head", (0.0, 0.0, 0.6), (0.2, 0.15, 0.6))
+
+
+def test_a_solid_beams_and_joints_are_one_structure() -> None:
+    model = model_of()
+    (solid,) = model.solids
+    assert isinstance(solid, SolidElement)
+    assert model.structure.elements == (solid,)
+    assert solid.tied == ("foot", "head")
+    assert solid.monitors[0] == "column/1"
+    assert repr(solid).startswith("<SolidElement column: 2 interfaces, <Superelement column:")
+    # nodes inside a solid are none of the file
+    assert model.nodes == ("ground", "foot", "head", "tip")
+    linkage = model.structure.linkage
+    assert linkage.nodes == (*model.nodes, *solid.monitors, "ground (ground)")
+    assert linkage.bodies == (
+        Body("arm and 1 more", ("foot", "head", "tip", *solid.monitors)),
+        Body(GROUND, ("ground (ground)",)),
+    )
+    np.testing.assert_allclose(solid.positions[:2], [[0.1, 0.075, 0.0], [0.1, 0.075, 0.6]])
+
+
+def test_it_is_what_python_makes_of_it() -> None:
+    model = model_of()
+    # mesh lines fall on the edges of the box
+    x, y = lines_through((0, 0.2, 0.05, 0.15), 0.2), lines_through((0, 0.15, 0.05, 0.1), 0.2)
+    mesh = grid(x, y, lines_through((0, 0.6), 0.2))
+    mesh = patch(mesh, "head", (0.05, 0.05, 0.6), (0.15, 0.1, 0.6))
+    expected = reduce_solid(
+        Solid(mesh, {"solid": GRANITE}, name="column"),
+        [
+            Interface("foot", "-z", (0.1, 0.075, 0.0)),
+            Interface("head", "head", (0.1, 0.075, 0.6), "rigid"),
+        ],
+        modes=18,
+    )
+    found = model.solids[0]
+    assert found.nodes == expected.nodes
+    for name in ("positions", "local_stiffness", "local_mass", "fixed_frequencies", "shapes"):
+        assert np.array_equal(getattr(found.reduced, name), getattr(expected, name))
+
+
+def test_it_weighs_what_it_is() -> None:
+    model = model_of()
+    solid = 0.2 * 0.15 * 0.6 * 2900.0
+    assert model.solids[0].weighed[0] == pytest.approx(solid, rel=1e-10)
+    assert model.solids[0].weighed[1] == pytest.approx([0.1, 0.075, 0.3], rel=1e-9)
+    found, expected = check_model(model).mass, mass_properties(model.placed)
+    assert found is not None
+    assert found.center is not None
+    assert found.total == pytest.approx(solid + 0.06 * 0.04 * 0.2 * 7850 + 5.0, rel=1e-10)
+    assert found.total == pytest.approx(float(expected.total), rel=1e-10)
+    assert found.center == pytest.approx(expected.centre.tolist(), rel=1e-9)
+
+
+def test_the_surface_follows_the_nodes() -> None:
+    turn = Rotation.from_rotvec([0.3, -0.8, 1.1]).as_matrix()
+    model = parse_model(toml(turned(turn, np.array([0.4, -0.2, 1.0]))))
+    (solid,) = model.solids
+    # a rigid motion of the nodes is one of the surface
+    spin, shift = np.array([0.2, -0.1, 0.4]), np.array([0.01, 0.02, -0.03])
+    moves = np.concatenate(
+        [shift + np.cross(spin, solid.positions), np.tile(spin, (len(solid.nodes), 1))], axis=1
+    )
+    expected = shift + np.cross(spin, solid.points)
+    np.testing.assert_allclose(solid.motion(moves), expected, atol=1e-8)
+    np.testing.assert_allclose(
+        solid.motion(np.stack([moves, 2 * moves]))[1], 2 * expected, atol=1e-8
+    )
+    # a closed surface, outwards: its volume is that of the block
+    corners = solid.points[solid.triangles]
+    volume = np.linalg.det(corners - solid.points.mean(axis=0)).sum() / 6.0
+    assert volume == pytest.approx(0.2 * 0.15 * 0.6, rel=1e-9)
+    # twelve edges: 3 pieces along each x, 3 along y, 3 along z
+    assert len(solid.outline) == 4 * (3 + 3 + 3)
+
+
+def turned(turn: np.ndarray, shift: np.ndarray) -> Content:
+    """The column in another frame."""
+    content = column()
+    for name, place in content["nodes"].items():
+        at = turn @ np.array([quantity(v, LENGTH, name) for v in place]) + shift
+        content["nodes"][name] = at.tolist()
+    content["beams"][0]["orientation"] = turn[:, 2].tolist()
+    for part in (content["joints"][0], content["solids"][0]):
+        part["axis"], part["second_axis"] = turn[:, 2].tolist(), turn[:, 0].tolist()
+    content["solids"][0]["position"] = shift.tolist()
+    content["gravity"] = (turn @ [0, 0, -9.81]).tolist()
+    return content
+
+
+@pytest.mark.parametrize("rotation", [[0.0, 0.0, 0.0], [0.3, -0.8, 1.1], [0.0, np.pi / 2, 0.0]])
+def test_another_frame_changes_nothing(rotation: list[float]) -> None:
+    turn = Rotation.from_rotvec(rotation).as_matrix()
+    first = model_of()
+    second = parse_model(toml(turned(turn, np.array([0.4, -0.2, 1.0]))))
+    # round-off beside the softest motion; stiffnesses differ by ten orders within the solid
+    np.testing.assert_allclose(
+        modes(second.placed, 10).frequencies, modes(first.placed, 10).frequencies, rtol=1e-6
+    )
+    blocks = np.kron(np.eye(2), turn)
+    expected = blocks @ tool_compliance(first.placed) @ blocks.T
+    np.testing.assert_allclose(
+        tool_compliance(second.placed), expected, atol=1e-7 * np.abs(expected).max()
+    )
+
+
+def test_one_interface_and_few_modes_still_know_how_they_are_turned() -> None:
+    turn = Rotation.from_rotvec([0.3, -0.8, 1.1]).as_matrix()
+    single = [drop("solids.0.interfaces.1"), drop("beams"), drop("masses"), drop("loads"),
+              drop("nodes.head"), drop("nodes.tip"), put("tool.tcp", "foot"),
+              put("solids.0.modes", 1)]  # fmt: skip
+    contents = [column(), turned(turn, np.zeros(3))]
+    found = []
+    for content in contents:
+        for edit in single:
+            edit(content)
+        found.append(modes(parse_model(toml(content)).placed, 6).frequencies)
+    np.testing.assert_allclose(found[1], found[0], rtol=1e-7)
+
+
+@pytest.mark.parametrize("suffix", [".msh", ".vtu", ".inp", ".bdf"])
+def test_a_mesh_file_is_read_beside_the_model_file(suffix: str, tmp_path: Path) -> None:
+    write_mesh(brick(), tmp_path / f"part{suffix}", "mm")
+    path = tmp_path / "model.toml"
+    box = [[0, 0, "600 mm"], ["200 mm", "150 mm", "600 mm"]]
+    named = from_file(f"part{suffix}", unit="mm")
+    path.write_text(toml(column(named, put("solids.0.interfaces.1.box", box))), encoding="utf-8")
+    model = read_model(path)
+    assert model.solids[0].weighed[0] == pytest.approx(0.2 * 0.15 * 0.6 * 2900.0, rel=1e-6)
+
+
+def test_a_patch_of_the_mesh_file_is_an_interface(tmp_path: Path) -> None:
+    write_mesh(brick(), tmp_path / "part.msh")
+    by_name = [from_file("part.msh"), drop("solids.0.interfaces.1.box")]
+    named = model_of(*by_name, put("solids.0.interfaces.1.patch", "head"), folder=tmp_path)
+    whole = [[0, 0, "600 mm"], ["200 mm", "150 mm", "600 mm"]]
+    boxed = model_of(
+        from_file("part.msh"), put("solids.0.interfaces.1.box", whole), folder=tmp_path
+    )
+    assert np.array_equal(named.solids[0].reduced.positions, boxed.solids[0].reduced.positions)
+    np.testing.assert_allclose(
+        tool_compliance(named.placed), tool_compliance(boxed.placed), rtol=1e-9
+    )
+
+
+def test_quadratic_cells_keep_their_corners(tmp_path: Path) -> None:
+    write_mesh(quadratic(brick((2, 2, 6))), tmp_path / "part.vtu")
+    whole = [[0, 0, "600 mm"], ["200 mm", "150 mm", "600 mm"]]
+    model = model_of(
+        from_file("part.vtu"), put("solids.0.interfaces.1.box", whole), folder=tmp_path
+    )
+    # quadratic displacements on straight cells: the nodes that the file has too
+    assert model.solids[0].reduced.shapes.shape[0] == 3 * (5 * 5 * 13)
+
+
+def test_each_region_has_its_material(tmp_path: Path) -> None:
+    low = block((0.2, 0.15, 0.3), (3, 3, 4), region="stone", name="low")
+    high = moved(block((0.2, 0.15, 0.3), (3, 3, 4), region="cap", name="high"), None, (0, 0, 0.3))
+    write_mesh(joined(low, high), tmp_path / "part.msh")
+    whole = [[0, 0, "600 mm"], ["200 mm", "150 mm", "600 mm"]]
+    edits = [from_file("part.msh"), put("solids.0.interfaces.1.box", whole),
+             put("solids.0.interfaces.0", {"node": "foot", "box": [[0, 0, 0], [0.2, 0.15, 0]]}),
+             drop("solids.0.material")]  # fmt: skip
+    both = put("solids.0.materials", {"stone": "granite", "cap": "steel"})
+    model = model_of(*edits, both, folder=tmp_path)
+    assert model.solids[0].materials == ("granite", "steel")
+    expected = 0.2 * 0.15 * 0.3 * (2900.0 + 7850.0)
+    assert model.solids[0].weighed[0] == pytest.approx(expected, rel=1e-9)
+    with pytest.raises(ModelError, match=r"(?s)solids\.column.*'cap' has no material"):
+        model_of(*edits, put("solids.0.materials", {"stone": "granite"}), folder=tmp_path)
+    lossy = put("materials.steel.loss_factor", 0.02)
+    with pytest.warns(ModelWarning, match="the least of them, 0"):
+        model_of(*edits, both, lossy, folder=tmp_path)
+
+
+def test_the_loss_factor_of_its_material_damps() -> None:
+    plain = model_of(drop("damping"), drop("joints.0.damping"))
+    assert model_damping(plain) is None
+    lossy = model_of(
+        drop("damping"), drop("joints.0.damping"), put("materials.granite.loss_factor", 0.01)
+    )
+    damping = model_damping(lossy)
+    assert str(damping) == "materials' loss factors"
+    found = modes(lossy.placed, 8)
+    ratios = damping_ratios(found, damping)
+    share = found.energy_shares[:, found.energy_parts.index("element column")]
+    # 2 ζ is the loss factor times the share of the energy in the solid, to second order
+    np.testing.assert_allclose(2 * ratios, 0.01 * share, rtol=1e-3, atol=1e-9)
+
+
+def test_a_tube_is_short_of_the_ring_by_its_polygon() -> None:
+    def edit(content: Content) -> None:
+        solid = content["solids"][0]
+        solid.pop("size")
+        solid |= {"shape": "tube", "outer_diameter": 0.2, "inner_diameter": 0.12, "length": 0.6}
+        solid |= {"cell": 0.1, "modes": 6, "position": [0.1, 0.075, 0]}
+        solid["interfaces"] = [{"node": "foot", "patch": "-z"}, {"node": "head", "patch": "+z"}]
+
+    found = model_of(edit).solids[0].weighed[0]
+    ring = np.pi / 4 * (0.2**2 - 0.12**2) * 0.6 * 2900.0
+    assert found == pytest.approx(ring * np.sin(2 * np.pi / 24) / (2 * np.pi / 24), rel=1e-9)
+
+
+def test_an_l_frame_has_its_patches_and_edges() -> None:
+    def edit(content: Content) -> None:
+        solid = content["solids"][0]
+        solid.pop("size")
+        solid |= {"shape": "l_frame", "envelope": [0.2, 0.3, 0.6], "plate": 0.1, "base": 0.15}
+        solid["interfaces"] = [
+            {"node": "foot", "patch": "bottom"},
+            {"node": "head", "box": [[0.05, 0, 0.6], [0.15, 0.1, 0.6]], "normal": [0, 0, 1]},
+        ]
+        content["nodes"]["head"] = content["nodes"]["tip"] = [0.1, 0.05, 0.6]
+        content["nodes"]["tip"] = [0.1, 0.25, 0.6]
+
+    found = model_of(edit).solids[0].weighed[0]
+    assert found == pytest.approx(0.2 * (0.3 * 0.15 + 0.1 * 0.45) * 2900.0, rel=1e-9)
+
+
+def test_two_solids_share_a_node() -> None:
+    def edit(content: Content) -> None:
+        second = {
+            **{k: content["solids"][0][k] for k in ("shape", "material")},
+            "cell": 0.04,
+            "name": "block",
+            "size": [0.1, 0.05, 0.1],
+            "position": [0.05, 0.05, 0.6],
+            "interfaces": [{"node": "head", "patch": "-z"}],
+        }
+        content["solids"].append(second)
+
+    model = model_of(edit)
+    assert [s.name for s in model.solids] == ["column", "block"]
+    assert len(model.structure.linkage.bodies) == 2
+    extra = modes(model.placed, 4).frequencies / modes(model_of().placed, 4).frequencies
+    # a block more: lower, but not by much
+    assert np.all(extra < 1.0)
+    assert np.all(extra > 0.9)
+
+
+def test_a_rigid_body_carries_a_node_off_the_patch() -> None:
+    held = model_of(
+        put("nodes.knob", [0.1, 0.075, 0.9]),
+        put("bodies", [{"name": "neck", "nodes": ["head", "knob"]}]),
+        put("tool.tcp", "knob"),
+    )
+    model = model_of(put("tool.tcp", "head"))
+    arm = np.eye(6)
+    arm[0, 4], arm[1, 3] = 0.3, -0.3
+    expected = arm @ tool_compliance(model.placed) @ arm.T
+    np.testing.assert_allclose(
+        tool_compliance(held.placed), expected, atol=1e-9 * np.abs(expected).max()
+    )
+
+
+@pytest.mark.parametrize("source", ["surface", "step"])
+def test_cad_is_filled_with_tetrahedra(source: str, tmp_path: Path) -> None:
+    name = f"part.{'stl' if source == 'surface' else 'step'}"
+
+    def edit(content: Content) -> None:
+        solid = content["solids"][0]
+        solid.pop("shape")
+        solid.pop("size")
+        solid |= {source: name, "cell": 0.15}
+        box = {"box": [[0, 0, 0.6], [0.2, 0.15, 0.6]]}
+        solid["interfaces"] = [
+            {"node": "foot", "box": [[0, 0, 0], [0.2, 0.15, 0]]},
+            {"node": "head", **box},
+        ]
+
+    if source == "surface":
+        mesh = block((0.2, 0.15, 0.6), (1, 1, 1))
+        write_surface(surface_of(mesh, boundary(mesh)), tmp_path / name)
+    elif INSTALLED:
+        import gmsh  # noqa: PLC0415 - an extra
+
+        gmsh.initialize(interruptible=False)
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.model.occ.addBox(0, 0, 0, 200, 150, 600)
+        gmsh.model.occ.synchronize()
+        gmsh.write(str(tmp_path / name))
+        gmsh.finalize()
+    else:
+        (tmp_path / name).write_text("ISO-10303-21; END-ISO-10303-21;", encoding="ascii")
+    if not INSTALLED:
+        with pytest.raises(ModelError, match=r"(?s)solids\.column.*not installed"):
+            model_of(edit, folder=tmp_path)
+        return
+    model = model_of(edit, folder=tmp_path)
+    # STL is in single precision
+    assert model.solids[0].weighed[0] == pytest.approx(0.2 * 0.15 * 0.6 * 2900.0, rel=1e-5)
+
+
+HEAD = "solids.0.interfaces.1"
+TOP = [[0, 0, 0.6], [0.2, 0.15, 0.6]]
+
+#: What is changed in the column, and what the message must hold.
+WRONG: dict[str, tuple[list[Edit], list[str]]] = {
+    "no mesh": ([drop("solids.0.shape")], ["solids.column", "has no mesh", "exactly one"]),
+    "two sources": ([put("solids.0.mesh", "a.msh")], ["solids.column", "mesh and shape"]),
+    "no cell": ([drop("solids.0.cell")], ["solids.column.cell", "missing", "block"]),
+    "key of another shape": (
+        [put("solids.0.plate", 0.1)],
+        ["solids.column.plate", "no key of a block", "size, cell"],
+    ),
+    "unknown shape": ([put("solids.0.shape", "ball")], ["solids.column.shape", '"ball"']),
+    "unknown key": ([put("solids.0.modess", 6)], ["solids.column.modess", '"modes"']),
+    "unknown key of an interface": (
+        [put(f"{HEAD}.ptch", "x")],
+        ["solids.column.interfaces[1].ptch", '"patch"'],
+    ),
+    "unknown kind": ([put(f"{HEAD}.kind", "glued")], ["interfaces[1].kind", '"glued"', "rigid"]),
+    "cell of another dimension": (
+        [put("solids.0.cell", "160 kg")],
+        ["solids.column.cell", '"160 kg"', "a length"],
+    ),
+    "cutoff of another dimension": (
+        [put("solids.0.cutoff", "800 mm")],
+        ["solids.column.cutoff", "a frequency"],
+    ),
+    "cutoff below zero": ([put("solids.0.cutoff", "-1 Hz")], ["solids.column.cutoff", "above 0"]),
+    "cutoff and modes": ([put("solids.0.cutoff", "800 Hz")], ["solids.column", "cutoff and modes"]),
+    "order three": ([put("solids.0.order", 3)], ["solids.column.order", "3"]),
+    "no modes": ([put("solids.0.modes", 0)], ["solids.column.modes", "0"]),
+    "more modes than the solid has": (
+        [put("solids.0.modes", 600), put("solids.0.order", 1)],
+        ["solids.column", "600 modes are too many"],
+    ),
+    "a mesh too coarse for its modes": (
+        [from_file("coarse.msh"), put("solids.0.modes", 36), put(f"{HEAD}.box", TOP)],
+        ["solids.column", "Choose smaller cells, or retain fewer modes"],
+    ),
+    "no material": ([drop("solids.0.material")], ["solids.column", "neither material"]),
+    "unknown material": (
+        [put("solids.0.material", "tin")],
+        ["solids.column.material", '"tin"', "granite"],
+    ),
+    "unknown region": (
+        [drop("solids.0.material"), put("solids.0.materials", {"rock": "granite"})],
+        ["solids.column", "'solid' has no material"],
+    ),
+    "no density": (
+        [drop("materials.granite.density")],
+        ["solids.column.material", "density", "materials.granite"],
+    ),
+    "cannot be compressed": (
+        [put("materials.granite.poissons_ratio", 0.5)],
+        ["solids.column", "Poisson's ratio"],
+    ),
+    "no interface": (
+        [put("solids.0.interfaces", []), drop("joints"), drop("nodes.foot")],
+        ["solids.column.interfaces", "none", "[[solids.interfaces]]"],
+    ),
+    "interface without place": ([drop(f"{HEAD}.box")], ["interfaces[1]", "neither patch nor box"]),
+    "interface with two places": ([put(f"{HEAD}.patch", "+z")], ["interfaces[1]", "both patch"]),
+    "normal without a box": (
+        [put("solids.0.interfaces.0.normal", [0, 0, 1])],
+        ["solids.column.interfaces[0].normal", "box"],
+    ),
+    "unknown patch": (
+        [put("solids.0.interfaces.0.patch", "top")],
+        ["solids.column.interfaces[0].patch", "'top'", "'+z'"],
+    ),
+    "empty box": (
+        [put(f"{HEAD}.box", [[0, 0, 0.7], [0.2, 0.15, 0.7]])],
+        ["solids.column.interfaces[1].box", "no face"],
+    ),
+    "box upside down": (
+        [put(f"{HEAD}.box", [[0.2, 0, 0.6], [0, 0.15, 0.6]])],
+        ["solids.column.interfaces[1].box", "lowest corner first"],
+    ),
+    "box turned inwards": ([put(f"{HEAD}.normal", [0, 0, -1])], ["interfaces[1].box", "no face"]),
+    "normal of zero length": ([put(f"{HEAD}.normal", [0, 0, 0])], ["interfaces[1].box", "normal"]),
+    "unknown node": (
+        [put(f"{HEAD}.node", "Q")],
+        ["solids.column.interfaces[1].node", '"Q"', "ground, foot"],
+    ),
+    "node tied twice": (
+        [put(f"{HEAD}.node", "foot"), drop("beams"), put("masses", []), put("loads", []),
+         drop("tool"), drop("nodes.head"), drop("nodes.tip")],
+        ["solids.column.interfaces", '"foot"', "twice"],
+    ),
+    "node elsewhere": (
+        [put("nodes.head", [0.1, 0.075, 0.7])],
+        ["solids.column.interfaces[1].node", '"head"', "100 mm", "rigid body"],
+    ),
+    "solid placed elsewhere": (
+        [put("solids.0.position", [0.5, 0, 0])],
+        ["solids.column.interfaces[0].node", '"foot"', "500 mm"],
+    ),
+    "axis of zero length": ([put("solids.0.axis", [0, 0, 0])], ["solids.column", "zero length"]),
+    "two solids of one name": (
+        [lambda c: c["solids"].append(c["solids"][0])],
+        ["solid column", "twice"],
+    ),
+    "name of a beam": ([put("solids.0.name", "arm")], ["solid arm", "beam"]),
+    "node with the name of a monitor": (
+        [put("nodes.column/1", [0, 0, 0]),
+         add("springs", {"node": "column/1", "stiffness": {"x": 1.0}})],
+        ["node column/1", "inside the solid column"],
+    ),
+    "too many cells": ([put("solids.0.cell", "1 mm")], ["solids.column", "1.8e+07 cells"]),
+    "file outside": (
+        [from_file("../part.msh")],
+        ["solids.column.mesh", "leads out of the folder", "link"],
+    ),
+    "absolute file": ([from_file("/etc/passwd")], ["solids.column.mesh", "leads out"]),
+    "file of another system": ([from_file("C:\\part.msh")], ["solids.column.mesh", "leads out"]),
+    "missing file": ([from_file("part.msh")], ["solids.column.mesh", '"part.msh"', "no file"]),
+    "a folder": ([from_file("folder.msh")], ["solids.column.mesh", "not an ordinary file"]),
+    "unknown suffix": ([from_file("text.txt")], ["solids.column.mesh", "'.txt'", ".msh"]),
+    "cut short": ([from_file("short.msh")], ["solids.column.mesh", "short.msh", "cut short"]),
+    "empty file": ([from_file("empty.msh")], ["solids.column.mesh", "empty"]),
+    "inverted cells": ([from_file("inverted.msh")], ["solids.column.mesh", "16 of 16 cells"]),
+    "unknown unit": ([from_file("part.msh", unit="inch")], ["solids.column.unit", '"inch"']),
+    "unit of a block": ([put("solids.0.unit", "mm")], ["solids.column.unit", "no key of a block"]),
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def parts(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Parts that cannot be used."""
+    folder = tmp_path_factory.mktemp("parts")
+    whole = write_mesh(brick(), folder / "whole.msh").read_bytes()
+    (folder / "short.msh").write_bytes(whole[: len(whole) // 2])
+    write_mesh(brick((2, 2, 4)), folder / "coarse.msh")
+    (folder / "empty.msh").write_bytes(b"")
+    (folder / "text.txt").write_text("no mesh", encoding="utf-8")
+    (folder / "folder.msh").mkdir()
+    mesh = block((0.2, 0.15, 0.6), (2, 2, 4))
+    cells = mesh.blocks[0].nodes[:, [4, 5, 6, 7, 0, 1, 2, 3]]
+    inverted = replace(mesh, blocks=(replace(mesh.blocks[0], nodes=cells),))
+    write_mesh(inverted, folder / "inverted.msh")
+    return folder
+
+
+@pytest.mark.parametrize("what", WRONG)
+def test_what_is_wrong_is_named_by_its_field(what: str, parts: Path) -> None:
+    edits, words = WRONG[what]
+    with pytest.raises(StrutworkError) as caught:
+        model_of(*edits, folder=parts)
+    message = str(caught.value)
+    for word in words:
+        assert word in message
+    # part, problem and, on a line of its own, the remedy
+    assert "\n" in message
+
+
+def test_parts_have_a_largest_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_mesh(brick(), tmp_path / "part.msh")
+    monkeypatch.setattr(model_solid_mesh, "MAX_PART", 1000)
+    with pytest.raises(ModelError, match=r"solids\.column\.mesh: .* MB, more than"):
+        model_of(from_file("part.msh"), folder=tmp_path)
+
+
+def test_a_wrong_load_is_found_before_anything_is_meshed(tmp_path: Path) -> None:
+    wrong = add("misfits", {"joint": "none", "gap": {"x": 1e-5}})
+    with pytest.raises(ModelError, match=r"misfits\[0\]"):
+        model_of(wrong, put("solids.0.shape", "tube"), folder=tmp_path)
