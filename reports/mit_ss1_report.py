@@ -11,7 +11,8 @@ from reports.chapters.closing import closing_chapter
 from reports.chapters.mit_ss1 import assumptions_chapter, drawing_chapter, summary_chapter
 from reports.chapters.mit_ss1_calibration import calibration_chapter
 from reports.chapters.mit_ss1_kinematics import kinematics_chapter, map_blocks
-from reports.chapters.mit_ss1_modes import modes_chapter, response_chapter
+from reports.chapters.mit_ss1_modes import modes_chapter
+from reports.chapters.mit_ss1_response import response_chapter
 from reports.chapters.mit_ss1_whole import calibrated_blocks
 from reports.chapters.overconstraint import (
     governing,

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
 from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from kinematics import GROUND
 from machines.catalogue import Machine
 from machines.model import Model
 from msa import PlacedStructure
@@ -122,7 +123,7 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
     linkage = model.structure.linkage
     inside = {node for solid in model.solids for node in solid.nodes}
     # a solid is drawn by its own edges
-    drawn = [b for b in linkage.bodies if not inside.intersection(b.nodes)]
+    drawn = [b for b in linkage.bodies if b.name != GROUND and not inside.intersection(b.nodes)]
     lines = [
         (body.nodes[0], other)
         for body in (*drawn, *(model.structure.rigid if inside else ()))

@@ -7,7 +7,8 @@ import numpy as np
 from machines import MitSS1, get
 from machines.mit_ss1_tolerances import AXIAL_FACTOR, HOUSING_TILT, RAIL_HEIGHT, STATIC_RATING
 from machines.published_son import DIMENSIONS, MACHINE, MANIPULABILITY, MODES, STIFFNESS
-from reports.chapters.mit_ss1_modes import MET, place_shares
+from reports.chapters.mit_ss1_energies import place_shares
+from reports.chapters.mit_ss1_modes import MET
 from reports.chapters.mit_ss1_whole import whole_assumptions, whole_blocks
 from reports.chapters.overconstraint import governing, label, shown
 from reports.content import (

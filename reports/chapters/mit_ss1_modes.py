@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from types import MappingProxyType
-
 import numpy as np
 
 from fea.solid_fields import SurfaceField
 from machines.mit_ss1_calibrated import Which
 from machines.published_son import MODES, MOUNT_MODES
-from reports.chapters.vibration import minima_table, response_figure, response_files
+from reports.chapters.mit_ss1_energies import MODES_FILE, energy_blocks
 from reports.content import Block, Cell, Chapter, Column, Figure, Note, Points, Row, Table, Text
 from reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from reports.figures.curves import Curve, curves
 from reports.figures.mode_surface import mode_surface, modes_view
-from reports.figures.modes import energy_bars, frequency_dots
+from reports.figures.modes import frequency_dots
 from reports.figures.theme import PALETTE
-from reports.mit_ss1_whole_study import BAND, SETS, WholeStudy
+from reports.mit_ss1_whole_study import SETS, WholeStudy
 from reports.mode_files import mode_fields, mode_scene
 from reports.numbers import fixed, percent, significant
 from studies import PublishedRow, file_name
@@ -29,30 +25,17 @@ from studies.mit_ss1_modes import (
     STRUTS,
     TILT,
     TWISTING,
-    NamedModes,
     mode_picture,
 )
 from studies.published_table import COLUMNS
 
-MODES_FILE, SHAPES_FILE, POSTURES_FILE = "modes.csv", "mode-shapes.vtu", "mode-postures.csv"
+SHAPES_FILE, POSTURES_FILE = "mode-shapes.vtu", "mode-postures.csv"
 
 #: Modes that the thesis names: each has a moving picture of its own.
 PUBLISHED = (TILT, STRUTS, SCREW, BENDING, TWISTING)
 
 #: Differences up to this count as met, %.
 MET = 2.0
-
-#: Where strain energy sits: how the names of parts begin.
-PLACES: Mapping[str, str] = MappingProxyType(
-    {
-        "granite": r"element granite",
-        "mounts": r"joint mount\d",
-        "housing bearings": r"joint strut\d/housing",
-        "block bearings": r"joint strut\d/block",
-        "struts": r"beam strut",
-        "drives": r"joint block\d/guide",
-    }
-)
 
 
 def modes_chapter(study: WholeStudy) -> Chapter:
@@ -78,45 +61,11 @@ def modes_chapter(study: WholeStudy) -> Chapter:
             "the same slow pace; the slider changes by how much. The machine stands at home."
         ),
         _shapes(study),
-        *_energies(study),
+        *energy_blocks(study),
         *_postures(study),
         Points(_left_open(study)),
     ]
     return Chapter("modes", "Modes", tuple(blocks), tuple(_files(study)))
-
-
-def response_chapter(study: WholeStudy) -> Chapter:
-    """The tool's receptance on the granite and its exact least dynamic stiffness."""
-    some = study.vibration
-    least = min(some.least, key=lambda one: one.value)
-    elastic = study.beyond_mounts
-    softest = min(elastic.least, key=lambda one: one.value)
-    blocks: list[Block] = [
-        Note(
-            "Damping is assumed: 1 % of critical in every mode; the thesis prints none. Peaks are "
-            "as high as that number makes them. Tool against the floor, bearings as in the "
-            "thesis's finite element model."
-        ),
-        response_figure(some),
-        minima_table([("", some)], f"{some.key}-minima.csv"),
-        minima_table([("", elastic)], f"{elastic.key}-minima.csv"),
-        Text(
-            f"The least of all is {significant(least.value / 1e6)} N/µm at "
-            f"{significant(least.frequency)} Hz: the machine on its soft mounts, where tool and "
-            "work move together. Beyond the mounts' modes it is "
-            f"{significant(softest.value / 1e6)} N/µm along {softest.output.direction} at "
-            f"{significant(softest.frequency)} Hz, the strut assembly's. The bands end at "
-            f"{BAND[1]:g} Hz, to which the reduced granite holds. The minima are those of the "
-            "continuous curve, not of drawn points."
-        ),
-    ]
-    return Chapter(
-        "dynamic-stiffness",
-        "Dynamic stiffness at the tool",
-        tuple(blocks),
-        # the second band's curves are part of the first's
-        (*response_files(some), response_files(elastic)[-1]),
-    )
 
 
 def _published(study: WholeStudy) -> Table:
@@ -213,68 +162,6 @@ def _ordered(study: WholeStudy) -> dict[str, tuple[Which, str]]:
         key=lambda label: PUBLISHED.index(shown[label][1]),
     )
     return {label: shown[label] for label in (*first, *(k for k in shown if k not in first))}
-
-
-def place_shares(found: NamedModes, name: str) -> dict[str, float]:
-    """Strain energy of a mode by place, %; what is in none of `PLACES` under "rest"."""
-    parts = found.modes.energy_parts
-    shares = 100.0 * found.modes.energy_shares[found.index[name]]
-    result = dict.fromkeys((*PLACES, "rest"), 0.0)
-    for part, share in zip(parts, shares, strict=True):
-        place = next((p for p, begins in PLACES.items() if re.match(begins, part)), "rest")
-        result[place] += float(share)
-    return result
-
-
-def _energies(study: WholeStudy) -> list[Block]:
-    shown = sorted(
-        study.shown.values(), key=lambda one: study.named[one[0]].frequencies[one[1]], reverse=True
-    )
-    names = [name for _, name in shown]
-    found = [place_shares(study.named[which], name) for which, name in shown]
-    kinds = [k for k in found[0] if max(f[k] for f in found) >= 0.05]
-    return [
-        Figure(
-            "mode-energies",
-            "Where each mode keeps its strain energy, the highest mode at the top. The ball "
-            "screw's is of the machine with elastic drives.",
-            energy_bars(
-                names, {k: [f[k] for f in found] for k in kinds}, "share of strain energy (%)"
-            ),
-            "Stacked bars of the strain energy of each mode by granite, mounts, bearings, struts.",
-            MODES_FILE,
-            520,
-        ),
-        _energy_table(study, kinds),
-    ]
-
-
-def _energy_table(study: WholeStudy, kinds: list[str]) -> Table:
-    rows = []
-    for which, name in sorted(
-        study.shown.values(), key=lambda one: study.named[one[0]].frequencies[one[1]]
-    ):
-        found = study.named[which]
-        shares = place_shares(found, name)
-        rows.append(
-            [
-                name,
-                fixed(found.frequencies[name], 1),
-                f"{100 * found.shares[name]:.0f} %",
-                *(f"{shares[k]:.0f} %" for k in kinds),
-            ]
-        )
-    return Table(
-        "Modes at home: share of the name's pattern that the mode holds, and its strain energy",
-        (
-            Column("mode", "", False),
-            Column("frequency", "Hz"),
-            Column("of its pattern"),
-            *(Column(k, "", True, "strain energy") for k in kinds),
-        ),
-        rows,
-        MODES_FILE,
-    )
 
 
 def _postures(study: WholeStudy) -> list[Block]:

@@ -118,7 +118,7 @@ def check_chapter(check: ModelCheck) -> Chapter:
             rows.append(["centre of mass x, y, z, mm", middle])
     blocks: list[Block] = [
         Text(
-            "Every beam, body and elastic joint counts as rigid here, and springs to ground as "
+            "Every beam, solid, body and elastic joint counts as rigid here, springs to ground as "
             "absent; rank decides, not a count."
         ),
         Table("Mobility and redundancy", (Column("quantity", "", False), Column("value")), rows),

@@ -121,12 +121,14 @@ def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Fi
         for point, m in zip(still, moved, strict=True)
     ]
     forces = ", red the forces" if any(any(w[:3]) for _, w in case.wrenches) else ""
+    edges = ", of solids along their edges" if model.solids else ""
     times = f"{factor:,g}".replace(",", "\N{NARROW NO-BREAK SPACE}")
     return Figure(
         f"deformed-{number + 1}",
         f"Case “{case.name}”: displacements drawn {times} times as large as they are. The largest "
         f"of a node is {significant(1e6 * largest, 4)} µm. Colour gives the true displacement, "
-        f"between nodes as the beams' ends bend them; grey is the structure at rest{forces}.",
+        f"between nodes as the beams' ends bend them{edges}; grey is the structure at rest"
+        f"{forces}.",
         deformed_view(model, shape, moved, case, "displacement (µm)"),
         f"Three-dimensional drawing of the deformed structure in case {case.name}.",
         "deformed-shapes.csv",

@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import importlib.util
-import os
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -47,9 +47,11 @@ GRANITE = Material.isotropic(60e9, 0.25, density=2900.0, name="granite")
 
 
 @pytest.fixture(scope="module", autouse=True)
-def cache(tmp_path_factory: pytest.TempPathFactory) -> None:
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """Superelements of these tests stay with them; equal solids are reduced once."""
-    os.environ["XDG_CACHE_HOME"] = str(tmp_path_factory.getbasetemp() / "superelements")
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setenv("XDG_CACHE_HOME", str(tmp_path_factory.getbasetemp() / "superelements"))
+        yield
 
 
 def model_of(*edits: Edit, folder: Path | None = None) -> Model:
