@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import copy
+from pathlib import Path
 
-from tests.model_files import Content, Edit
+from machines.model import Model
+from machines.model_file import parse_model
+from meshes import Mesh, block, patch
+from tests.model_files import Content, Edit, toml
 
 #: A granite column on an elastic, damped mount; an arm on its head carries a mass.
 COLUMN: Content = {
@@ -78,3 +82,25 @@ def column(*edits: Edit) -> Content:
     for edit in edits:
         edit(content)
     return content
+
+
+def model_of(*edits: Edit, folder: Path | None = None) -> Model:
+    return parse_model(toml(column(*edits)), folder=folder)
+
+
+def from_file(name: str, **changes: object) -> Edit:
+    """The column's shape from a file in place of a block."""
+
+    def edit(content: Content) -> None:
+        solid = content["solids"][0]
+        for key in ("shape", "size", "cell"):
+            solid.pop(key)
+        solid |= {"mesh": name, **changes}
+        solid["interfaces"][1] |= {"kind": "average"}
+
+    return edit
+
+
+def brick(divisions: tuple[int, int, int] = (2, 2, 6)) -> Mesh:
+    mesh = block((0.2, 0.15, 0.6), divisions, name="brick")
+    return patch(mesh, "head", (0.0, 0.0, 0.6), (0.2, 0.15, 0.6))

@@ -1,4 +1,4 @@
-"""`strutwork tolerance` and `strutwork scale`: what they print, write and refuse."""
+"""`strutwork tolerance`: what it prints, writes and refuses."""
 
 from __future__ import annotations
 
@@ -379,60 +379,3 @@ def test_limits_that_no_tolerance_can_meet(strutwork: Program, write: Write) -> 
     assert "leg" in run.err
     assert "1000" in run.err
     assert "2500" in run.err
-
-
-def test_a_machine_of_the_catalogue(strutwork: Program) -> None:
-    found = strutwork("tolerance", "mit-ss1", *QUICK).result
-    assert found["title"] == "MIT-SS-1"
-    assert found["poses"][0] == "home"
-    assert len(found["poses"]) > 10
-    largest = max(q["worst"] for q in found["quantities"] if q["unit"] == "N")
-    assert 1e3 < largest < 1e5
-    assert any("calibrated" in note for note in found["notes"])
-    run = strutwork("tolerance", "glozman-3prrs", *QUICK)
-    assert (run.status, run.out) == (1, "")
-    assert "mit-ss1" in run.err
-
-
-def test_wrong_usage(strutwork: Program) -> None:
-    for arguments in (
-        ("--quantile", "0.99"),
-        ("--allocate", "cheap"),
-        ("--samples", "-1"),
-        ("--allocate", "uniform", "--quantile", "1.5"),
-    ):
-        run = strutwork("tolerance", RAILS, *arguments)
-        assert (run.status, run.out) == (2, "")
-
-
-def test_scale_in_json_tables_and_files(strutwork: Program, tmp_path: Path) -> None:
-    few = ("--from", "0.5", "--to", "1.5", "--lengths", "3")
-    found = strutwork("scale", "mit-ss1", *few, "-o", tmp_path, "--json").result
-    assert found["lengths"] == [0.5, 1.0, 1.5]
-    # Table 2, largest radial force of joint 1: 9.7, 19.6 and 29.4 kN, met within 4 %
-    ours = [row[0] for row in found["radial_force"]]
-    assert ours == pytest.approx([9.7e3, 19.6e3, 29.4e3], rel=0.04)
-    with (tmp_path / "mit-ss1-scale.csv").open(encoding="utf-8", newline="") as file:
-        rows = list(csv.DictReader(file))
-    assert len(rows) == 3 * 2 * 6
-    assert float(rows[0]["force [N]"]) == pytest.approx(ours[0], rel=1e-12)
-    printed = strutwork("scale", "mit-ss1", *few)
-    assert "Largest axial force, kN" in printed.out
-    assert "calibrated" in printed.out
-
-
-@pytest.mark.parametrize(
-    ("arguments", "expected"),
-    [
-        (("eclipse-3pprs",), "mit-ss1"),
-        (("mit-ss1", "--from", "2", "--to", "1"), "from 2 to 1 m"),
-        (("mit-ss1", "--from", "0"), "above zero"),
-        (("mit-ss1", "--tilt", "3 mm"), "an angle"),
-        (("mit-ss1", "--tilt", "-3e-4"), "positive"),
-        (("mit-ss1", "--width-ratio", "0"), "width"),
-    ],
-)
-def test_scale_refuses(arguments: tuple[str, ...], expected: str, strutwork: Program) -> None:
-    run = strutwork("scale", *arguments, "--json")
-    assert (run.status, run.out) == (1, "")
-    assert expected in run.err
