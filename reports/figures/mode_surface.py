@@ -98,7 +98,12 @@ def modes_view(pictures: Mapping[str, ModePicture]) -> dict[str, Any]:
         flatshading=True,
         showlegend=False,
         hoverinfo="skip",
-        colorbar={"thickness": 12, "len": 0.6, "outlinewidth": 0},
+        colorbar={
+            "thickness": 12,
+            "len": 0.6,
+            "outlinewidth": 0,
+            "title": {"text": "share of the largest displacement", "side": "right"},
+        },
     )
     del swung["text"]
     # the invisible trace only sizes the view
