@@ -42,10 +42,11 @@ def test_two_sizes_one_after_the_other_are_their_product(
 ) -> None:
     here = random_frame(seed, joints=True).place()
     twice, once = scaled(scaled(here, one, law), other, law), scaled(here, one * other, law)
-    # powers of products: a few roundings
+    # powers of products are a few roundings apart; joints that lag behind a frame fifty times as
+    # large make its compliance as much worse conditioned
     a, b = tool_compliance(twice), tool_compliance(once)
     scale = np.sqrt(np.einsum("ii->i", b))
-    assert np.abs((a - b) / np.outer(scale, scale)).max() < 1e-9
+    assert np.abs((a - b) / np.outer(scale, scale)).max() < 1e-7
     for left, right in zip(
         twice.structure.linkage.joints, once.structure.linkage.joints, strict=True
     ):
