@@ -13,7 +13,6 @@ nodes alone, and mass properties, effective masses and gravity come out without 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -333,10 +332,3 @@ def _monitors(
     inverse = np.linalg.inv(taken[:, k:])
     exchange = np.block([[np.eye(k), np.zeros((k, m))], [-inverse @ taken[:, :k], inverse]])
     return middle[picked], exchange
-
-
-def superelement_nodes(elements: Sequence[Superelement]) -> dict[str, Array]:
-    """Positions of all nodes of superelements in their meshes' frames, by name, m."""
-    return {
-        name: element.positions[i] for element in elements for i, name in enumerate(element.nodes)
-    }

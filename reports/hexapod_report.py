@@ -29,6 +29,7 @@ from reports.content import (
     Text,
 )
 from reports.data_files import json_file
+from reports.drawing_data import drawing_data
 from reports.figures.hexapod import hexapod_view
 from reports.machine_study import Teller
 from reports.numbers import fixed, micro, significant
@@ -170,16 +171,7 @@ def _drawing(study: HexapodStudy) -> Chapter:
         file,
         640,
     )
-    content = {
-        "unit": "m",
-        "nodes": dict(zip(machine.linkage.nodes, placement.positions.tolist(), strict=True)),
-        "lines": [list(pair) for pair in machine.skeleton()],
-        "joints": {
-            j.name: {"type": j.type, "between": list(j.between), "axes_as_columns": f.tolist()}
-            for j, f in zip(machine.linkage.joints, placement.frames, strict=True)
-        },
-        "tool": machine.linkage.tool,
-    }
+    content = drawing_data(machine, placement)
     found = study.mobility
     lengths = drive_values(machine, machine.place(machine.poses(*_mesh(study.ellipsoids))))
     text = (

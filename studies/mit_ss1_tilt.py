@@ -25,14 +25,6 @@ from studies.mode_matching import pattern_shares
 Array = NDArray[Any]
 
 
-def tilt_stiffness_about_x(machine: MitSS1) -> float:
-    """Of the housing against the strut ends at home, by its radial bearings alone, N·m/rad.
-
-    Two bearings of a pin, each at half the pin's width, along the struts' directions.
-    """
-    return _radial(machine) * 0.5 * machine.pin_width**2
-
-
 def pin_width_for_tilt(machine: MitSS1, stiffness: float) -> float:
     """Distance of a pin's bearings at which the housing tilts that softly about x, m.
 

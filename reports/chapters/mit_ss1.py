@@ -22,6 +22,7 @@ from reports.content import (
     Text,
 )
 from reports.data_files import json_file
+from reports.drawing_data import drawing_data
 from reports.figures.planar_machine import planar_machine_view
 from reports.mit_ss1_study import NAME, MitSS1Study
 from reports.numbers import MINUS, micro, significant
@@ -190,16 +191,7 @@ def drawing_chapter(study: MitSS1Study) -> Chapter:
     machine = study.machine
     placement = machine.place(machine.home())
     file = f"drawing-{NAME}.json"
-    content = {
-        "unit": "m",
-        "nodes": dict(zip(machine.linkage.nodes, placement.positions.tolist(), strict=True)),
-        "lines": [list(pair) for pair in machine.skeleton()],
-        "joints": {
-            j.name: {"type": j.type, "between": list(j.between), "axes_as_columns": f.tolist()}
-            for j, f in zip(machine.linkage.joints, placement.frames, strict=True)
-        },
-        "tool": machine.linkage.tool,
-    }
+    content = drawing_data(machine, placement)
     figure = Figure(
         f"drawing-{NAME}",
         "The mechanism of the MIT-SS-1 at home.",
