@@ -25,7 +25,7 @@ COUNTS = {
     # a planar four-bar in space has mobility 1, Grübler −2: three constraints are redundant
     "04_four_bar": (15, 1, 0, 3),
     # root held, one tube in four elements, platform held to it in 4 locked and driven directions
-    "05_two_link_leg": (25, 2, 0, 0),
+    "05_two_link_leg": (25, 1, 0, 0),
     # a table held by four blocks in two directions each and by a screw in one: 9 − 6
     "06_table_on_two_rails": (6, 0, 0, 3),
     # 15 free nodes; four mounts hold three directions each of one body: 12 − 6
