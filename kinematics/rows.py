@@ -7,7 +7,7 @@ and its multipliers, all read the rows made here.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -47,6 +47,10 @@ class ConstraintRows:
 
     def __len__(self) -> int:
         return len(self.joint)
+
+    def __getitem__(self, index: Any) -> ConstraintRows:
+        """The same rows at the poses selected by `index` on the batch axes."""
+        return replace(self, placement=self.placement[index], axes=self.axes[index])
 
     @property
     def labels(self) -> tuple[str, ...]:
