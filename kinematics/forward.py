@@ -10,7 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinematics.jacobians import jacobians
 from kinematics.mechanism import Mechanism, Poses, drive_values
-from strutwork.errors import NumericalError, SingularPoseError, StrutworkError, UnreachableError
+from strutwork.errors import (
+    ModelError,
+    NumericalError,
+    SingularPoseError,
+    StrutworkError,
+    UnreachableError,
+)
 
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]
@@ -23,7 +29,7 @@ LEFT = 0.25
 #: Longest step of the tool: turn, rad, and shift as a share of the machine's size.
 TURN, SHIFT = 0.2, 0.2
 #: Shortest step, as a share of the whole way.
-SHORTEST = 1e-7
+SHORTEST = 1e-9
 
 SINGULAR_PARALLEL = (
     "a parallel singularity lies on the way: there the drives do not hold the tool, and other "
@@ -150,13 +156,22 @@ def forward_kinematics(
     ------
     UnreachableError, SingularPoseError, NumericalError
         A single pose, without batch axes, that was not found.
+    ModelError
+        Coordinates that are not one for each drive.
     """
     target = np.asarray(values, dtype=float)
+    drives = len(mechanism.linkage.driven)
+    if target.ndim == 0 or target.shape[-1] != drives:
+        raise ModelError(
+            "forward kinematics",
+            f"got drive coordinates of shape {target.shape} for {drives} drives.",
+            "Give one coordinate a drive, in the order of the linkage's driven directions.",
+        )
     batch = np.broadcast_shapes(target.shape[:-1], start.batch)
     count = int(np.prod(batch, dtype=int))
     walk = _Walk(
         mechanism,
-        np.broadcast_to(target, (*batch, target.shape[-1])).reshape(count, -1),
+        np.broadcast_to(target, (*batch, target.shape[-1])).reshape(count, target.shape[-1]),
         np.broadcast_to(start.position, (*batch, 3)).reshape(count, 3),
         np.broadcast_to(start.rotation, (*batch, 3, 3)).reshape(count, 3, 3),
         tolerance,
@@ -174,7 +189,12 @@ class _Walk:
     """Poses on their way, each at its own share of it."""
 
     def __init__(
-        self, mechanism: Mechanism, target: Array, position: Array, rotation: Array, tolerance: float
+        self,
+        mechanism: Mechanism,
+        target: Array,
+        position: Array,
+        rotation: Array,
+        tolerance: float,
     ) -> None:
         self.mechanism, self.target, self.tolerance = mechanism, target, tolerance
         self.position, self.rotation = position.copy(), rotation.copy()
@@ -235,7 +255,9 @@ class _Walk:
         self.steps[at] += 1
         share = np.minimum(self.share[at] + self.stride[at], 1.0)
         # what is left of the way is counted from its end, so that angles stay on the circle
-        ahead = self._round(self.target[at] - self.drive[at] - self.way[at] * (1.0 - share)[:, None])
+        ahead = self._round(
+            self.target[at] - self.drive[at] - self.way[at] * (1.0 - share)[:, None]
+        )
         twist = np.einsum("pij,pj->pi", self.forward[at], ahead)
         short = self._longest(twist, self.size[at])
         twist = np.where(np.isfinite(twist) & short[:, None], twist, 0.0)
@@ -292,9 +314,7 @@ class _Walk:
         norm = np.linalg.norm(difference, axis=(-2, -1))
         return np.where(np.isfinite(norm), norm, np.inf)
 
-    def _give_up(
-        self, at: NDArray[np.intp], placement: Any, short: Mask, refused: Mask
-    ) -> None:
+    def _give_up(self, at: NDArray[np.intp], placement: Any, short: Mask, refused: Mask) -> None:
         """End the poses whose steps have become too short, with the reason."""
         status = np.asarray(placement.status)
         tried = refused & short

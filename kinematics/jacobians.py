@@ -120,12 +120,13 @@ class Jacobians:
         Parameters
         ----------
         twist : (..., 6)
-            m/s and rad/s. Infinite rates come out where the twist has a part that a serial
-            singularity has taken.
+            m/s and rad/s. Rates are infinite where the twist has a part in a direction that a
+            serial singularity has taken.
         """
         t = np.asarray(twist, dtype=float)[..., None, :]
-        still = np.isinf(self.inverse) & (t == 0.0)
-        return np.asarray((np.where(still, 0.0, self.inverse) * np.where(still, 0.0, t)).sum(-1))
+        lost = np.isinf(self.inverse)
+        sums = (np.where(lost, 0.0, self.inverse) * t).sum(axis=-1)
+        return np.where((lost & (t != 0.0)).any(axis=-1), np.inf, sums)
 
     def condition(self, length: ArrayLike | None = None) -> Array:
         """Condition number of the inverse Jacobian over the motions of the tool, (...).
@@ -257,11 +258,11 @@ def jacobians(
     batch = placement.batch
     flat = placement[None] if batch == () else placement
     if len(flat.batch) > 1:
+        count = int(np.prod(batch, dtype=int))
         flat = Placement(
-            placement.positions.reshape(-1, *placement.positions.shape[-2:]),
-            placement.frames.reshape(-1, *placement.frames.shape[-3:]),
-            placement.values.reshape(int(np.prod(batch)), -1),
-            placement.names,
+            placement.positions.reshape(count, *placement.positions.shape[-2:]),
+            placement.frames.reshape(count, *placement.frames.shape[-3:]),
+            np.zeros((count, 0)),
         )
     found = None if method == "rows" else legs_compiled(linkage, flat)
     if found is None and method == "legs":
@@ -295,12 +296,8 @@ def _with_doubtful(
     rank = np.full(len(inverse), 6)
     rank[doubtful] = spaces.rank
     if np.all(rank == 6):
-        return Jacobians(
-            inverse, linkage.driven, length, serial, spaces=spaces, by_rank=doubtful
-        )
-    return Jacobians(
-        inverse, linkage.driven, length, serial, motions, rank, spaces, doubtful
-    )
+        return Jacobians(inverse, linkage.driven, length, serial, spaces=spaces, by_rank=doubtful)
+    return Jacobians(inverse, linkage.driven, length, serial, motions, rank, spaces, doubtful)
 
 
 def _shaped(found: Jacobians, batch: tuple[int, ...]) -> Jacobians:

@@ -130,8 +130,10 @@ def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-un
             width = count + 6
             _screws(p, leg, positions[q], frames[q], size, m)
             row, unsure = _eliminate(m, 0, p.passive[leg], 0, width)
-            if unsure or row + drives != 6 or not _drive_rows(
-                m, row, p.passive[leg], drives, width
+            if (
+                unsure
+                or row + drives != 6
+                or not _drive_rows(m, row, p.passive[leg], drives, width)
             ):
                 sound = False
                 break

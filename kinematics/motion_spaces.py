@@ -98,16 +98,18 @@ def motion_spaces(linkage: Linkage, placement: Placement, length: Array) -> Moti
     holding = s > MOVES
     parallel = holding.sum(axis=-1) < count
     k = s.shape[-1]
-    solved = np.swapaxes(z[:, :k], -1, -2) * np.where(holding, 1.0 / np.where(holding, s, 1), 0.0)[
-        :, None, :
-    ]
+    solved = (
+        np.swapaxes(z[:, :k], -1, -2)
+        * np.where(holding, 1.0 / np.where(holding, s, 1), 0.0)[:, None, :]
+    )
     forward = cosines @ solved @ np.swapaxes(y[..., :k], -1, -2)
     serial = np.zeros(len(length), dtype=bool)
     spare = (count > rank) & (rank < 6)
     if spare.any():
-        back = np.swapaxes(right, -1, -2) * np.where(seen, 1.0 / np.where(seen, values, 1), 0.0)[
-            :, None, :
-        ]
+        back = (
+            np.swapaxes(right, -1, -2)
+            * np.where(seen, 1.0 / np.where(seen, values, 1), 0.0)[:, None, :]
+        )
         standing = _standing(cosines[spare], seen[spare])
         lost = lost_twists(
             passive[spare], null[spare], (null @ back)[spare] @ standing, body, columns[spare]
