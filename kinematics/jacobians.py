@@ -245,9 +245,7 @@ def jacobians(
     ModelError
         No tool, a tool on the ground, no driven direction, or legs asked for that are none.
     """
-    if linkage.tool is None:
-        raise ModelError("linkage", "has no tool.", "Name the tool centre point's node.")
-    tool_body = int(linkage.body_of_node[linkage.node_index[linkage.tool]])
+    tool_body = linkage.tool_body
     driven_mask = linkage.driven_mask()
     if tool_body < 0 or not driven_mask.any():
         raise ModelError(

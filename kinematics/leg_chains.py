@@ -58,12 +58,11 @@ def leg_chains(linkage: Linkage) -> LegChains | None:
     """The legs of a linkage, or None where it does not fall into legs.
 
     It does where taking away ground and tool body leaves bodies in separate rows, each joined
-    to the ground at one end and to the tool's body at the other, with at least six free
-    directions and at most six drives, six of them drives or passive.
+    to the ground at one end and to the tool's body at the other, whose joints have six free
+    directions or more, so that the leg alone lets the tool move in all ways.
     """
-    assert linkage.tool is not None
     owner, index = linkage.body_of_node, linkage.node_index
-    platform = int(owner[index[linkage.tool]])
+    platform = linkage.tool_body
     # joints by the bodies that they join, −1 for the ground
     joints: dict[int, list[tuple[int, int, int]]] = {}
     for j, joint in enumerate(linkage.joints):
@@ -120,7 +119,6 @@ def _packed(linkage: Linkage, legs: list[list[tuple[int, int]]]) -> LegChains | 
     if sum(step[-1] >= 0 for step in listed) != len(linkage.driven):
         return None
     joint, axis, turns, sign, node, drive = zip(*listed, strict=True)
-    assert linkage.tool is not None
     return LegChains(
         np.asarray(start, dtype=np.int64),
         np.asarray(passive, dtype=np.int64),
@@ -130,6 +128,6 @@ def _packed(linkage: Linkage, legs: list[list[tuple[int, int]]]) -> LegChains | 
         np.asarray(sign, dtype=float),
         np.asarray(node, dtype=np.int64),
         np.asarray(drive, dtype=np.int64),
-        linkage.node_index[linkage.tool],
+        linkage.node_index[linkage.tool or ""],
         np.asarray([d.startswith("r") for _, d in linkage.driven], dtype=np.int64),
     )

@@ -43,36 +43,37 @@ def _screws(p, leg, positions, frames, size, m):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _eliminate(m, begin, end, row, width):  # type: ignore[no-untyped-def]
-    """Gauss-Jordan over the columns begin to end with complete pivoting from `row` on.
+def _largest(m, row, column, end):  # type: ignore[no-untyped-def]
+    """Largest entry from `row` and `column` on, its row and its column."""
+    best, at, which = 0.0, row, column
+    for i in range(row, 6):
+        for c in range(column, end):
+            if abs(m[i, c]) > best:
+                best, at, which = abs(m[i, c]), i, c
+    return best, at, which
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _eliminate(m, end, width):  # type: ignore[no-untyped-def]
+    """Gauss elimination of the columns before `end`, with complete pivoting.
 
     Returns the rows used, and whether a pivot was neither there nor absent.
     """
-    doubtful = False
-    for column in range(begin, end):
-        if row == 6:
-            break
-        best, at, which = 0.0, row, column
-        for i in range(row, 6):
-            for c in range(column, end):
-                if abs(m[i, c]) > best:
-                    best, at, which = abs(m[i, c]), i, c
+    row, doubtful = 0, False
+    while row < min(6, end):
+        best, at, which = _largest(m, row, row, end)
         if not best > ABSENT:
             break
-        if best < DOUBTFUL:
-            doubtful = True
-        if which != column:
-            for i in range(6):
-                m[i, column], m[i, which] = m[i, which], m[i, column]
-        if at != row:
-            for c in range(width):
-                m[row, c], m[at, c] = m[at, c], m[row, c]
-        inverse = 1.0 / m[row, column]
+        doubtful = doubtful or best < DOUBTFUL
+        for i in range(6):
+            m[i, row], m[i, which] = m[i, which], m[i, row]
+        for c in range(width):
+            m[row, c], m[at, c] = m[at, c], m[row, c]
+        inverse = 1.0 / m[row, row]
         for i in range(row + 1, 6):
-            factor = m[i, column] * inverse
-            if factor != 0.0:
-                for c in range(column, width):
-                    m[i, c] -= factor * m[row, c]
+            factor = m[i, row] * inverse
+            for c in range(row, width):
+                m[i, c] -= factor * m[row, c]
         row += 1
     return row, doubtful
 
@@ -124,12 +125,12 @@ def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-un
             if drives == 0:
                 # no rows, yet it must let the tool move in six ways
                 _screws(p, leg, positions[q], frames[q], size, m)
-                row, unsure = _eliminate(m, 0, count, 0, count)
+                row, unsure = _eliminate(m, count, count)
                 sound = row == 6 and not unsure
                 continue
             width = count + 6
             _screws(p, leg, positions[q], frames[q], size, m)
-            row, unsure = _eliminate(m, 0, p.passive[leg], 0, width)
+            row, unsure = _eliminate(m, p.passive[leg], width)
             if (
                 unsure
                 or row + drives != 6
@@ -150,6 +151,36 @@ def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-un
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _turned(a, size, c, d):  # type: ignore[no-untyped-def]
+    """Turn two columns (rows of a) so that they become orthogonal; False where they were."""
+    dot = 0.0
+    for i in range(a.shape[1]):
+        dot += a[c, i] * a[d, i]
+    if min(size[c], size[d]) < 1e-300 or dot * dot <= ORTHOGONAL**2 * size[c] * size[d]:
+        return False
+    zeta = (size[d] - size[c]) / (2.0 * dot)
+    t = 1.0 / (abs(zeta) + np.sqrt(1.0 + zeta * zeta))
+    t = -t if zeta < 0.0 else t
+    cosine = 1.0 / np.sqrt(1.0 + t * t)
+    sine = cosine * t
+    for i in range(a.shape[1]):
+        x, y = a[c, i], a[d, i]
+        a[c, i] = cosine * x - sine * y
+        a[d, i] = sine * x + cosine * y
+    size[c] -= t * dot
+    size[d] += t * dot
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _squares(a, size):  # type: ignore[no-untyped-def]
+    for c in range(a.shape[0]):
+        size[c] = 0.0
+        for i in range(a.shape[1]):
+            size[c] += a[c, i] * a[c, i]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def jacobi_values(matrices, values):  # type: ignore[no-untyped-def]
     """Singular values of (q, m, n) matrices, m ≥ n, by one-sided Jacobi (Hestenes 1958)."""
     count, rows, columns = matrices.shape
@@ -160,40 +191,17 @@ def jacobi_values(matrices, values):  # type: ignore[no-untyped-def]
             for c in range(columns):
                 a[c, i] = matrices[q, i, c]
         for _ in range(SWEEPS):
-            for c in range(columns):
-                size[c] = 0.0
-                for i in range(rows):
-                    size[c] += a[c, i] * a[c, i]
+            _squares(a, size)
             rotated = False
             for c in range(columns - 1):
                 for d in range(c + 1, columns):
-                    dot = 0.0
-                    for i in range(rows):
-                        dot += a[c, i] * a[d, i]
-                    if not dot * dot > ORTHOGONAL * ORTHOGONAL * size[c] * size[d]:
-                        continue
-                    if size[c] < 1e-300 or size[d] < 1e-300:
-                        continue
-                    rotated = True
-                    zeta = (size[d] - size[c]) / (2.0 * dot)
-                    t = 1.0 / (abs(zeta) + np.sqrt(1.0 + zeta * zeta))
-                    t = -t if zeta < 0.0 else t
-                    cosine = 1.0 / np.sqrt(1.0 + t * t)
-                    sine = cosine * t
-                    for i in range(rows):
-                        x, y = a[c, i], a[d, i]
-                        a[c, i] = cosine * x - sine * y
-                        a[d, i] = sine * x + cosine * y
-                    size[c] -= t * dot
-                    size[d] += t * dot
+                    rotated = _turned(a, size, c, d) or rotated
             if not rotated:
                 break
+        _squares(a, size)
         for c in range(columns):
-            square = 0.0
-            for i in range(rows):
-                square += a[c, i] * a[c, i]
             # sorted in, largest first
-            value, at = np.sqrt(square), c
+            value, at = np.sqrt(size[c]), c
             while at > 0 and values[q, at - 1] < value:
                 values[q, at] = values[q, at - 1]
                 at -= 1

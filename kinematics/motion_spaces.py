@@ -22,6 +22,9 @@ HELD = 1e-10
 #: Part that the tool, or the drives, have in a motion of unit size before they count as moving.
 MOVES = 1e-11
 
+#: Part that a direction of the tool, or a drive, has in what is lost before it counts.
+LOST = 1e-7
+
 
 @dataclass(frozen=True)
 class MotionSpaces:
@@ -71,17 +74,13 @@ def motion_spaces(linkage: Linkage, placement: Placement, length: Array) -> Moti
     driven_mask = linkage.driven_mask()
     passive = constraint_rows(linkage, placement, linkage.elastic_or_locked() & ~driven_mask)
     drives = constraint_rows(linkage, placement, driven_mask)
-    assert linkage.tool is not None
-    body = int(linkage.body_of_node[linkage.node_index[linkage.tool]])
+    body = linkage.tool_body
     # twists as (v, L ω) and rates as m/s, L rad/s
     unit = np.ones((len(length), 6))
     unit[:, 3:] = length[:, None]
     size = np.where(drives.direction < 3, 1.0, length[:, None])
     columns = np.tile(unit, len(linkage.body_names))
-    rows = passive.on_bodies() / columns[:, None, :]
-    norm = np.linalg.norm(rows, axis=-1, keepdims=True)
-    rows = rows / np.where(norm == 0.0, 1.0, norm)
-    null = null_space(rows, HELD * np.linalg.norm(rows, 2, axis=(-2, -1)) if rows.size else 0.0)
+    null = _allowed(passive.on_bodies() / columns[:, None, :])
     tool = null[:, 6 * body : 6 * body + 6]
     rates = size[..., None] * (drives.on_bodies() / columns[:, None, :]) @ null
     left, values, right = np.linalg.svd(np.concatenate([tool, rates], axis=1), full_matrices=False)
@@ -91,51 +90,51 @@ def motion_spaces(linkage: Linkage, placement: Placement, length: Array) -> Moti
     u, c, w = np.linalg.svd(cosines, full_matrices=False)
     moving = c > MOVES
     rank = moving.sum(axis=-1)
-    made = np.where(moving, 1.0 / np.where(moving, c, 1.0), 0.0)
-    inverse = sines @ (np.swapaxes(w, -1, -2) * made[:, None, :]) @ np.swapaxes(u, -1, -2)
+    inverse = sines @ _transposed(w) @ (_inverted(c, MOVES)[..., None] * _transposed(u))
     y, s, z = np.linalg.svd(sines)
-    count = seen.sum(axis=-1)
-    holding = s > MOVES
-    parallel = holding.sum(axis=-1) < count
     k = s.shape[-1]
-    solved = (
-        np.swapaxes(z[:, :k], -1, -2)
-        * np.where(holding, 1.0 / np.where(holding, s, 1), 0.0)[:, None, :]
-    )
-    forward = cosines @ solved @ np.swapaxes(y[..., :k], -1, -2)
+    parallel = (s > MOVES).sum(axis=-1) < seen.sum(axis=-1)
+    solved = _transposed(z[:, :k]) @ (_inverted(s, MOVES)[..., None] * _transposed(y[..., :k]))
+    forward = np.where(_loose(cosines, z, s, seen)[..., None], np.inf, cosines @ solved)
     serial = np.zeros(len(length), dtype=bool)
-    spare = (count > rank) & (rank < 6)
+    spare = (seen.sum(axis=-1) > rank) & (rank < 6)
     if spare.any():
-        back = (
-            np.swapaxes(right, -1, -2)
-            * np.where(seen, 1.0 / np.where(seen, values, 1), 0.0)[:, None, :]
-        )
         standing = _standing(cosines[spare], seen[spare])
-        lost = lost_twists(
-            passive[spare], null[spare], (null @ back)[spare] @ standing, body, columns[spare]
-        )
+        back = _transposed(right[spare]) @ (_inverted(values, HELD)[spare][..., None] * standing)
         # what the tool can still do is not lost
         kept = u[spare] * moving[spare][:, None, :]
-        lost = lost - kept @ (np.swapaxes(kept, -1, -2) @ lost)
-        direction = np.linalg.norm(lost, axis=-1) > 1e-7
-        drive = np.linalg.norm(sines[spare] @ standing, axis=-1) > 1e-9
+        lost = lost_twists(passive[spare], null[spare], null[spare] @ back, body, columns[spare])
+        direction = np.linalg.norm(lost - kept @ (_transposed(kept) @ lost), axis=-1) > LOST
+        drive = np.linalg.norm(sines[spare] @ standing, axis=-1) > LOST
         serial[spare] = direction.any(axis=-1) & drive.any(axis=-1)
         endless = drive[:, :, None] & direction[:, None, :]
         inverse[spare] = np.where(endless, np.inf, inverse[spare])
-    loose = _loose(cosines, z, s, seen)
-    forward = np.where(loose[..., None], np.inf, forward)
-    motions = np.zeros((len(length), 6, 6))
-    plain = u * moving[:, None, :] / unit[:, :, None]
-    basis, _, _ = np.linalg.svd(plain)
-    motions = basis * (np.arange(6) < rank[:, None])[:, None, :]
+    basis, _, _ = np.linalg.svd(u * moving[:, None, :] / unit[:, :, None])
     return MotionSpaces(
         inverse / size[..., None] * unit[:, None, :],
         forward / unit[..., None] * size[:, None, :],
-        motions,
+        basis * (np.arange(6) < rank[:, None])[:, None, :],
         rank,
         serial,
         parallel,
     )
+
+
+def _transposed(matrices: Array) -> Array:
+    return np.swapaxes(matrices, -1, -2)
+
+
+def _inverted(values: Array, limit: float) -> Array:
+    """One over singular values; zero where they count as zero."""
+    return np.where(values > limit, 1.0 / np.where(values > limit, values, 1.0), 0.0)
+
+
+def _allowed(rows: Array) -> Array:
+    """Motions of all bodies that the passive rows allow, (p, n, n)."""
+    norm = np.linalg.norm(rows, axis=-1, keepdims=True)
+    rows = rows / np.where(norm == 0.0, 1.0, norm)
+    largest = np.linalg.norm(rows, 2, axis=(-2, -1)) if rows.size else 0.0
+    return null_space(rows, HELD * largest)
 
 
 def null_space(rows: Array, tolerance: Array | float) -> Array:

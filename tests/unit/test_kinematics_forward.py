@@ -179,7 +179,7 @@ def test_one_pose_that_cannot_be_found_is_masked_with_its_reason() -> None:
 
 def test_a_single_pose_that_cannot_be_found_raises() -> None:
     machine = gough()
-    with pytest.raises(SingularPoseError, match="forward kinematics: a .* singularity"):
+    with pytest.raises(SingularPoseError, match=r"forward kinematics: a .* singularity"):
         forward_kinematics(machine, [0.01, 5, 0.01, 5, 0.01, 5], machine.home())
     values = drive_values(machine, machine.place(machine.home()))
     with pytest.raises(NumericalError, match="not finite"):
