@@ -302,7 +302,8 @@ class _Walk:
 
     def _size(self, rates: Array, at: NDArray[np.intp]) -> Array:
         """Size of differences of drive coordinates, m: angles at the arm of the machine."""
-        return np.linalg.norm(rates * np.where(self.rotary, self.size[at, None], 1.0), axis=-1)
+        size = np.linalg.norm(rates * np.where(self.rotary, self.size[at, None], 1.0), axis=-1)
+        return np.asarray(size)
 
     def _change(self, at: NDArray[np.intp], inverse: Array) -> Array:
         """By how much the Jacobian differs from that of the step's beginning, as a share of it."""

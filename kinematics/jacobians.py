@@ -40,7 +40,7 @@ class Jacobians:
     inverse : (..., a, 6)
         Rate of each driven direction per unit tool twist (translation then rotation). At a
         serial (type 1) singularity infinite, without sign, in the directions that are lost.
-        With more drives than freedoms the least rates.
+        With more drives than freedoms the least rates, turning drives at the arm `length`.
     driven : tuple of (joint name, direction)
         Order of the rates, m/s or rad/s.
     length : (...)

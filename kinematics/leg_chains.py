@@ -80,10 +80,10 @@ def leg_chains(linkage: Linkage) -> LegChains | None:
             if body in seen or body == -1 or len(joints[body]) != 2:
                 return None
             seen.add(body)
-            (onward,) = [step for step in joints[body] if step[0] != path[-1][0]] or [None]
-            if onward is None:
+            onward = [step for step in joints[body] if step[0] != path[-1][0]]
+            if not onward:
                 return None
-            joint_index, body, sign = onward
+            joint_index, body, sign = onward[0]
             path.append((joint_index, sign))
         legs.append(path)
     if len(seen) + 1 != len(linkage.body_names) or len(joints.get(platform, [])) != len(legs):

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinematics import Linkage, Placement, Poses, angle, rotation_y
 from machines import mit_ss1_parts as parts
+from machines.dimensions import check_proportions
 from machines.legs import square_root
 from machines.limits import Limit, joint_limits
 from machines.pose_grid import PoseGrid
@@ -143,6 +144,13 @@ class MitSS1:
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
                 raise ModelError(f"MitSS1.{name}", f"is {value!r}.", "Give a positive length, m.")
+        sizes = {
+            f"{name}[{k}]": value
+            for name in ("guide_distances", "strut_lengths")
+            for k, value in enumerate(getattr(self, name))
+        }
+        single = ("joint_height", "joint_radius", "joint_rise", "pin_width")
+        check_proportions("MitSS1", sizes | {name: getattr(self, name) for name in single})
         for name in (
             *("radial_stiffness", "axial_stiffness", "block_radial_stiffness"),
             *("block_axial_stiffness", "drive_stiffness", "guide_stiffness"),

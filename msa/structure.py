@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from kinematics import GROUND, Body, Linkage, Placement, check_coincidence
 from msa.beam import Beam, beam_axes, local_stiffness, to_global
+from msa.proportions import warn_of_proportions
 from msa.springs import PointMass, Spring
 from strutwork.errors import ModelError
 
@@ -239,12 +240,18 @@ class Structure:
             poses are solved).
         UnreachableError
             A pose that cannot be taken.
+
+        Warns
+        -----
+        ProportionWarning
+            Beams and sections whose dimensions do not fit one another; once.
         """
         placement.require_reachable()
         check_coincidence(self.linkage, placement)
         placed = PlacedStructure(self, placement)
         if np.prod(placement.batch, dtype=int) <= CHECKED_AT_ONCE:
             placed.check()
+        warn_of_proportions(placed)
         return placed
 
 

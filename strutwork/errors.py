@@ -53,3 +53,7 @@ class SingularPoseError(StrutworkError):
 
 class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
+
+
+class ProportionWarning(UserWarning):
+    """Dimensions out of all proportion to one another: probably a length that is not in metres."""

@@ -162,3 +162,33 @@ def test_table_for_people(strutwork: Program) -> None:
     assert re.search(r"mobility of the rigid linkage, drives free\W+1\b", run.out)
     assert re.search(r"redundant constraints, drives held\W+3\b", run.out)
     assert "R1, R2, R3, R4" in run.out
+
+
+@pytest.mark.filterwarnings("default::strutwork.errors.ProportionWarning")
+def test_lengths_out_of_proportion_are_warned_of(
+    strutwork: Program, write: Callable[[Content], Path]
+) -> None:
+    """A tube of 19 m and 14 m: millimetres without their unit."""
+    content = sample()
+    content["sections"] = {
+        "tube": {"shape": "tube", "outer_diameter": 19.0, "inner_diameter": 14.0}
+    }
+    for beam in content["beams"]:
+        beam["section"] = "tube"
+    for command in ("check", "solve", "modes"):
+        done = strutwork(command, write(content), "--json")
+        assert done.status == 0
+        assert "19 m deep" in done.err
+        assert "in metres" in done.err
+
+
+def test_a_drive_in_a_locked_direction_is_no_mobility(
+    strutwork: Program, write: Callable[[Content], Path]
+) -> None:
+    content = sample()
+    joint = content["joints"][0]
+    locked = {"type": "prismatic", "driven": ["x"], "stiffness": {}}
+    done = strutwork("check", write({**content, "joints": [joint | locked]}), "--json")
+    assert done.status == 1
+    assert f"joint {joint['name']}: drives x, which a prismatic joint locks" in done.err
+    assert "z can be driven" in done.err
