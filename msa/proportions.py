@@ -13,8 +13,8 @@ from strutwork.errors import ProportionWarning
 if TYPE_CHECKING:
     from msa.structure import PlacedStructure
 
-#: A section deeper than so many lengths of its beam is no beam; stubs in machines reach twenty.
-DEEPEST = 50.0
+#: A section deeper than so many lengths of its beam is no beam; stubs in machines reach sixty.
+DEEPEST = 80.0
 #: A beam longer than so many depths of its section is no beam; wires reach two thousand.
 LONGEST = 5000.0
 #: No machine is as large as this, m.
