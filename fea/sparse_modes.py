@@ -13,8 +13,9 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from fea.factorize import Factor, factorize
 from fea.sparse_reduction import SparseReduced
+from fea.stability import critical_factor_sparse, unstable
 from msa.diagnosis import mechanism_error
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import MechanismError, ModelError, NumericalError
 
 Array = NDArray[Any]
 
@@ -94,9 +95,24 @@ def sparse_modes(reduced: SparseReduced, count: int) -> LowestModes:
     flexible = count - reduced.rigid.shape[1]
     if flexible <= 0:
         return LowestModes(np.zeros(count), rigid, "kinematics")
+    if reduced.geometric is None:
+        return _lowest_modes(reduced, flexible)
+    try:
+        return _lowest_modes(reduced, flexible)
+    except (MechanismError, NumericalError) as error:
+        stiffening = reduced.system.placed.stiffening
+        case = "" if stiffening is None else stiffening.case
+        elastic = sp.csc_array(reduced.stiffness - reduced.geometric)
+        share = critical_factor_sparse(elastic, reduced.geometric)
+        raise unstable(reduced.system, case, share, 0) from error
+
+
+def _lowest_modes(reduced: SparseReduced, flexible: int) -> LowestModes:
+    """Rigid-body modes, and as many flexible ones as asked."""
+    rigid = reduced.rigid
     shift, factor, solve = _factorised(reduced)
-    if reduced.preloaded and factor.negative_pivots():
-        raise NumericalError("structure", "has a stiffness that is not positive.", "It buckles.")
+    if reduced.geometric is not None and factor.negative_pivots():
+        raise mechanism_error(reduced.system, 0)
     values, vectors = _lanczos(reduced, solve, shift, reduced.rigid, flexible)
     while True:
         known = np.concatenate([reduced.rigid, vectors], axis=1)
