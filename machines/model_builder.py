@@ -100,7 +100,10 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         tolerance_costs=toleranced.costs,
         force_limits=toleranced.limits,
         solids=solids,
+        preload=tables.preload,
     )
+    if model.preload is not None:
+        model.case(model.preload)
     # coincidence of joint nodes, lengths and orientations of beams: now, not at the first solve
     _ = model.placed
     return model
