@@ -138,9 +138,6 @@ def reduce_system(system: System) -> Reduced:
 
 def _stiffened(system: System, basis: Array, elastic: Array, free: Array) -> tuple[Array, Array]:
     """Stiffness with what a preload adds, (p, c, c), and the motions that stay free, (p, c, k)."""
-    stiffening = system.placed.stiffening
-    if stiffening is None:
-        return elastic, free
     geometric = symmetric_product(basis, geometric_stiffness(system))
     rigid = free
     if free.shape[-1]:
@@ -149,5 +146,5 @@ def _stiffened(system: System, basis: Array, elastic: Array, free: Array) -> tup
         unit = np.linalg.norm(basis / scales(system)[..., None], axis=1)
         push = (geometric @ free) / np.where(unit > 0, unit, 1.0)[..., None]
         rigid = motions_left_free(free, push, largest_work(system))
-    check_stable(system, elastic, geometric, free, rigid, stiffening.case)
+    check_stable(system, elastic, geometric, free, rigid, ~np.any(basis, axis=1))
     return elastic + geometric, rigid

@@ -100,11 +100,9 @@ def sparse_modes(reduced: SparseReduced, count: int) -> LowestModes:
     try:
         return _lowest_modes(reduced, flexible)
     except (MechanismError, NumericalError) as error:
-        stiffening = reduced.system.placed.stiffening
-        case = "" if stiffening is None else stiffening.case
         elastic = sp.csc_array(reduced.stiffness - reduced.geometric)
         share = critical_factor_sparse(elastic, reduced.geometric)
-        raise unstable(reduced.system, case, share, 0) from error
+        raise unstable(reduced.system, share, 0) from error
 
 
 def _lowest_modes(reduced: SparseReduced, flexible: int) -> LowestModes:

@@ -20,7 +20,7 @@ Array = NDArray[Any]
 #: A preload that does less than this share of its largest work in a free motion leaves it free.
 LEFT_FREE = 1e-9
 
-#: Below this share of the preload's largest work a negative one is rounding.
+#: A free motion falls when the preload holds it with less than this share of its largest work.
 FALLS = 1e-9
 
 
@@ -61,7 +61,12 @@ def without_elastic_work(stiffness: Array, free: Array) -> Array:
 
 
 def check_stable(
-    system: System, elastic: Array, geometric: Array, free: Array, rigid: Array, case: str
+    system: System,
+    elastic: Array,
+    geometric: Array,
+    free: Array,
+    rigid: Array,
+    absent: NDArray[np.bool_],
 ) -> None:
     """Check that a structure stands under its preload.
 
@@ -73,7 +78,8 @@ def check_stable(
         Motions that cost no elastic energy.
     rigid : (p, c, k)
         Those among them that stay free.
-    case : str
+    absent : (p, c)
+        Coordinates that a pose does not have.
 
     Raises
     ------
@@ -88,13 +94,13 @@ def check_stable(
     held = rigid / scale[..., None]
     held, values, _ = np.linalg.svd(held, full_matrices=False)
     held = held * (values > 1e-12 * np.maximum(values[:, :1], 1e-300))[:, None, :]
-    stiff = stiff + held @ np.swapaxes(held, -1, -2)
+    stiff = stiff + held @ np.swapaxes(held, -1, -2) + absent[:, :, None] * np.eye(stiff.shape[-1])
     try:
         np.linalg.cholesky(stiff)
     except np.linalg.LinAlgError:
         pose = int(np.linalg.eigvalsh(stiff)[:, 0].argmin())
         factor = critical_factor(elastic[pose], geometric[pose], free[pose], rigid[pose])
-        raise unstable(system, case, factor, pose) from None
+        raise unstable(system, factor, pose) from None
 
 
 def critical_factor(elastic: Array, geometric: Array, free: Array, rigid: Array) -> float:
@@ -116,10 +122,11 @@ def critical_factor(elastic: Array, geometric: Array, free: Array, rigid: Array)
     gathered = np.concatenate([free, np.zeros((len(k), 1))], axis=1)
     stiff = la.null_space(gathered.T)
     k, cross, own = stiff.T @ k @ stiff, stiff.T @ g @ basis, basis.T @ g @ basis
+    if basis.shape[1]:
+        if la.eigvalsh(own)[0] <= FALLS * np.abs(g).max():
+            return 0.0
     g = stiff.T @ g @ stiff
     if basis.shape[1]:
-        if la.eigvalsh(own)[0] <= 0:
-            return 0.0
         g = g - cross @ la.solve(own, cross.T, assume_a="pos")
     most = float(la.eigh(-(g + g.T) / 2, (k + k.T) / 2, eigvals_only=True)[-1])
     return 1.0 / most if most > 0 else 0.0
@@ -143,8 +150,10 @@ def critical_factor_sparse(elastic: sp.csc_array, geometric: sp.csc_array) -> fl
     return 1.0 / float(found[0]) if found[0] > 0 else 0.0
 
 
-def unstable(system: System, case: str, factor: float, pose: int) -> NumericalError:
+def unstable(system: System, factor: float, pose: int) -> NumericalError:
     """The error for a structure that does not stand under its preload."""
+    stiffening = system.placed.stiffening
+    case = "" if stiffening is None else stiffening.case
     where = f" at pose {pose}" if system.poses > 1 else ""
     if factor > 0:
         return NumericalError(

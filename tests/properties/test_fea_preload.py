@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,16 @@ from scipy.spatial.transform import Rotation
 
 from fea import modes, preloaded
 from fea.geometric import geometric_stiffness
-from msa import LineLoad, LoadCase, PointMass, Spring, rectangle, rigid_map, system_of
+from msa import (
+    LineLoad,
+    LoadCase,
+    PlacedStructure,
+    PointMass,
+    Spring,
+    rectangle,
+    rigid_map,
+    system_of,
+)
 from tests.structures import Model, turned_case
 
 Array = NDArray[Any]
@@ -87,12 +97,33 @@ def balanced(model: Model, seed: int) -> tuple[LoadCase, Array]:
     )
 
 
+@dataclass(frozen=True)
+class Solid:
+    """An element of any stiffness that costs nothing in a rigid motion."""
+
+    name: str
+    nodes: tuple[str, ...]
+
+    def stiffness(self, at: PlacedStructure) -> Array:
+        index = at.structure.mesh_index
+        arms = at.positions[..., [index[n] for n in self.nodes], :]
+        rigid = rigid_map(arms).reshape(*arms.shape[:-2], -1, 6)
+        root = 1e3 * np.random.default_rng(5).normal(size=(rigid.shape[-2],) * 2)
+        away = np.eye(rigid.shape[-2]) - rigid @ np.linalg.pinv(rigid)
+        return np.asarray(away @ root @ root.T @ away)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_a_rigid_turn_costs_what_the_loads_alone_do(seed: int) -> None:
     """−Σ f·½ θ×(θ×r), whatever stands between the loads."""
     model = floating(seed)
     case, moment = balanced(model, seed)
-    placed = preloaded(model.place(), case)
+    bare = model.place()
+    solid = Solid("lump", ("f2", "g", "c2"))
+    structure = replace(bare.structure, elements=(solid,))
+    placed = preloaded(structure.at(bare.placement), case)
+    assert placed.stiffening is not None
+    assert any(name == "element lump" for name, _, _ in placed.stiffening.parts)
     system = system_of(placed)
     positions = system.placed.positions[0]
     reference = positions[system.placed.structure.reference_nodes]

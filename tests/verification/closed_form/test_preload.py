@@ -173,6 +173,33 @@ def test_a_bead_that_slides_on_a_rod() -> None:
     assert np.abs(expected[0] / np.sqrt(soft / m) - 1) > 1e-4
 
 
+def test_a_bead_that_nothing_holds_slides_off() -> None:
+    """Neither motion falls by itself; together they do, however stiff the rod's spring is."""
+    model = Model()
+    model.ground(o=(0, 0, 0))
+    model.joint("pin", "revolute", ("o", "b"), Y)
+    model.nodes(end=(1, 0, 0), seat=(0.6, 0, 0))
+    model.rigid("rod", "b", "end", "seat")
+    model.joint("slide", "prismatic", ("seat", "bead"), (1, 0, 0))
+    model.support("end", stiffness={"z": 5e3})
+    model.masses.append(PointMass("bead", 3.0, ((0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1))))
+    with pytest.raises(NumericalError, match="slide in z"):
+        modes(preloaded(model.place(), GRAVITY), 1)
+
+
+@pytest.mark.parametrize("elements", [10, 260])
+def test_dense_and_sparse_name_the_same_critical_load(elements: int) -> None:
+    """Euler's π² EI / L² of a strut between hinges."""
+    model = Model()
+    model.nodes(a=(0, 0, 0), b=(2.0, 0, 0))
+    model.beam("strut", "a", "b", rod(0.02), STEEL, elements=elements, shear=False)
+    model.support("a", "x", "y", "z", "rx")
+    model.support("b", "y", "z")
+    euler = np.pi**2 * STEEL.youngs_modulus * rod(0.02).second_moment_y / 2.0**2
+    case = LoadCase("press", (("b", (-4 * euler, 0, 0, 0, 0, 0)),))
+    assert share_of_buckling(model, case) == pytest.approx(0.25, rel=1e-3)
+
+
 def narrow(elements: int) -> Model:
     model = Model()
     model.nodes(a=(0, 0, 0), b=(2.0, 0, 0))
