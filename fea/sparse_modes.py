@@ -93,15 +93,17 @@ def sparse_modes(reduced: SparseReduced, count: int) -> LowestModes:
         )
     rigid = reduced.rigid[:, :count]
     flexible = count - reduced.rigid.shape[1]
-    if flexible <= 0:
-        return LowestModes(np.zeros(count), rigid, "kinematics")
     if reduced.geometric is None:
+        if flexible <= 0:
+            return LowestModes(np.zeros(count), rigid, "kinematics")
         return _lowest_modes(reduced, flexible)
     try:
-        return _lowest_modes(reduced, flexible)
+        # one flexible mode at least tells whether the structure stands under its preload
+        found = _lowest_modes(reduced, max(flexible, 1))
+        return LowestModes(found.frequencies[:count], found.vectors[:, :count], found.solver)
     except (MechanismError, NumericalError) as error:
         elastic = sp.csc_array(reduced.stiffness - reduced.geometric)
-        share = critical_factor_sparse(elastic, reduced.geometric)
+        share = critical_factor_sparse(elastic, reduced.geometric, reduced.free)
         raise unstable(reduced.system, share, 0) from error
 
 
@@ -112,7 +114,7 @@ def _lowest_modes(reduced: SparseReduced, flexible: int) -> LowestModes:
     if reduced.geometric is not None and factor.negative_pivots():
         raise mechanism_error(reduced.system, 0)
     values, vectors = _lanczos(reduced, solve, shift, reduced.rigid, flexible)
-    while True:
+    while values.min() > 0.0:
         known = np.concatenate([reduced.rigid, vectors], axis=1)
         more, beside = _lanczos(reduced, solve, shift, known, min(4, flexible), 1e-10)
         missed = more < values.max() * (1.0 - 10.0 * EQUAL)

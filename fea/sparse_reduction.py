@@ -44,6 +44,8 @@ class SparseReduced:
         Rigid-body modes, orthonormal in the mass.
     geometric : (c, c) sparse or None
         What a preload adds; the stiffness holds it.
+    free : int
+        Under a preload, how many of the last coordinates are motions without elastic work.
     """
 
     system: System
@@ -52,6 +54,7 @@ class SparseReduced:
     mass: sp.csc_array
     rigid: Array
     geometric: sp.csc_array | None = None
+    free: int = 0
 
     def __repr__(self) -> str:
         return f"<SparseReduced: {self.size} coordinates, {self.rigid.shape[1]} rigid-body modes>"
@@ -100,7 +103,7 @@ def reduce_sparse(system: System) -> SparseReduced:
         )
     gram, largest = (rigid.T @ (mass @ rigid))[None], np.array([mass.diagonal().max()])
     rigid = rigid_modes(system, rigid[None], gram, largest)[0]
-    return SparseReduced(system, basis, stiffness, mass, rigid, geometric)
+    return SparseReduced(system, basis, stiffness, mass, rigid, geometric, free.shape[1])
 
 
 def _stiffened(

@@ -109,41 +109,66 @@ def critical_factor(elastic: Array, geometric: Array, free: Array, rigid: Array)
     With the free motions that the preload itself holds condensed, the least α of
     (K + α G) x = 0.
     """
-    free = free[:, np.any(free, axis=0)]
-    rigid = rigid[:, np.any(rigid, axis=0)]
-    diagonal = np.diag(elastic) + np.abs(np.diag(geometric))
+    # without coordinates that the pose does not have
+    here = np.any(elastic, axis=0) | np.any(geometric, axis=0)
+    k, g = elastic[here][:, here], geometric[here][:, here]
+    diagonal = np.diag(k) + np.abs(np.diag(g))
     scale = 1.0 / np.sqrt(np.where(diagonal > 0, diagonal, 1.0))
-    k, g = (m * scale[:, None] * scale for m in (elastic, geometric))
-    free, rigid = free / scale[:, None], rigid / scale[:, None]
-    basis = la.orth(free) if free.size else np.zeros((len(k), 0))
-    if rigid.size:
-        q = la.orth(rigid)
-        basis = la.orth(basis - q @ (q.T @ basis), rcond=1e-8) if basis.size else basis
-    gathered = np.concatenate([free, np.zeros((len(k), 1))], axis=1)
-    stiff = la.null_space(gathered.T)
-    k, cross, own = stiff.T @ k @ stiff, stiff.T @ g @ basis, basis.T @ g @ basis
-    if basis.shape[1]:
+    k, g = (m * scale[:, None] * scale for m in (k, g))
+    every = _span(free[here] / scale[:, None])
+    left = _span(rigid[here] / scale[:, None])
+    swings = _span(every - left @ (left.T @ every))
+    stiff = la.null_space(np.concatenate([every, np.zeros((len(k), 1))], axis=1).T)
+    cross, own = stiff.T @ g @ swings, swings.T @ g @ swings
+    k, bent = stiff.T @ k @ stiff, stiff.T @ g @ stiff
+    if swings.shape[1]:
         if la.eigvalsh(own)[0] <= FALLS * np.abs(g).max():
             return 0.0
-    g = stiff.T @ g @ stiff
-    if basis.shape[1]:
-        g = g - cross @ la.solve(own, cross.T, assume_a="pos")
-    most = float(la.eigh(-(g + g.T) / 2, (k + k.T) / 2, eigvals_only=True)[-1])
+        bent = bent - cross @ la.solve(own, cross.T, assume_a="pos")
+    try:
+        most = float(la.eigh(-(bent + bent.T) / 2, (k + k.T) / 2, eigvals_only=True)[-1])
+    except la.LinAlgError:
+        return 0.0
     return 1.0 / most if most > 0 else 0.0
 
 
-def critical_factor_sparse(elastic: sp.csc_array, geometric: sp.csc_array) -> float:
-    """The same for a large structure that elastic parts hold; 0 where they do not."""
+def _span(columns: Array) -> Array:
+    """Orthonormal basis of unit-sized columns' span, absent and cancelled ones left out."""
+    size = np.linalg.norm(columns, axis=0)
+    present = columns[:, size > 1e-6 * size.max(initial=0.0)]
+    if not present.size or size.max() < 1e-6:
+        return np.zeros((len(columns), 0))
+    left, values, _ = np.linalg.svd(present / np.linalg.norm(present, axis=0), full_matrices=False)
+    return np.asarray(left[:, values > 1e-6])
+
+
+def critical_factor_sparse(elastic: sp.csc_array, geometric: sp.csc_array, free: int) -> float:
+    """The same for a large structure whose last `free` coordinates are its free motions."""
+    n = elastic.shape[0] - free
+    cross, own = geometric[:n, n:].toarray(), geometric[n:, n:].toarray()
+    values, turn = la.eigh((own + own.T) / 2) if free else (np.zeros(0), np.zeros((0, 0)))
+    largest = float(abs(geometric).max())
+    cross = cross @ turn
+    swings = values > FALLS * largest
+    if np.any(values < -FALLS * largest) or np.any(
+        np.abs(cross[:, ~swings]) > np.sqrt(FALLS) * largest
+    ):
+        return 0.0
+    bent, give = geometric[:n, :n], cross[:, swings] / values[swings]
+
+    def press(vector: Array) -> Array:
+        return np.asarray(give @ (cross[:, swings].T @ vector) - bent @ vector)
+
+    held = sp.csc_array(elastic[:n, :n])
     try:
-        factor = factorize(elastic)
         found = eigsh(
-            -geometric,
+            LinearOperator(held.shape, matvec=press, dtype=float),
             k=1,
-            M=elastic,
-            Minv=LinearOperator(elastic.shape, matvec=factor.solve, dtype=float),
+            M=held,
+            Minv=LinearOperator(held.shape, matvec=factorize(held).solve, dtype=float),
             which="LA",
             return_eigenvectors=False,
-            v0=np.random.default_rng(1).normal(size=elastic.shape[0]),
+            v0=np.random.default_rng(1).normal(size=n),
         )
     except (NumericalError, ArpackNoConvergence):
         return 0.0
