@@ -58,7 +58,10 @@ class DeckModel:
         sections, sets, helpers = {}, {}, {}
         faces: dict[str, list[Block]] = {}
         used = {
-            row[0].upper() for s in scopes for surface in s.surfaces.values() for row in surface.rows
+            row[0].upper()
+            for s in scopes
+            for surface in s.surfaces.values()
+            for row in surface.rows
         }
         chosen = {name.upper() for s in scopes for name, _ in s.sections}
         for scope in scopes:
@@ -118,8 +121,9 @@ class DeckModel:
     ) -> Ints:
         """What a name in a set stands for: another set, or a number of an instance."""
         if name.upper() in {n.upper() for n in open_}:
-            raise self.deck.fail(piece.where, f"begins a set that holds itself by {name!r}",
-                                 "Name other sets in it.")
+            raise self.deck.fail(
+                piece.where, f"begins a set that holds itself by {name!r}", "Name other sets in it."
+            )
         home, label = self._instance_of(name)
         if label.isdigit() and home is not None:
             single = Piece(piece.where, home)
@@ -132,8 +136,11 @@ class DeckModel:
                 inner = sets[label.upper()]
                 method = self.nodes if what == "node" else self.cells
                 return method(place, inner, open_)
-        raise self.deck.fail(piece.where, f"begins a set that names {name!r}, which is no "
-                             f"{what} set of the file", "Check the name.")
+        raise self.deck.fail(
+            piece.where,
+            f"begins a set that names {name!r}, which is no {what} set of the file",
+            "Check the name.",
+        )
 
     def _named(self, scope: Scope, name: str, where: str, open_: tuple[str, ...]) -> Ints:
         """Cells of the element set of a name."""
@@ -142,7 +149,9 @@ class DeckModel:
             if label.upper() in place.element_sets:
                 return self.cells(place, place.element_sets[label.upper()], open_)
         raise self.deck.fail(
-            where, f"names the element set {name!r}, which the file does not give", "Check its name."
+            where,
+            f"names the element set {name!r}, which the file does not give",
+            "Check its name.",
         )
 
     def _instance_of(self, name: str) -> tuple[Scope | None, str]:
@@ -155,7 +164,9 @@ class DeckModel:
     def _index(self, piece: Piece) -> Index:
         found = self._indices.get(piece.scope)
         if found is None:
-            raise self.deck.fail(piece.where, "begins a set outside of the part", "Check its place.")
+            raise self.deck.fail(
+                piece.where, "begins a set outside of the part", "Check its place."
+            )
         return found
 
     def _label(self, scope: Scope, name: str) -> str:
@@ -227,8 +238,9 @@ class DeckModel:
             order = FACE_ORDER[type_.linear_kind]
             number = int(side[1:])
             if not 1 <= number <= len(order):
-                raise self.deck.fail(where, f"names the side {side} of a {kind}",
-                                     f"It has S1 to S{len(order)}.")
+                raise self.deck.fail(
+                    where, f"names the side {side} of a {kind}", f"It has S1 to S{len(order)}."
+                )
             yield type_.face_kind, nodes[own][:, type_.faces[order[number - 1]]]
 
     def _exposed(self, cells: Ints) -> Iterator[Block]:
@@ -286,8 +298,11 @@ def _one_part(deck: Deck) -> tuple[Scope, Array]:
     scope = deck.parts[instance.part.upper()]
     points = np.frombuffer(scope.coordinates, dtype=float).reshape(-1, 3)
     if instance.rows and instance.has_mesh:
-        raise deck.fail(instance.where, "begins an instance that is placed and holds its own mesh",
-                        "Make the mesh on the part (in Abaqus: Make Dependent).")
+        raise deck.fail(
+            instance.where,
+            "begins an instance that is placed and holds its own mesh",
+            "Make the mesh on the part (in Abaqus: Make Dependent).",
+        )
     try:
         return scope, placed(points, instance.rows)
     except ValueError as error:

@@ -91,7 +91,7 @@ class Scope:
         """Whether it holds no element."""
         return not self.elements
 
-    def piece(self, sets: dict[str, NamedSet], name: str, piece: Piece, internal: bool) -> None:  # noqa: FBT001
+    def piece(self, sets: dict[str, NamedSet], name: str, piece: Piece, internal: bool) -> None:
         """Add a block to the set of that name."""
         found = sets.setdefault(name.upper(), NamedSet(name))
         found.internal |= internal
@@ -135,8 +135,10 @@ class Index:
                 row = int(np.argmin(known.all(axis=1)))
                 node = table[row, 1:][~known[row]][0]
                 raise self._fail(
-                    block.where, f"begins elements of which {table[row, 0]} has the node {node}, "
-                    "which the file does not give", "Export the mesh again, whole.",
+                    block.where,
+                    f"begins elements of which {table[row, 0]} has the node {node}, "
+                    "which the file does not give",
+                    "Export the mesh again, whole.",
                 )
             yield block, at + self.offset
 
@@ -158,12 +160,19 @@ class Index:
     def _range(self, piece: Piece, range_: tuple[int, int, int], all_: Numbered, what: str) -> Ints:
         found = all_.between(*range_)
         if not len(found):
-            raise self._fail(piece.where, f"begins a set that generates {what}s {range_[0]} to "
-                             f"{range_[1]}; the file gives none of them", "Check its numbers.")
+            raise self._fail(
+                piece.where,
+                f"begins a set that generates {what}s {range_[0]} to "
+                f"{range_[1]}; the file gives none of them",
+                "Check its numbers.",
+            )
         return found
 
     def _check(self, piece: Piece, known: NDArray[np.bool_], what: str) -> None:
         if not known.all():
             number = piece.numbers[int(np.argmin(known))]
-            raise self._fail(piece.where, f"begins a set with {what} {number}, which the file does "
-                             "not give", "Check its numbers, or export the mesh again.")
+            raise self._fail(
+                piece.where,
+                f"begins a set with {what} {number}, which the file does not give",
+                "Check its numbers, or export the mesh again.",
+            )

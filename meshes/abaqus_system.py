@@ -53,7 +53,7 @@ class System:
         """Whether it changes nothing."""
         return not self.origin.any() and bool((self.axes == np.eye(3)).all())
 
-    def to_global(self, values: array[float], cylindrical: bool) -> array[float]:  # noqa: FBT001
+    def to_global(self, values: array[float], cylindrical: bool) -> array[float]:
         """Coordinates (3 n) in the system, or radius, angle in degrees and height, as global."""
         places = np.array(values, dtype=float).reshape(-1, 3)
         if cylindrical:

@@ -12,9 +12,7 @@ SOLIDS = {
 #: Solids of stress analysis: C3D8, C3D8R, C3D10M, C3D20RH, C3D8I, C3D27, …
 SOLID = re.compile(r"C3D(\d+)[A-Z]*$")
 #: Faces: shells, membranes, surfaces, rigid and plane elements.
-FACE = re.compile(
-    r"(?:S|M3D|SFM3D|R3D|CPS|CPE|CPEG|CAX|DS|STRI|ACIN3D)([34689])[A-Z0-9]*$"
-)
+FACE = re.compile(r"(?:S|M3D|SFM3D|R3D|CPS|CPE|CPEG|CAX|DS|STRI|ACIN3D)([34689])[A-Z0-9]*$")
 FACES = {"3": "triangle", "4": "quad", "6": "triangle6", "8": "quad8", "9": "quad9"}
 #: Points and lines beside solids: masses, springs, dashpots, beams, trusses, connectors, …
 POINT_OR_LINE = re.compile(
@@ -30,7 +28,7 @@ NODE_ORDER = {"hexahedron27": (*range(20), 26, 24, 23, 25, 21, 22, 20)}
 
 
 def kind_of(type_: str) -> str | None:
-    """meshio's kind of an element type; empty for points and lines, None where unknown."""
+    """Meshio's kind of an element type; empty for points and lines, None where unknown."""
     name = type_.upper().strip()
     if match := SOLID.match(name):
         return SOLIDS.get(int(match[1]))

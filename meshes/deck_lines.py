@@ -95,8 +95,10 @@ class DeckLines:
             raise self.error(f"includes {name!r}, which is being read", "Include it once.")
         self._included += 1
         if self._included > MOST_INCLUDES:
-            raise self.error(f"is include {self._included}; {MOST_INCLUDES} is the limit",
-                             "Write the deck as one file.")
+            raise self.error(
+                f"is include {self._included}; {MOST_INCLUDES} is the limit",
+                "Write the deck as one file.",
+            )
         place = self.where
         try:
             self._push(path, name)
@@ -109,7 +111,9 @@ class DeckLines:
         pure = (PurePosixPath(name), PureWindowsPath(name))
         remedy = "Put the file beside the deck or below it, and name it from there."
         if not name or any(p.is_absolute() or p.drive or ".." in p.parts for p in pure):
-            raise self.error(f"includes {name!r}, which leads out of the folder of the deck", remedy)
+            raise self.error(
+                f"includes {name!r}, which leads out of the folder of the deck", remedy
+            )
         folders = dict.fromkeys((self._folder, self._stack[-1].path.parent.resolve()))
         forms = dict.fromkeys((name, name.replace("\\", "/")))
         for path in (folder / form for folder in folders for form in forms):

@@ -91,7 +91,10 @@ class FileMesh:
             for (kind, nodes), own in zip(blocks, np.split(region, ends), strict=True)
         )
         patches = {name: _patch(same) for name, same in self.faces.items()}
-        sets = {n: np.unique(cells) for n, cells in {**self.helpers, **self.cell_sets, **self.sections}.items()}
+        sets = {
+            n: np.unique(cells)
+            for n, cells in {**self.helpers, **self.cell_sets, **self.sections}.items()
+        }
         kept = {
             n: number[cells]
             for n, cells in sets.items()
@@ -112,7 +115,7 @@ def unusable(kind: str) -> str:
 def remedy_for(kind: str) -> str:
     """What to do about a solid that cannot be analysed."""
     if kind == "voxel":
-        return "Export hexahedra: in ParaView apply a filter that makes them, or Clean to Grid."
+        return "Export hexahedra, VTK's type 12."
     return "Mesh with hexahedra or tetrahedra alone."
 
 

@@ -56,6 +56,11 @@ def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
             for i, nodes in enumerate((group.nodes + 1).tolist(), start=first):
                 file.write("".join(_lines([i, *nodes], ",\n")))
             first += len(group.nodes)
+        # elements are numbered region by region
+        number = np.argsort(np.argsort(mesh.cell_regions, kind="stable"))
+        for name, chosen in mesh.cell_sets.items():
+            file.write(f"*ELSET, ELSET={labels[4, name]}\n")
+            file.write("".join(_lines(np.sort(number[chosen] + 1).tolist(), "\n")))
         for group in groups:
             if group.dimension == 0:
                 file.write(f"*NSET, NSET={labels[0, group.name]}\n")
@@ -76,9 +81,10 @@ def _lines(values: list[int], end: str) -> Iterator[str]:
 
 
 def _labels(mesh: Mesh, groups: list[Group]) -> dict[tuple[int, str], str]:
-    """Names without spaces and commas; ModelError where two become one."""
-    labels = {(g.dimension, g.name): re.sub(r"[\s,=*]+", "_", g.name) for g in groups}
-    for dimension in (0, 2, 3):
+    """Names without spaces and commas, cell sets as dimension 4; ModelError where two become one."""
+    names = [*((g.dimension, g.name) for g in groups), *((4, name) for name in mesh.cell_sets)]
+    labels = {(kind, name): re.sub(r"[\s,=*]+", "_", name) for kind, name in names}
+    for dimension in (0, 2, 3, 4):
         own = [v.upper() for (d, _), v in labels.items() if d == dimension]
         if len(set(own)) < len(own):
             raise ModelError(

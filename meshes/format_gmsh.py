@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from meshes.cells import CELL_TYPES
 from meshes.file_mesh import Block, FileMesh, remedy_for, unusable
 from meshes.gmsh_file import NODE_ORDER, Cells, GmshFile, read_file
-from meshes.groups import Group
+from meshes.groups import Group, with_cell_sets
 from meshes.mesh import Mesh
 from meshes.numbered import Numbered
 from meshes.rows import row_groups
@@ -29,8 +29,9 @@ def read(path: Path) -> FileMesh:
     index = Numbered(found.numbers)
     twice = index.twice()
     if len(twice):
-        raise ModelError(str(path), f"has the node {found.numbers[twice[0, 0]]} twice.",
-                         "Export the mesh again.")
+        raise ModelError(
+            str(path), f"has the node {found.numbers[twice[0, 0]]} twice.", "Export the mesh again."
+        )
     solids: list[Block] = []
     sets: dict[str, list[Ints]] = {}
     faces: dict[str, list[Block]] = {}
@@ -111,7 +112,7 @@ def _groups(found: GmshFile, cells: Cells, dimension: int) -> dict[str, Ints]:
                 "Export the mesh again.",
             )
         every = np.arange(len(cells.nodes))
-        numbers = {group: every for group in found.entities.get(cells.entity, ())}
+        numbers = dict.fromkeys(found.entities.get(cells.entity, ()), every)
     else:
         numbers = {
             group: np.flatnonzero(cells.physical == group)
@@ -153,6 +154,7 @@ def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
     """Write version 2.2, binary, which every Gmsh reads; a cell of two groups stands twice."""
     import meshio  # noqa: PLC0415 - half a second that most commands never need
 
+    groups = with_cell_sets(mesh, groups)
     for group in groups:
         if '"' in group.name or "\n" in group.name:
             raise ModelError(

@@ -5,7 +5,7 @@ Read here, not by meshio, which keeps the last of several pieces and unpacks wha
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET  # noqa: S405 - for the type alone
+import xml.etree.ElementTree as ET
 from pathlib import Path
 from typing import Any
 

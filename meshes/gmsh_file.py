@@ -96,16 +96,21 @@ def read_file(path: Path) -> GmshFile:
     found = GmshFile(path)
     values = Values(path, content, position, binary=binary, order=order)
     seen = set()
-    while (mark := re.compile(rb"^[ \t]*\$([A-Za-z]\w*)[ \t]*\r?\n", re.MULTILINE).search(
-        content, values.position
-    )) is not None:
+    while (
+        mark := re.compile(rb"^[ \t]*\$([A-Za-z]\w*)[ \t]*\r?\n", re.MULTILINE).search(
+            content, values.position
+        )
+    ) is not None:
         name = mark[1].decode("ascii")
         values.position = mark.end()
         if name.startswith("End"):
             continue
         if name in {"PartitionedEntities", "Partitioned"}:
-            raise ModelError(str(path), "is a mesh in partitions, which is not read.",
-                             "Unpartition the mesh in Gmsh, and export it again.")
+            raise ModelError(
+                str(path),
+                "is a mesh in partitions, which is not read.",
+                "Unpartition the mesh in Gmsh, and export it again.",
+            )
         if name == "PhysicalNames":
             _names(found, values)
         elif name in {"Entities", "Nodes", "Elements"}:
@@ -131,20 +136,31 @@ def read_file(path: Path) -> GmshFile:
 
 def _format(path: Path, content: bytes, start: int) -> tuple[float, bool, str, str, int]:
     """Version, whether binary, byte order, kind of a size, where the header ends."""
-    match = re.compile(rb"\$MeshFormat\s+([\d.]+)\s+(\d+)\s+(\d+)[ \t]*\r?\n?").match(content, start)
+    match = re.compile(rb"\$MeshFormat\s+([\d.]+)\s+(\d+)\s+(\d+)[ \t]*\r?\n?").match(
+        content, start
+    )
     if match is None:
-        raise ModelError(str(path), "$MeshFormat is not followed by a version.",
-                         "The file is cut short or damaged: export it again.")
+        raise ModelError(
+            str(path),
+            "$MeshFormat is not followed by a version.",
+            "The file is cut short or damaged: export it again.",
+        )
     version = float(match[1])
     if not (2.0 <= version < 3.0 or version in {4.0, 4.1}):
-        raise ModelError(str(path), f"is of version {match[1].decode()}, which is not read.",
-                         "Export it from Gmsh in version 4.1 or 2.2.")
+        raise ModelError(
+            str(path),
+            f"is of version {match[1].decode()}, which is not read.",
+            "Export it from Gmsh in version 4.1 or 2.2.",
+        )
     order, position = "<", match.end()
     if match[2] == b"1":
         one = content[position : position + 4]
         if one not in {b"\x01\0\0\0", b"\0\0\0\x01"}:
-            raise ModelError(str(path), "is binary without the number 1 after its version.",
-                             "The file is cut short or damaged: export it again.")
+            raise ModelError(
+                str(path),
+                "is binary without the number 1 after its version.",
+                "The file is cut short or damaged: export it again.",
+            )
         order = "<" if one[0] == 1 else ">"
         position += 4
     return version, match[2] == b"1", order, "U" if match[3] == b"4" else "u", position
@@ -161,8 +177,11 @@ def _names(found: GmshFile, values: Values) -> None:
     for line in lines[1:]:
         match = PHYSICAL.match(line)
         if match is None:
-            raise ModelError(str(found.path), f"$PhysicalNames holds {line.strip()[:60]!r}.",
-                             "It should be dimension, number and \"name\".")
+            raise ModelError(
+                str(found.path),
+                f"$PhysicalNames holds {line.strip()[:60]!r}.",
+                'It should be dimension, number and "name".',
+            )
         found.names[int(match[1]), int(match[2])] = match[3]
     if not lines or not lines[0].strip().isdigit() or int(lines[0]) != len(lines) - 1:
         raise values.cut()
@@ -319,6 +338,7 @@ def _type(found: GmshFile, number: int) -> tuple[str, int]:
 
 def _miscounted(found: GmshFile, what: str, wanted: int, read: object) -> ModelError:
     return ModelError(
-        str(found.path), f"counts {wanted} {what} and holds {read}.",
+        str(found.path),
+        f"counts {wanted} {what} and holds {read}.",
         "The file is cut short or damaged: export it again.",
     )

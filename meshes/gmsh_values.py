@@ -54,7 +54,8 @@ class Values:
                 self._text = np.fromstring(body.decode("ascii"), sep=" ")
         except (DeprecationWarning, ValueError, UnicodeDecodeError):
             raise ModelError(
-                str(self.path), f"${name} holds what is no number{self._first_wrong(body)}.",
+                str(self.path),
+                f"${name} holds what is no number{self._first_wrong(body)}.",
                 "The file is cut short or damaged: export it again.",
             ) from None
 
@@ -68,7 +69,9 @@ class Values:
                 raise self.cut()
             self._at += count
             return found if kind == "d" else found.astype(np.int64)
-        type_ = np.dtype({"i": "i4", "d": "f8", "u": "u8", "U": "u4"}[kind]).newbyteorder(self.order)
+        type_ = np.dtype({"i": "i4", "d": "f8", "u": "u8", "U": "u4"}[kind]).newbyteorder(
+            self.order
+        )
         return self.records(np.dtype([("x", type_)]), count)["x"].astype(
             float if kind == "d" else np.int64
         )

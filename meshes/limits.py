@@ -56,7 +56,9 @@ def check_size(path: Path | str, size: int, limit: int | None = None) -> None:
     limit = LARGEST_FILE if limit is None else limit
     if size > limit:
         raise ModelError(
-            str(path), f"the file has {size / 1e6:.4g} MB; {limit / 1e6:g} MB is the limit.", COARSER
+            str(path),
+            f"the file has {size / 1e6:.4g} MB; {limit / 1e6:g} MB is the limit.",
+            COARSER,
         )
 
 

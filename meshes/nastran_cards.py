@@ -121,9 +121,7 @@ def _fields(lines: DeckLines, text: str) -> tuple[str, list[str], str, bool]:
         most = 4 if large else 8
         data, rest = found[1 : most + 1], found[most + 1 :]
         if len([r for r in rest if r]) > 1 or (rest and rest[0] and rest[0][0] not in "+*"):
-            raise lines.error(
-                f"has more than {most} fields", "Let the line go on in another one."
-            )
+            raise lines.error(f"has more than {most} fields", "Let the line go on in another one.")
         label = rest[0] if rest else ""
         if data and data[-1][:1] == "+" and not re.match(r"\+[\d.]", data[-1]):
             label = data.pop()

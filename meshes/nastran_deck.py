@@ -105,20 +105,23 @@ class BulkData:
             self._default = (*card.fields, "", "")[1]
             if len(self._numbers):
                 # the default counts wherever the card stands
-                self._in_system = array(
-                    "q", [s or whole(self._default) for s in self._in_system]
-                )
+                self._in_system = array("q", [s or whole(self._default) for s in self._in_system])
         elif name in REFUSED:
             raise self.lines.error(
                 f"holds a {name}, which is {unusable(REFUSED[name])} and cannot be used",
-                remedy_for(REFUSED[name]), card.where,
+                remedy_for(REFUSED[name]),
+                card.where,
             )
         elif name in UNREAD:
-            raise self.lines.error(f"holds a {name} card, which is not read",
-                                   "Export the mesh with plain cards.", card.where)
+            raise self.lines.error(
+                f"holds a {name} card, which is not read",
+                "Export the mesh with plain cards.",
+                card.where,
+            )
         elif name not in NEAR and (near := get_close_matches(name, WORDS, n=1, cutoff=0.8)):
-            raise self.lines.error(f"holds the card {name}", f"If {near[0]} is meant, write so.",
-                                   card.where)
+            raise self.lines.error(
+                f"holds the card {name}", f"If {near[0]} is meant, write so.", card.where
+            )
 
     def _element(self, card: Card) -> None:
         plain, full, order = ELEMENTS[card.name]
@@ -129,11 +132,16 @@ class BulkData:
         if len(nodes) < corners or not all(nodes[:corners]):
             raise self.lines.error(
                 f"holds a {card.name} with {sum(n > 0 for n in nodes[:corners])} of {corners} "
-                "corners", "The file is cut short or damaged: export it again.", card.where,
+                "corners",
+                "The file is cut short or damaged: export it again.",
+                card.where,
             )
         if card.name in {"CTETRA", "CHEXA"} and any(fields[2 + count :]):
-            raise self.lines.error(f"holds a {card.name} of more than {count} grid points",
-                                   "Check the card.", card.where)
+            raise self.lines.error(
+                f"holds a {card.name} of more than {count} grid points",
+                "Check the card.",
+                card.where,
+            )
         nodes += [0] * (count - len(nodes))
         cells = self.cells.setdefault(card.name, Cells(card.where))
         cells.rows.extend((int(fields[0]), whole(fields[1]) or int(fields[0]), *nodes))
@@ -149,8 +157,11 @@ class BulkData:
         moved = (points[pairs[:, 0]] != points[pairs[:, 1]]).any(axis=1)
         if moved.any():
             number = self.grids.numbers[pairs[moved][0, 0]]
-            raise ModelError(str(self.lines.path), f"grid point {number} is given twice, at two "
-                             "places.", "Number it anew.")
+            raise ModelError(
+                str(self.lines.path),
+                f"grid point {number} is given twice, at two places.",
+                "Number it anew.",
+            )
         return points
 
     def tables(self) -> list[tuple[str, Ints, Ints]]:
@@ -184,6 +195,9 @@ class BulkData:
         own = np.concatenate(numbers)
         twice = Numbered(own).twice()
         if len(twice):
-            raise ModelError(str(self.lines.path), f"element {own[twice[0, 0]]} is given twice.",
-                             "Number it anew.")
+            raise ModelError(
+                str(self.lines.path),
+                f"element {own[twice[0, 0]]} is given twice.",
+                "Number it anew.",
+            )
         return found

@@ -76,8 +76,14 @@ class Systems:
         return found
 
     def _place(
-        self, system: int, numbers: Numbered, systems: Ints, places: Array, found: Array,
-        done: NDArray[np.bool_], open_: tuple[int, ...],
+        self,
+        system: int,
+        numbers: Numbered,
+        systems: Ints,
+        places: Array,
+        found: Array,
+        done: NDArray[np.bool_],
+        open_: tuple[int, ...],
     ) -> None:
         """Set the global places of all points of a system."""
         own = systems == system
@@ -98,8 +104,14 @@ class Systems:
         return self.given[number]
 
     def _frame(
-        self, number: int, numbers: Numbered, systems: Ints, places: Array, found: Array,
-        done: NDArray[np.bool_], open_: tuple[int, ...],
+        self,
+        number: int,
+        numbers: Numbered,
+        systems: Ints,
+        places: Array,
+        found: Array,
+        done: NDArray[np.bool_],
+        open_: tuple[int, ...],
     ) -> tuple[Array, Array]:
         """Origin and axes (columns) of a system."""
         if number == 0:
@@ -117,7 +129,9 @@ class Systems:
             if not known.all():
                 raise self.lines.error(
                     f"names the grid point {given.grids[int(np.argmin(known))]}, which the file "
-                    "does not give", "Check its number.", given.where,
+                    "does not give",
+                    "Check its number.",
+                    given.where,
                 )
             for system in np.unique(systems[at]).tolist():
                 if system:
@@ -136,7 +150,8 @@ class Systems:
         lengths = [float(np.linalg.norm(v)) for v in (x, y, z)]
         if min(lengths) <= 1e-12 * float(np.abs(points).max()) ** 2:
             raise self.lines.error(
-                f"gives the coordinate system {number} by points on one line", "Check its points.",
+                f"gives the coordinate system {number} by points on one line",
+                "Check its points.",
                 given.where,
             )
         axes = np.stack([v / n for v, n in zip((x, y, z), lengths, strict=True)], axis=1)

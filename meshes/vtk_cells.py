@@ -64,8 +64,10 @@ def blocks(path: Path, connectivity: Ints, ends: Ints, types: Ints, points: int)
     sizes = np.diff(ends, prepend=0)
     if len(ends) != len(types) or (sizes < 0).any() or (ends[-1:] != len(connectivity)).any():
         raise ModelError(
-            str(path), f"has offsets of {len(ends)} cells that do not fit {len(types)} types and "
-            f"{len(connectivity)} nodes.", damaged,
+            str(path),
+            f"has offsets of {len(ends)} cells that do not fit {len(types)} types and "
+            f"{len(connectivity)} nodes.",
+            damaged,
         )
     found = []
     for number in np.unique(types).tolist():
@@ -76,8 +78,7 @@ def blocks(path: Path, connectivity: Ints, ends: Ints, types: Ints, points: int)
             kind = SOLIDS.get(number, f"VTK type {number}")
             raise ModelError(
                 str(path),
-                f"cell {own[0]} is {unusable(kind)}, which cannot be used "
-                f"({len(own)} such cells).",
+                f"cell {own[0]} is {unusable(kind)}, which cannot be used ({len(own)} such cells).",
                 remedy_for(kind),
             )
         kind = KINDS[number]
@@ -85,13 +86,15 @@ def blocks(path: Path, connectivity: Ints, ends: Ints, types: Ints, points: int)
         wrong = own[sizes[own] != width]
         if len(wrong):
             raise ModelError(
-                str(path), f"cell {wrong[0]} ({kind}) has {sizes[wrong[0]]} nodes, not {width}.",
+                str(path),
+                f"cell {wrong[0]} ({kind}) has {sizes[wrong[0]]} nodes, not {width}.",
                 damaged,
             )
         nodes = connectivity[(ends[own] - width)[:, None] + np.arange(width)]
         if nodes.size and (nodes.min() < 0 or nodes.max() >= points):
             raise ModelError(
-                str(path), f"has cells of type {kind} on point {nodes.max()}; there are {points}.",
+                str(path),
+                f"has cells of type {kind} on point {nodes.max()}; there are {points}.",
                 damaged,
             )
         found.append(VtkBlock(kind, own, nodes))

@@ -6,7 +6,7 @@ import base64
 import binascii
 import lzma
 import re
-import xml.etree.ElementTree as ET  # noqa: S405 - declarations of entities are refused
+import xml.etree.ElementTree as ET
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
@@ -203,21 +203,28 @@ def open_vtu(path: Path) -> VtuFile:
         rest = content[end:] if end > match.end() else b""
         content = content[: match.end()] + rest
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
-        raise ModelError(str(path), "declares entities of XML, which are not read.",
-                         "Export the mesh again.")
+        raise ModelError(
+            str(path), "declares entities of XML, which are not read.", "Export the mesh again."
+        )
     try:
         root = ET.fromstring(content)  # noqa: S314 - see above
     except (ET.ParseError, ValueError, LookupError) as error:
-        raise ModelError(str(path), f"cannot be read as .vtu: {error}.",
-                         "The file is cut short or damaged, or of another format: export it again.",
-                         ) from None
+        raise ModelError(
+            str(path),
+            f"cannot be read as .vtu: {error}.",
+            "The file is cut short or damaged, or of another format: export it again.",
+        ) from None
     file = VtuFile(path, root, appended, is_raw)
     if root.tag != "VTKFile" or root.get("type") != "UnstructuredGrid":
         what = root.get("type") or root.tag
-        raise file.error(f"is of type {what!r}, not UnstructuredGrid.",
-                         "Export the mesh as an unstructured grid.")
+        raise file.error(
+            f"is of type {what!r}, not UnstructuredGrid.",
+            "Export the mesh as an unstructured grid.",
+        )
     if file.compressor not in COMPRESSORS:
         short = file.compressor.removeprefix("vtk").removesuffix("DataCompressor")
-        raise file.error(f"is compressed with {short}, which is not read.",
-                         "Export it with ZLib or without compression.")
+        raise file.error(
+            f"is compressed with {short}, which is not read.",
+            "Export it with ZLib or without compression.",
+        )
     return file
