@@ -196,7 +196,11 @@ class Mesh:
         return np.concatenate([b.region for b in self.blocks])
 
     def region_cells(self, name: str) -> Ints:
-        """The cells of a region or of a cell set, blocks one after another, ascending."""
+        """The cells of a cell set, or of a region where no set has the name, ascending.
+
+        A file's group that lies partly in others is a region of the cells it has alone, and a
+        cell set of all of them: here it is all.
+        """
         if name in self.cell_sets:
             return self.cell_sets[name]
         self._named(dict.fromkeys((*self.regions, *self.cell_sets)), "region", name)
@@ -213,9 +217,11 @@ class Mesh:
 
     def holders(self, region: str) -> tuple[str, ...]:
         """The region and the cell sets that hold all of it, the smallest first."""
-        own = self.region_cells(region)
+        self._named(dict.fromkeys(self.regions), "region", region)
+        own = np.flatnonzero(self.cell_regions == self.regions.index(region))
         sets = sorted(self.cell_sets, key=lambda name: len(self.cell_sets[name]))
-        return (region, *(n for n in sets if np.isin(own, self.cell_sets[n]).all()))
+        held = (n for n in sets if n != region and np.isin(own, self.cell_sets[n]).all())
+        return (region, *held)
 
     def _named(self, things: Mapping[str, Named], what: str, name: str) -> Named:
         if name not in things:

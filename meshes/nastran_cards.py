@@ -17,7 +17,7 @@ CONTROL = re.compile(
     r"DISPLACEMENT|STRESS|ANALYSIS|SET|SUBTITLE)\b(\s+[^,]*|\s*=.*|)$",
     re.IGNORECASE,
 )
-EXPONENT = re.compile(r"([-+]?[\d.]+)[dDeE]?([-+]\d+)$")
+EXPONENT = re.compile(r"([-+]?[\d.]+)([dD][-+]?|[-+])(\d+)$")
 
 
 class Card(NamedTuple):
@@ -153,4 +153,4 @@ def real(text: str) -> float:
         match = EXPONENT.match(text)
         if match is None:
             raise
-        return float(f"{match[1]}E{match[2]}")
+        return float(f"{match[1]}E{match[2].strip('dD')}{match[3]}")
