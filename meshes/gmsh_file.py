@@ -7,6 +7,7 @@ under the GPL and need not be installed to read a mesh.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -113,12 +114,12 @@ def read_file(path: Path) -> GmshFile:
             )
         if name == "PhysicalNames":
             _names(found, values)
-        elif name in {"Entities", "Nodes", "Elements"}:
-            if name in seen:
-                raise ModelError(str(path), f"has ${name} twice.", "Export the mesh again.")
-            seen.add(name)
+        elif name in READERS:
+            reader, what = READERS[name]
+            if what in seen:
+                raise ModelError(str(path), f"has ${what} twice.", "Export the mesh again.")
+            seen.add(what)
             values.open_text(name)
-            reader = {"Entities": _entities, "Nodes": _nodes, "Elements": _elements}[name]
             reader(found, values, version, size)
             values.close()
         else:
@@ -246,6 +247,21 @@ def _nodes_2(found: GmshFile, values: Values) -> None:
     found.numbers, found.points = table[:, 0].astype(np.int64), table[:, 1:]
 
 
+def _parametric_2(found: GmshFile, values: Values, version: float, size: str) -> None:
+    """Nodes with the entity that they lie on, and their parameters on a curve or a surface."""
+    del version, size
+    count = _count_2(values)
+    limits.check_counts(found.path, count)
+    numbers, points = [], []
+    for _ in range(count):
+        numbers.append(values.take(1))
+        points.append(values.take(3, "d"))
+        dimension = int(values.take(2)[0])
+        values.take(dimension if dimension in {1, 2} else 0, "d")
+    found.numbers = np.concatenate([*numbers, np.zeros(0, np.int64)])
+    found.points = np.array(points, dtype=float).reshape(-1, 3)
+
+
 def _count_2(values: Values) -> int:
     """The count of a section of version 2, which is text in binary files too."""
     if not values.binary:
@@ -324,6 +340,15 @@ def _text_2(found: GmshFile, values: Values, count: int) -> None:
         read += rows
     if at != len(flat):
         raise _miscounted(found, "elements", count, "more")
+
+
+#: What reads each section, and what the section gives.
+READERS: dict[str, tuple[Callable[[GmshFile, Values, float, str], None], str]] = {
+    "Entities": (_entities, "Entities"),
+    "Nodes": (_nodes, "Nodes"),
+    "ParametricNodes": (_parametric_2, "Nodes"),
+    "Elements": (_elements, "Elements"),
+}
 
 
 def _type(found: GmshFile, number: int) -> tuple[str, int]:
