@@ -23,7 +23,7 @@ from meshes.vtu_arrays import VtuFile, open_vtu
 Array = NDArray[Any]
 Ints = NDArray[np.int64]
 PREFIXES = {3: "region:", 2: "patch:"}
-NODES = "nodes:"
+CELLS, NODES = "cells:", "nodes:"
 #: Numbers of regions as other programs write them.
 TAGS = ("region", "gmsh:physical", "mat_id", "MaterialIds", "CellEntityIds")
 
@@ -39,6 +39,7 @@ def read(path: Path) -> FileMesh:
     limits.check_counts(path, sum(p for p, _ in counts), sum(c for _, c in counts))
     points: list[Array] = []
     solids: list[Block] = []
+    regions: dict[str, list[Ints]] = {}
     sets: dict[str, list[Ints]] = {}
     faces: dict[str, list[Block]] = {}
     node_sets: dict[str, list[Ints]] = {}
@@ -52,10 +53,12 @@ def read(path: Path) -> FileMesh:
             dimension = CELL_TYPES[block.kind].dimension
             for name, own in _named(block, dimension, data).items():
                 if dimension == 3:
-                    sets.setdefault(name, []).append(first_cell + own)
+                    regions.setdefault(name, []).append(first_cell + own)
                 else:
                     faces.setdefault(name, []).append((block.kind, nodes[own]))
             if dimension == 3:
+                for name, own in _masks(block, data, CELLS).items():
+                    sets.setdefault(name, []).append(first_cell + own)
                 solids.append((block.kind, nodes))
                 first_cell += len(nodes)
         for name, values in _data(file, piece.find("PointData"), point_count).items():
@@ -68,6 +71,7 @@ def read(path: Path) -> FileMesh:
         np.concatenate(points),
         solids,
         cell_sets={name: np.concatenate(own) for name, own in sets.items()},
+        sections={name: np.concatenate(own) for name, own in regions.items()},
         faces=faces,
         node_sets={name: np.concatenate(own) for name, own in node_sets.items()},
     )
@@ -103,7 +107,7 @@ def _data(file: VtuFile, parent: ET.Element | None, count: int) -> dict[str, Int
     found = {}
     for element in [] if parent is None else parent.findall("DataArray"):
         name = element.get("Name", "")
-        if name in TAGS or name.startswith((*PREFIXES.values(), NODES)):
+        if name in TAGS or name.startswith((*PREFIXES.values(), CELLS, NODES)):
             found[name] = file.values(element, count).astype(np.int64)
     return found
 
@@ -111,15 +115,20 @@ def _data(file: VtuFile, parent: ET.Element | None, count: int) -> dict[str, Int
 def _named(block: VtkBlock, dimension: int, data: dict[str, Ints]) -> dict[str, Ints]:
     """Cells of a block by the name of their region or patch; masks decide before numbers."""
     prefix = PREFIXES[dimension]
-    masks = {
+    if any(name.startswith(prefix) for name in data):
+        return _masks(block, data, prefix)
+    tags = [data[name] for name in TAGS if name in data]
+    return by_tag(tags[0][block.cells], {}, prefix.rstrip(":")) if tags else {}
+
+
+def _masks(block: VtkBlock, data: dict[str, Ints], prefix: str) -> dict[str, Ints]:
+    """Cells of a block by the name of each mask that holds some."""
+    found = {
         name.removeprefix(prefix): np.flatnonzero(values[block.cells])
         for name, values in data.items()
         if name.startswith(prefix)
     }
-    if masks:
-        return {name: own for name, own in masks.items() if len(own)}
-    tags = [data[name] for name in TAGS if name in data]
-    return by_tag(tags[0][block.cells], {}, prefix.rstrip(":")) if tags else {}
+    return {name: own for name, own in found.items() if len(own)}
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
@@ -131,11 +140,13 @@ def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
     ends = np.cumsum([len(b.nodes) for b in mesh.blocks])[:-1]
     nowhere = [np.zeros(len(g.nodes), np.uint8) for g in faces]
     cell_data = {}
-    for name in dict.fromkeys((*mesh.regions, *mesh.cell_sets)):
-        mask = np.zeros(mesh.cell_count, np.uint8)
-        mask[mesh.region_cells(name)] = 1
-        if mask.any():
-            cell_data[PREFIXES[3] + name] = [*np.split(mask, ends), *nowhere]
+    named = {
+        PREFIXES[3] + name: mesh.cell_regions == index for index, name in enumerate(mesh.regions)
+    }
+    for name, chosen in mesh.cell_sets.items():
+        named[CELLS + name] = np.isin(np.arange(mesh.cell_count), chosen)
+    for name, mask in named.items():
+        cell_data[name] = [*np.split(mask.astype(np.uint8), ends), *nowhere]
     blank = [np.zeros(len(b.nodes), np.uint8) for b in mesh.blocks]
     for name in mesh.patches:
         own = [np.full(len(g.nodes), g.name == name, dtype=np.uint8) for g in faces]

@@ -39,14 +39,17 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
     except (OSError, ValueError) as error:
         why = error.strerror if isinstance(error, OSError) else str(error)
         raise ModelError(str(path), f"cannot be opened ({why}).", "Check the path.") from None
-    with os.fdopen(handle, "rb") as file:
-        status = os.fstat(file.fileno())
+    try:
+        status = os.fstat(handle)
         if not stat.S_ISREG(status.st_mode):
             raise ModelError(str(path), "is not an ordinary file.", "Name a file.")
         if status.st_size == 0:
             raise ModelError(str(path), "the file is empty.", "Export the mesh again.")
         check_size(path, status.st_size, limit)
-        content = file.read(limit + 1)
+        with os.fdopen(handle, "rb", closefd=False) as file:
+            content = file.read(limit + 1)
+    finally:
+        os.close(handle)
     check_size(path, len(content), limit)
     return content
 

@@ -201,8 +201,12 @@ def read_mesh_of(tmp_path: Path) -> Mesh:
 
 WRONG = [
     ("*PART, NAME=A\n" + ROW + "*END PART\n*PART, NAME=B\n" + ROW + "*END PART\n", "2 parts"),
-    (PLACED.format(rows="").replace("*END ASSEMBLY", "*INSTANCE, NAME=P-2, PART=P\n"
-     "*END INSTANCE\n*END ASSEMBLY"), "2 instances of parts.*'P-1', 'P-2'"),
+    (
+        PLACED.format(rows="").replace(
+            "*END ASSEMBLY", "*INSTANCE, NAME=P-2, PART=P\n*END INSTANCE\n*END ASSEMBLY"
+        ),
+        "2 instances of parts.*'P-1', 'P-2'",
+    ),
     (PLACED.format(rows="1.\n1., 2.\n"), "line 34 is placed by lines that are no translation"),
     (PLACED.format(rows="").replace("PART=P\n", "PART=Q\n"), "part 'Q', which the file does not"),
     (ROW.replace("C3D8,", "C3D6,"), "line 22.*'C3D6'.*wedge"),

@@ -43,7 +43,9 @@ def msh(version: str, *, binary: bool, order: str = "<", parametric: bool = Fals
         out += f"\n$EndNodes\n$Elements\n{len(rows)}\n".encode()
         for i, (type_, group, entity, nodes) in enumerate(rows, start=1):
             if binary:
-                out += pack("iii", type_, 1, 2) + pack(f"{3 + len(nodes)}i", i, group, entity, *nodes)
+                out += pack("iii", type_, 1, 2) + pack(
+                    f"{3 + len(nodes)}i", i, group, entity, *nodes
+                )
             else:
                 out += pack("", i, type_, 2, group, entity, *nodes)
         return out + b"\n$EndElements\n"
@@ -126,7 +128,10 @@ def test_elements_of_no_group_are_read_and_doubles_of_one_group_kept(tmp_path: P
 @pytest.mark.parametrize("binary", [False, True])
 @pytest.mark.parametrize("share", [0.3, 0.5, 0.7, 0.95])
 def test_what_is_cut_short_is_refused(
-    version: str, binary: bool, share: float, tmp_path: Path  # noqa: FBT001
+    version: str,
+    binary: bool,
+    share: float,
+    tmp_path: Path,  # noqa: FBT001
 ) -> None:
     content = msh(version, binary=binary)
     content = content[: content.rindex(b"$EndElements")]
@@ -146,8 +151,10 @@ WRONG = [
     (TEXT["4.1"].replace("1 12 10 120\n", "1 13 10 120\n"), "counts 13 nodes and holds 12"),
     (TEXT["2.2"].replace(" 90 100 110 120\n", " 90 100 110 999\n"), "element 6 has the node 999"),
     (TEXT["2.2"].replace("120 2.0 0.0 1.0", "120 2.0 O.0 1.0"), "line 27: 'O.0'"),
-    (TEXT["2.2"].replace("6 5 2 1 2 50 60 70 80 90 100 110 120", "6 6 2 1 2 10 20 30 50 60 70"),
-     "element 6 is a wedge"),
+    (
+        TEXT["2.2"].replace("6 5 2 1 2 50 60 70 80 90 100 110 120", "6 6 2 1 2 10 20 30 50 60 70"),
+        "element 6 is a wedge",
+    ),
     (TEXT["2.2"].replace("6 5 2 1 2 50 60 70 80 90 100 110 120", "6 29 2 1 2 1 2 3"), "type 29"),
     (TEXT["4.1"].replace("$Entities", "$PartitionedEntities"), "in partitions"),
     (TEXT["2.2"].replace("120 2.0 0.0 1.0", "110 2.0 0.0 1.0"), "has the node 110 twice"),

@@ -89,7 +89,8 @@ def test_numbers_without_an_e_are_read(text: str, value: float) -> None:
 
 
 @pytest.mark.parametrize(
-    "value", [0.0, 1.0, -1.0 / 3.0, 1e-300, -1.2345678901234567e-12, 2.0**70, 1e22, -123456.789012345]
+    "value",
+    [0.0, 1.0, -1.0 / 3.0, 1e-300, -1.2345678901234567e-12, 2.0**70, 1e22, -123456.789012345],
 )
 def test_a_number_in_sixteen_characters_keeps_its_digits(value: float) -> None:
     assert len(sixteen(value)) <= 16
@@ -99,7 +100,10 @@ def test_a_number_in_sixteen_characters_keeps_its_digits(value: float) -> None:
 
 RING = {
     "C": (lambda r, a: (r, a, 0.0), lambda r, a: (r, a, 1.0)),
-    "S": (lambda r, a: (r, 90.0, a), lambda r, a: ((r * r + 1) ** 0.5, np.degrees(np.arctan(r)), a)),
+    "S": (
+        lambda r, a: (r, 90.0, a),
+        lambda r, a: ((r * r + 1) ** 0.5, np.degrees(np.arctan(r)), a),
+    ),
 }
 
 
