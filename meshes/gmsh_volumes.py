@@ -21,7 +21,7 @@ from meshes.mesh import CellBlock, Faces, Mesh, Patch
 from meshes.order import without_orphans
 from meshes.quality import check_quality
 from meshes.rows import row_groups
-from meshes.surfaces import Surface, check_closed
+from meshes.surfaces import Surface, check_closed, check_one_body
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -72,6 +72,7 @@ def tetrahedra(
         )
     if isinstance(source, Surface):
         check_closed(source)
+        check_one_body(source)
     else:
         _check_step(Path(source))
     with _session(name) as gmsh:
