@@ -187,10 +187,15 @@ def _numbers(source: DataSet, form: Columns, body: bytes) -> tuple[Array, Array]
             "Export the file again.",
         )
     rows = found.reshape(count, each)
-    lines = start + step * np.arange(count) if even else rows[:, 0]
+    with np.errstate(all="ignore"):
+        lines = start + step * np.arange(count) if even else rows[:, 0]
     if not even:
         rows = rows[:, 1:]
-    return lines, rows[:, 0] + 1j * rows[:, 1] if values == 2 else rows[:, 0].astype(complex)
+    # no arithmetic: infinite parts are reported by the caller
+    response = rows[:, 0].astype(complex)
+    if values == 2:
+        response.imag = rows[:, 1]
+    return lines, response
 
 
 def _binary(source: DataSet, body: bytes, kind: int, count: int, even: bool) -> Array:

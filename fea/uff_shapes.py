@@ -120,7 +120,8 @@ def raw_mode(source: DataSet) -> RawMode | str:
         raise ModelError(source.part, "holds a node twice.", "Export each node once.")
     values = np.array(rows)
     if data in _COMPLEX_DATA:
-        values = values[:, 0::2] + 1j * values[:, 1::2]
+        pairs, values = values, values[:, 0::2].astype(complex)
+        values.imag = pairs[:, 1::2]
     if not (np.all(np.isfinite(values)) and np.all(np.isfinite([*normal, root]))):
         raise ModelError(
             source.part,

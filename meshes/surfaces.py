@@ -197,15 +197,6 @@ def check_closed(surface: Surface) -> None:
     )
     # +1 for each use from the lower to the higher number, −1 back: a closed surface cancels
     balance = np.bincount(edge.reshape(-1), np.where(ends[:, 0] < ends[:, 1], 1.0, -1.0))
-    alone = np.flatnonzero(uses % 2)
-    if len(alone):
-        middle = surface.points[ends[first[alone]]].mean(axis=1)
-        raise ModelError(
-            part,
-            f"is not watertight: {len(alone)} open edges, the first at {_place(middle[0])}, "
-            f"all between {_place(middle.min(axis=0))} and {_place(middle.max(axis=0))}.",
-            "Close the gaps in CAD, or weld it with a tolerance (`meshes.surfaces.welded`).",
-        )
     joined = np.flatnonzero(uses > 2)
     if len(joined):
         middle = surface.points[ends[first[joined[0]]]].mean(axis=0)
@@ -214,6 +205,15 @@ def check_closed(surface: Surface) -> None:
             f"has {len(joined)} edges with more than two triangles, the first at "
             f"{_place(middle)}: bodies touch along them, or triangles lie on one another.",
             "Take double triangles out, or part the bodies in CAD.",
+        )
+    alone = np.flatnonzero(uses == 1)
+    if len(alone):
+        middle = surface.points[ends[first[alone]]].mean(axis=1)
+        raise ModelError(
+            part,
+            f"is not watertight: {len(alone)} open edges, the first at {_place(middle[0])}, "
+            f"all between {_place(middle.min(axis=0))} and {_place(middle.max(axis=0))}.",
+            "Close the gaps in CAD, or weld it with a tolerance (`meshes.surfaces.welded`).",
         )
     turned = np.flatnonzero(balance)
     if len(turned):
