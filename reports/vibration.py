@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -30,8 +30,9 @@ from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
 from machines.model import Model, ModelWarning
 from machines.model_solid_element import SolidElement
-from msa import PlacedStructure
+from msa import LoadCase, PlacedStructure
 from reports.data_files import csv_file
+from reports.preload_note import WATCHED, warn_of_preload
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
 
@@ -54,6 +55,8 @@ class Target:
     nodes : tuple of str
         Those the user knows.
     damping : damping of any kind or None
+    cases : tuple of LoadCase
+        Loads whose forces might stiffen it; empty where it vibrates under a preload.
     """
 
     title: str
@@ -61,6 +64,7 @@ class Target:
     placed: PlacedStructure
     nodes: tuple[str, ...]
     damping: AnyDamping | None
+    cases: tuple[LoadCase, ...] = ()
 
     def port(self, text: str) -> Port:
         """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
@@ -107,7 +111,10 @@ class Target:
 
 
 def vibration_target(
-    name: str, modal_ratio: float | None = None, loss_factor: float | None = None
+    name: str,
+    modal_ratio: float | None = None,
+    loss_factor: float | None = None,
+    preload: str | None = None,
 ) -> Target:
     """The structure that a model file or a machine's name stands for.
 
@@ -119,11 +126,13 @@ def vibration_target(
         Path of a model file, or a machine of the catalogue.
     modal_ratio, loss_factor : float or None
         Damping in place of the file's; joints' dashpots stay.
+    preload : str or None
+        Load case in place of the file's preload.
 
     Raises
     ------
     ModelError
-        No such machine or file, a wrong model, both kinds of damping.
+        No such machine or file, a wrong model, both kinds of damping, an unknown load case.
     """
     from machines.catalogue import CATALOGUE, Machine
     from machines.model_file import read_model
@@ -138,6 +147,10 @@ def vibration_target(
     elif loss_factor is not None:
         given = LossFactor(loss_factor)
     if name in CATALOGUE:
+        if preload is not None:
+            raise ModelError(
+                name, "has no load cases to preload it.", "Describe it in a model file."
+            )
         from machines.azulay_dynamic import DYNAMIC_SETS, dynamic_machine
         from machines.three_legs import ThreeLegs
 
@@ -157,8 +170,19 @@ def vibration_target(
             "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
         )
     model = read_model(name)
+    if preload is not None:
+        model = replace(model, preload=preload)
+    return model_target(model, Path(name).stem, given)
+
+
+def model_target(model: Model, stem: str, given: Damping | None = None) -> Target:
+    """A model under its preload, where it names one, with its damping or `given`."""
+    title = model.title or "Model"
+    if model.preload is not None:
+        title += f"; preload: {model.preload}"
+    cases = model.cases if model.preload is None else ()
     damping = model_damping(model, given)
-    return Target(model.title or "Model", Path(name).stem, model.placed, model.nodes, damping)
+    return Target(title, stem, model.vibrating, model.nodes, damping, cases)
 
 
 def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | None:
@@ -271,6 +295,7 @@ def target_modes(target: Target, count: int) -> TargetModes:
     """Lowest modes of a target, with damping ratios where it has damping."""
     found = modes(target.placed, count)
     warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
+    warn_of_preload(found, target.cases)
     ratios = None if target.damping is None else damping_ratios(found, target.damping)
     return TargetModes(target, found, ratios)
 
@@ -367,5 +392,7 @@ def target_response(
     response = frequency_response(
         target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
     )
+    if target.cases:
+        warn_of_preload(modes(target.placed, WATCHED), target.cases)
     least = least_dynamic_stiffness(target.placed, given, output, damping, band)
     return TargetResponse(target, response, least)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,7 @@ from kinematics import GROUND
 from machines.catalogue import Machine
 from machines.model import Model
 from msa import PlacedStructure
-from reports.vibration import Target, TargetModes, model_damping, target_modes
+from reports.vibration import Target, TargetModes, model_target, target_modes
 from studies.dynamic import BAND, GRID_STEP, MODES, ONE_PERCENT, at_home
 
 Array = NDArray[Any]
@@ -117,7 +117,7 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
     ModelError
         No mass, or all locked.
     """
-    target = Target(model.title or key, key, model.placed, model.nodes, model_damping(model))
+    target = model_target(model if model.title else replace(model, title=key), key)
     known = set(model.placed.structure.mesh_nodes)
     beams = {frozenset(b.nodes) for b in model.structure.beams}
     linkage = model.structure.linkage

@@ -20,10 +20,11 @@ def run(
     *,
     modal_ratio: float | None,
     loss_factor: float | None,
+    preload: str | None = None,
     json: bool,
 ) -> None:
     """Compute the response and print what it says."""
-    target = vibration_target(name, modal_ratio, loss_factor)
+    target = vibration_target(name, modal_ratio, loss_factor, preload)
     ports = (target.port(given), target.port(given if output is None else output))
     found = target_response(target, *ports, band, lines)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
