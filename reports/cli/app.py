@@ -270,12 +270,27 @@ def compare(
     doublet: Annotated[
         float, typer.Option(help="Neighbours within this share are one span.")
     ] = 0.01,
+    unit: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="LABEL=UNIT",
+            help='Unit of an axis label that is not known, as in --unit "EU=mm/s^2". Repeatable.',
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Compare computed modes and responses with measured ones."""
     from reports.cli import compare as work
 
-    work.run(computed, measured, window=window, least=least, doublet=doublet, json=json)
+    work.run(
+        computed,
+        measured,
+        window=window,
+        least=least,
+        doublet=doublet,
+        units=unit or (),
+        json=json,
+    )
 
 
 @app.command()
