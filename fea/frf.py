@@ -15,6 +15,7 @@ from fea.eigen import Eigen, solve_eigen
 from fea.modal import ModalModel, modal_model_of
 from fea.ports import Port, port_motions
 from fea.reduction import Reduced, reduce_system
+from fea.rounding import uncoupled
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -36,7 +37,8 @@ class FrequencyResponse:
     frequencies : (f,)
         Hz.
     receptance : (..., f, o, i)
-        Complex, m/N and the like, peak per peak.
+        Complex, m/N and the like, peak per peak; zero between ports that do not answer one
+        another but for rounding (`fea.rounding`).
     outputs, inputs : tuple of Port
     static_compliance : (..., o, i)
         At zero frequency; infinite where a rigid-body mode takes part.
@@ -161,18 +163,20 @@ def frequency_response(
             response = model.receptance(lines) + rest[:, None]
         else:
             response = model.receptance(lines)
-    response = response[:, :, rows][..., columns]
     if not np.all(np.isfinite(response)):
         raise NumericalError(
             "frequency response",
             "is not finite at some line.",
             "Give damping, or leave zero frequency out where the structure floats.",
         )
+    apart = uncoupled(response)
+    response = np.where(apart[:, None], 0.0, response)[:, :, rows][..., columns]
     at, rigid = port_motions(reduced, ports, eigen.rigid)
     flexible = at @ eigen.flexibility
     static = flexible @ np.swapaxes(flexible, -1, -2)
     floats = ModalModel(ports, flexible, eigen.square, rigid, LossFactor(0.0))
     static = np.where(floats.mobility_of_rigid_modes == 0, static, np.inf)
+    static = np.where(apart, 0.0, static)
     static = static[:, rows][..., columns]
     batch = placed.batch
     return FrequencyResponse(

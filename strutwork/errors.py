@@ -53,3 +53,7 @@ class SingularPoseError(StrutworkError):
 
 class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
+
+
+class UnverifiedWarning(UserWarning):
+    """A number failed its own check and was withheld, while the others stand."""
