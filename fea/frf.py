@@ -12,10 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from fea.coupled import AnyDamping, PartDamping, damped_matrices, is_coupled
 from fea.damping import LossFactor
 from fea.eigen import Eigen, solve_eigen
-from fea.modal import ModalModel, modal_model_of
-from fea.ports import Port, port_motions
+from fea.modal import modal_model_of
+from fea.ports import Port
 from fea.reduction import Reduced, reduce_system
 from fea.rounding import uncoupled
+from fea.validity import warn_beyond
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -130,6 +131,7 @@ def frequency_response(
         raise ModelError("ports", "are missing.", "Name at least one input and one output.")
     if method not in ("modal", "all_modes", "direct"):
         raise ModelError("method", f'"{method}" is unknown.', "modal, all_modes or direct.")
+    warn_beyond(placed, float(lines.max()))
     reduced = reduce_system(system_of(placed))
     eigen = solve_eigen(reduced)
     ports = tuple(dict.fromkeys([*outputs, *inputs]))
@@ -171,13 +173,7 @@ def frequency_response(
         )
     apart = uncoupled(response)
     response = np.where(apart[:, None], 0.0, response)[:, :, rows][..., columns]
-    at, rigid = port_motions(reduced, ports, eigen.rigid)
-    flexible = at @ eigen.flexibility
-    static = flexible @ np.swapaxes(flexible, -1, -2)
-    floats = ModalModel(ports, flexible, eigen.square, rigid, LossFactor(0.0))
-    static = np.where(floats.mobility_of_rigid_modes == 0, static, np.inf)
-    static = np.where(apart, 0.0, static)
-    static = static[:, rows][..., columns]
+    static = np.where(apart, 0.0, _static(reduced, eigen, ports))[:, rows][..., columns]
     batch = placed.batch
     return FrequencyResponse(
         lines,
@@ -190,6 +186,12 @@ def frequency_response(
         kept,
         share,
     )
+
+
+def _static(reduced: Reduced, eigen: Eigen, ports: Sequence[Port]) -> Array:
+    """Static compliance (p, q, q), infinite where a rigid-body mode takes part."""
+    model = modal_model_of(reduced, eigen, ports, LossFactor(0.0))
+    return np.where(model.mobility_of_rigid_modes == 0, model.static_compliance, np.inf)
 
 
 def _direct(

@@ -19,6 +19,9 @@ from strutwork.errors import UnverifiedWarning
 #: Parts of a pole below this share of it are rounding.
 REAL = 1e-9
 
+#: A ratio below this is rounding of a mode that nothing damps.
+ROUNDING = 1e-12
+
 #: A ratio is verified where its error is at most this share of it, or below `REAL`.
 VERIFIED = 1e-3
 
@@ -82,5 +85,6 @@ def _coupled(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Array:
     ratios = np.full(shares.shape[1], np.nan)
     found = np.clip(-poles[columns].real / np.abs(poles[columns]), 0.0, 1.0)
     sure = errors[columns] <= np.maximum(VERIFIED * found, REAL)
+    found[found <= np.maximum(errors[columns], ROUNDING)] = 0.0
     ratios[rows] = np.where(sure, found, np.nan)
     return ratios

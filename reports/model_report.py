@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from fea.validity import beyond
 from machines.model_file import read_model
 from reports.chapters.closing import closing_chapter
 from reports.chapters.model import check_chapter, structure_chapter, summary_chapter
@@ -15,7 +16,6 @@ from reports.chapters.vibration import vibration_chapter
 from reports.content import Chapter, Note
 from reports.model_check import check_model
 from reports.model_solution import solve_model
-from reports.vibration import beyond
 from reports.vibration_study import has_mass, study_model_vibration
 
 

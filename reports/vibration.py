@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -24,12 +24,12 @@ from fea import (
 )
 from fea.coupled import AnyDamping
 from fea.dynamic_stiffness import check_band
+from fea.idle import IdleMotion, free_motions, idle_line, idle_motions
 from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
 from machines.model import Model, ModelWarning
-from machines.model_solid_element import SolidElement
 from msa import PlacedStructure
 from reports.data_files import csv_file
 from strutwork.errors import ModelError
@@ -39,6 +39,13 @@ Array = NDArray[Any]
 
 #: Names that stand for the tool where no node bears them.
 TOOL_NAMES = ("TCP", "tcp", "tool")
+
+
+#: Why there is no stiffness between two ports.
+APART = (
+    "uncoupled: a load at one does not move the other but for rounding, and the stiffness between "
+    "them is infinite."
+)
 
 
 @dataclass(frozen=True)
@@ -166,6 +173,11 @@ def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | No
 
     The materials' loss factors act where no damping of the whole is given, which would hold
     them already. None where nothing damps.
+
+    Warns
+    -----
+    ModelWarning
+        Materials whose loss factors are not used.
     """
     found = given
     table = model.damping
@@ -177,50 +189,22 @@ def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | No
         elif table.rayleigh is not None:
             found = Rayleigh(*table.rayleigh)
     structure = model.structure
+    lossy = {b.material.name: b.material.loss_factor for b in structure.beams}
+    for solid in model.solids:
+        lossy |= dict.fromkeys(solid.materials, solid.loss_factor)
+    named = [name for name, factor in lossy.items() if factor]
+    if found is not None and named:
+        warnings.warn(
+            f"material {', '.join(sorted(named))}: the loss factor is not used, since the damping "
+            f"of the whole ({found}) holds it already. Leave [damping] out to use the materials'.",
+            ModelWarning,
+            stacklevel=2,
+        )
     dashpots = any(any(j.damping.values()) for j in structure.linkage.joints)
-    lossy = [b.material.loss_factor for b in structure.beams]
-    lossy += [solid.loss_factor for solid in model.solids]
-    materials = found is None and any(lossy)
+    materials = found is None and bool(named)
     if dashpots or materials:
         return PartDamping(found, materials=materials, dashpots=dashpots)
     return found
-
-
-def beyond(placed: PlacedStructure, highest: float) -> str:
-    """What to say of frequencies above those to which a solid's reduction holds.
-
-    Parameters
-    ----------
-    placed : PlacedStructure
-    highest : float
-        Hz.
-
-    Returns
-    -------
-    str
-        Empty where all is well.
-    """
-    solids = [e for e in placed.structure.elements if isinstance(e, SolidElement)]
-    short = [s for s in solids if highest > s.accurate_to]
-    if not short:
-        return ""
-    named = ", ".join(f"{s.name} {s.accurate_to:.4g} Hz" for s in short)
-    return (
-        f"Frequencies up to {highest:.4g} Hz are shown. Above half of a solid's cutoff their "
-        f"accuracy is not promised: {named}. Raise its cutoff or its number of modes."
-    )
-
-
-def warn_beyond(placed: PlacedStructure, highest: float) -> None:
-    """Warn of what `beyond` says.
-
-    Warns
-    -----
-    ModelWarning
-    """
-    text = beyond(placed, highest)
-    if text:
-        warnings.warn(text, ModelWarning, stacklevel=3)
 
 
 @dataclass(frozen=True)
@@ -231,20 +215,48 @@ class TargetModes:
     ----------
     target : Target
     modes : Modes
+        Rigid-body modes first.
     ratios : (m,) or None
-        Damping ratios; None without damping.
+        Damping ratios, not a number where one is withheld; None without damping.
+    idle : tuple of IdleMotion
+        Those of the rigid-body modes that neither strain anything nor move the tool.
     """
 
     target: Target
     modes: Modes
     ratios: Array | None
+    idle: tuple[IdleMotion, ...] = ()
 
     def __repr__(self) -> str:
         return f"<TargetModes of {self.target.title}: {self.modes!r}>"
 
+    @property
+    def elastic(self) -> TargetModes:
+        """The same without the rigid-body modes."""
+        found, after = self.modes, slice(int(self.modes.rigid_body_modes), None)
+        shorter = replace(
+            found,
+            frequencies=found.frequencies[after],
+            shapes=found.shapes[after],
+            effective_mass=found.effective_mass[after],
+            energy_shares=found.energy_shares[after],
+        )
+        ratios = None if self.ratios is None else self.ratios[after]
+        return TargetModes(self.target, shorter, ratios, self.idle)
+
+    @property
+    def rigid_line(self) -> str:
+        """What to say of the rigid-body modes, and which of them are idle."""
+        rigid = int(self.modes.rigid_body_modes)
+        if not rigid:
+            return ""
+        text = f"{rigid} rigid-body mode{'s' if rigid > 1 else ''} at 0 Hz."
+        return f"{text} {idle_line(self.idle)}".rstrip()
+
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers in SI, shapes at the nodes the user knows."""
         found = self.modes
+        idle = [{"parts": list(m.parts), "description": str(m)} for m in self.idle]
         index = found.placed.structure.mesh_index
         return {
             "frequencies": found.frequencies.tolist(),
@@ -254,6 +266,7 @@ class TargetModes:
             ],
             "effective_mass": found.effective_mass.tolist(),
             "damping_ratios": self._ratios(),
+            **({"idle_motions": idle} if idle else {}),
         }
 
     def write(self, folder: Path) -> tuple[Path, ...]:
@@ -264,15 +277,22 @@ class TargetModes:
     def _ratios(self) -> list[float | None]:
         if self.ratios is None:
             return [None] * len(self.modes.frequencies)
-        return [float(r) for r in self.ratios]
+        return [float(r) if np.isfinite(r) else None for r in self.ratios]
 
 
 def target_modes(target: Target, count: int) -> TargetModes:
-    """Lowest modes of a target, with damping ratios where it has damping."""
-    found = modes(target.placed, count)
-    warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
+    """The `count` lowest elastic modes of a target, and before them all its rigid-body modes.
+
+    With damping ratios where it has damping.
+    """
+    rigid = free_motions(target.placed)
+    found = modes(target.placed, count + rigid)
+    exist = len(found.frequencies) - rigid
+    if exist < count:
+        note = f"{count} modes were asked for and {exist} exist: these are all there are."
+        found = replace(found, note=note)
     ratios = None if target.damping is None else damping_ratios(found, target.damping)
-    return TargetModes(target, found, ratios)
+    return TargetModes(target, found, ratios, idle_motions(target.placed))
 
 
 @dataclass(frozen=True)
@@ -305,7 +325,8 @@ class TargetResponse:
         return np.asarray(self.response.receptance[:, 0, 0])
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers in SI."""
+        """Plain numbers in SI; without a least stiffness, and with a reason, where none exists."""
+        apart = self.least.uncoupled
         return {
             "frequencies": self.response.frequencies.tolist(),
             "receptance": {
@@ -313,10 +334,12 @@ class TargetResponse:
                 "imag": self.receptance.imag.tolist(),
             },
             "minimum_dynamic_stiffness": {
-                "value": self.least.value,
-                "frequency": self.least.frequency,
+                "value": None if apart else self.least.value,
+                "frequency": None if apart else self.least.frequency,
+                "certified": self.least.certified,
             },
             "static_stiffness": self.least.static,
+            **({"reason": f"{self.least.input} and {self.least.output}: {APART}"} if apart else {}),
         }
 
     def write(self, folder: Path) -> tuple[Path, ...]:
@@ -360,7 +383,6 @@ def target_response(
         An empty band, fewer than two lines, no damping, a port that cannot move.
     """
     check_band(*band)
-    warn_beyond(target.placed, band[1])
     damping = target.require_damping()
     if lines < 2:
         raise ModelError("lines", f"{lines} asked for.", "Ask for at least two.")

@@ -60,17 +60,21 @@ class Ranges(StrEnum):
 
 def main() -> None:
     """Run the program: the console script."""
+    said: set[str] = set()
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        # the steps of one command may warn of the same thing
+        if str(message) not in said:
+            sys.stderr.write(f"Warning: {message}\n")
+        said.add(str(message))
+
     with warnings.catch_warnings():
-        warnings.showwarning = _show_warning
+        warnings.showwarning = show
         try:
             app()
         except StrutworkError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(1)
-
-
-def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    sys.stderr.write(f"Warning: {message}\n")
 
 
 def _print_version(wanted: bool) -> None:
@@ -183,7 +187,13 @@ def map_stiffness(
 def modes(
     target: Target,
     count: Annotated[
-        int, typer.Option("--count", "-n", min=1, help="Modes, rigid-body modes included.")
+        int,
+        typer.Option(
+            "--count",
+            "-n",
+            min=1,
+            help="Elastic modes; rigid-body modes come first and in addition.",
+        ),
     ] = 10,
     out: Annotated[
         str | None,

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from fea import Port
 from reports.cli.output import console, print_json, table
-from reports.vibration import TargetResponse, target_response, vibration_target
+from reports.vibration import APART, TargetResponse, target_response, vibration_target
 
 
 def run(
@@ -43,6 +43,9 @@ def _print(found: TargetResponse, band: tuple[float, float]) -> None:
     out, least = console(), found.least
     out.print(found.target.title, markup=False, style="bold")
     out.print(f"Damping: {found.target.damping}", markup=False)
+    if least.uncoupled:
+        out.print(f"{least.input} and {least.output}: {APART}", markup=False, soft_wrap=True)
+        return
     scale, unit = _unit(least.output, least.input)
     static = "infinite" if least.static is None else least.static * scale
     rows: list[tuple[str, object, str]] = [
