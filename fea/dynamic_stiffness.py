@@ -13,7 +13,6 @@ from fea.damping import Damping, LossFactor, modal_ratios
 from fea.modal import ModalModel, modal_model
 from fea.peak import TOLERANCE, largest_magnitudes
 from fea.ports import Port
-from fea.validity import warn_beyond
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
 
@@ -101,7 +100,6 @@ def minimum_dynamic_stiffness(
         The result breaks the two-sided bound.
     """
     check_band(*band)
-    warn_beyond(placed, band[1])
     model = modal_model(placed, ports, damping)
     return minimum_of(model, band, placed.batch)
 

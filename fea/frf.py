@@ -16,7 +16,6 @@ from fea.modal import modal_model_of
 from fea.ports import Port
 from fea.reduction import Reduced, reduce_system
 from fea.rounding import uncoupled
-from fea.validity import warn_beyond
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -131,7 +130,6 @@ def frequency_response(
         raise ModelError("ports", "are missing.", "Name at least one input and one output.")
     if method not in ("modal", "all_modes", "direct"):
         raise ModelError("method", f'"{method}" is unknown.', "modal, all_modes or direct.")
-    warn_beyond(placed, float(lines.max()))
     reduced = reduce_system(system_of(placed))
     eigen = solve_eigen(reduced)
     ports = tuple(dict.fromkeys([*outputs, *inputs]))

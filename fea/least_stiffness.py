@@ -20,7 +20,6 @@ from fea.pole_residue import pole_model
 from fea.ports import Port
 from fea.reduction import Reduced, reduce_system
 from fea.rounding import UNCOUPLED, uncoupled
-from fea.validity import warn_beyond
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -113,7 +112,6 @@ def least_dynamic_stiffness(
         A direct solution with a residual that is not small.
     """
     check_band(*band)
-    warn_beyond(placed, band[1])
     reduced = reduce_system(system_of(placed))
     if len(reduced.stiffness) != 1:
         raise ModelError("dynamic stiffness", "between ports of several poses.", "Give one pose.")

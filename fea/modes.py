@@ -15,7 +15,6 @@ from fea.participation import effective_mass, energy_shares
 from fea.reduction import reduce_system
 from fea.sparse_modes import SPARSE_FROM, lanczos_suits, sparse_modes
 from fea.sparse_reduction import reduce_sparse
-from fea.validity import warn_beyond
 from msa.assembly import System, system_of
 from msa.mass import mass_matrix, sparse_mass
 from msa.structure import PlacedStructure
@@ -126,11 +125,6 @@ def modes(
         A preload under which the structure buckles.
     MechanismError
         The stiffness is not positive beside the rigid-body modes.
-
-    Warns
-    -----
-    ValidityWarning
-        A frequency lies above those to which a superelement holds.
     """
     if count < 1:
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
@@ -157,7 +151,6 @@ def modes(
         note = f"{count} modes were asked for and {exist} exist: these are all there are."
         frequencies, shapes = frequencies[:, :exist], shapes[:, :exist]
         effective, shares = effective[:, :exist], shares[:, :exist]
-    warn_beyond(placed, float(frequencies[np.isfinite(frequencies)].max(initial=0.0)))
     if not np.all(np.isfinite(shapes)):
         raise NumericalError("mode shapes", "are not finite.", "Check masses and stiffnesses.")
     batch = placed.batch

@@ -29,6 +29,7 @@ from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
+from fea.validity import warn_beyond
 from machines.model import Model, ModelWarning
 from msa import PlacedStructure
 from reports.data_files import csv_file
@@ -287,6 +288,7 @@ def target_modes(target: Target, count: int) -> TargetModes:
     """
     rigid = free_motions(target.placed)
     found = modes(target.placed, count + rigid)
+    warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
     exist = len(found.frequencies) - rigid
     if exist < count:
         note = f"{count} modes were asked for and {exist} exist: these are all there are."
@@ -383,6 +385,7 @@ def target_response(
         An empty band, fewer than two lines, no damping, a port that cannot move.
     """
     check_band(*band)
+    warn_beyond(target.placed, band[1])
     damping = target.require_damping()
     if lines < 2:
         raise ModelError("lines", f"{lines} asked for.", "Ask for at least two.")

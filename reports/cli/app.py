@@ -216,8 +216,11 @@ def frf(
         str,
         typer.Option("--input", metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
     ],
-    low: Annotated[float, typer.Option("--from", help="Start of the band, Hz.")],
-    high: Annotated[float, typer.Option("--to", help="End of the band, Hz.")],
+    low: Annotated[
+        float | None,
+        typer.Option("--from", help="Start of the band, Hz; without a band, one that covers."),
+    ] = None,
+    high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
         typer.Option("--output", metavar="NODE:DIR", help="What moves; the input by default."),
@@ -236,11 +239,13 @@ def frf(
     """Compute a frequency response, and the exact least dynamic stiffness in its band."""
     from reports.cli import frf as work
 
+    if (low is None) != (high is None):
+        raise typer.BadParameter("give both --from and --to, or neither for an automatic band.")
     work.run(
         target,
         given,
         output,
-        (low, high),
+        None if low is None or high is None else (low, high),
         lines,
         out,
         modal_ratio=modal_ratio,
