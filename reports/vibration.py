@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -16,9 +15,7 @@ from fea import (
     LossFactor,
     ModalRatio,
     Modes,
-    PartDamping,
     Port,
-    Rayleigh,
     frequency_response,
     modes,
 )
@@ -30,9 +27,11 @@ from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
 from fea.validity import warn_beyond
-from machines.model import Model, ModelWarning
-from msa import PlacedStructure
+from machines.model import Model
+from msa import LoadCase, PlacedStructure
 from reports.data_files import csv_file
+from reports.model_damping import model_damping
+from reports.preload_note import WATCHED, warn_of_preload
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
 
@@ -62,6 +61,8 @@ class Target:
     nodes : tuple of str
         Those the user knows.
     damping : damping of any kind or None
+    cases : tuple of LoadCase
+        Loads whose forces might stiffen it; empty where it vibrates under a preload.
     """
 
     title: str
@@ -69,6 +70,7 @@ class Target:
     placed: PlacedStructure
     nodes: tuple[str, ...]
     damping: AnyDamping | None
+    cases: tuple[LoadCase, ...] = ()
 
     def port(self, text: str) -> Port:
         """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
@@ -115,7 +117,10 @@ class Target:
 
 
 def vibration_target(
-    name: str, modal_ratio: float | None = None, loss_factor: float | None = None
+    name: str,
+    modal_ratio: float | None = None,
+    loss_factor: float | None = None,
+    preload: str | None = None,
 ) -> Target:
     """The structure that a model file or a machine's name stands for.
 
@@ -127,11 +132,13 @@ def vibration_target(
         Path of a model file, or a machine of the catalogue.
     modal_ratio, loss_factor : float or None
         Damping in place of the file's; joints' dashpots stay.
+    preload : str or None
+        Load case in place of the file's preload.
 
     Raises
     ------
     ModelError
-        No such machine or file, a wrong model, both kinds of damping.
+        No such machine or file, a wrong model, both kinds of damping, an unknown load case.
     """
     from machines.catalogue import CATALOGUE, Machine
     from machines.model_file import read_model
@@ -146,6 +153,10 @@ def vibration_target(
     elif loss_factor is not None:
         given = LossFactor(loss_factor)
     if name in CATALOGUE:
+        if preload is not None:
+            raise ModelError(
+                name, "has no load cases to preload it.", "Describe it in a model file."
+            )
         from machines.azulay_dynamic import DYNAMIC_SETS, dynamic_machine
         from machines.three_legs import ThreeLegs
 
@@ -165,47 +176,19 @@ def vibration_target(
             "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
         )
     model = read_model(name)
+    if preload is not None:
+        model = replace(model, preload=preload)
+    return model_target(model, Path(name).stem, given)
+
+
+def model_target(model: Model, stem: str, given: Damping | None = None) -> Target:
+    """A model under its preload, where it names one, with its damping or `given`."""
+    title = model.title or "Model"
+    if model.preload is not None:
+        title += f"; preload: {model.preload}"
+    cases = model.cases if model.preload is None else ()
     damping = model_damping(model, given)
-    return Target(model.title or "Model", Path(name).stem, model.placed, model.nodes, damping)
-
-
-def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | None:
-    """Damping of a model: its [damping] or `given`, and the dashpots of its joints.
-
-    The materials' loss factors act where no damping of the whole is given, which would hold
-    them already. None where nothing damps.
-
-    Warns
-    -----
-    ModelWarning
-        Materials whose loss factors are not used.
-    """
-    found = given
-    table = model.damping
-    if found is None and table is not None:
-        if table.modal_ratio is not None:
-            found = ModalRatio(table.modal_ratio)
-        elif table.loss_factor is not None:
-            found = LossFactor(table.loss_factor)
-        elif table.rayleigh is not None:
-            found = Rayleigh(*table.rayleigh)
-    structure = model.structure
-    lossy = {b.material.name: b.material.loss_factor for b in structure.beams}
-    for solid in model.solids:
-        lossy |= dict.fromkeys(solid.materials, solid.loss_factor)
-    named = [name for name, factor in lossy.items() if factor]
-    if found is not None and named:
-        warnings.warn(
-            f"material {', '.join(sorted(named))}: the loss factor is not used, since the damping "
-            f"of the whole ({found}) holds it already. Leave [damping] out to use the materials'.",
-            ModelWarning,
-            stacklevel=2,
-        )
-    dashpots = any(any(j.damping.values()) for j in structure.linkage.joints)
-    materials = found is None and bool(named)
-    if dashpots or materials:
-        return PartDamping(found, materials=materials, dashpots=dashpots)
-    return found
+    return Target(title, stem, model.vibrating, model.nodes, damping, cases)
 
 
 @dataclass(frozen=True)
@@ -234,16 +217,9 @@ class TargetModes:
     @property
     def elastic(self) -> TargetModes:
         """The same without the rigid-body modes."""
-        found, after = self.modes, slice(int(self.modes.rigid_body_modes), None)
-        shorter = replace(
-            found,
-            frequencies=found.frequencies[after],
-            shapes=found.shapes[after],
-            effective_mass=found.effective_mass[after],
-            energy_shares=found.energy_shares[after],
-        )
+        after = slice(int(self.modes.rigid_body_modes), None)
         ratios = None if self.ratios is None else self.ratios[after]
-        return TargetModes(self.target, shorter, ratios, self.idle)
+        return TargetModes(self.target, _some(self.modes, after), ratios, self.idle)
 
     @property
     def rigid_line(self) -> str:
@@ -289,12 +265,27 @@ def target_modes(target: Target, count: int) -> TargetModes:
     rigid = free_motions(target.placed)
     found = modes(target.placed, count + rigid)
     warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
+    warn_of_preload(found, target.cases)
+    # a preload gives some free motions a frequency
+    rigid = int(found.rigid_body_modes)
+    found = _some(found, slice(rigid + count))
     exist = len(found.frequencies) - rigid
     if exist < count:
         note = f"{count} modes were asked for and {exist} exist: these are all there are."
         found = replace(found, note=note)
     ratios = None if target.damping is None else damping_ratios(found, target.damping)
-    return TargetModes(target, found, ratios, idle_motions(target.placed))
+    idle = idle_motions(target.placed)
+    return TargetModes(target, found, ratios, idle if len(idle) <= rigid else ())
+
+
+def _some(found: Modes, which: slice) -> Modes:
+    return replace(
+        found,
+        frequencies=found.frequencies[which],
+        shapes=found.shapes[which],
+        effective_mass=found.effective_mass[which],
+        energy_shares=found.energy_shares[which],
+    )
 
 
 @dataclass(frozen=True)
@@ -392,5 +383,7 @@ def target_response(
     response = frequency_response(
         target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
     )
+    if target.cases:
+        warn_of_preload(modes(target.placed, WATCHED), target.cases)
     least = least_dynamic_stiffness(target.placed, given, output, damping, band)
     return TargetResponse(target, response, least)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -18,7 +18,7 @@ from machines.catalogue import Machine
 from machines.model import Model
 from msa import PlacedStructure
 from reports.covering_band import covering_band
-from reports.vibration import Target, TargetModes, model_damping, target_modes
+from reports.vibration import Target, TargetModes, model_target, target_modes
 from studies.dynamic import BAND, GRID_STEP, MODES, ONE_PERCENT, at_home
 
 Array = NDArray[Any]
@@ -133,7 +133,7 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
     ModelError
         No mass, or all locked.
     """
-    target = Target(model.title or key, key, model.placed, model.nodes, model_damping(model))
+    target = model_target(model if model.title else replace(model, title=key), key)
     known = set(model.placed.structure.mesh_nodes)
     beams = {frozenset(b.nodes) for b in model.structure.beams}
     linkage = model.structure.linkage

@@ -42,6 +42,15 @@ Loss = Annotated[
     typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
 ]
 
+Preload = Annotated[
+    str | None,
+    typer.Option(
+        "--preload",
+        metavar="CASE",
+        help="Load case under which it vibrates, for the file's preload.",
+    ),
+]
+
 
 class Objective(StrEnum):
     """What an allocation of tolerances aims at."""
@@ -201,12 +210,21 @@ def modes(
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
+    preload: Preload = None,
     json: Json = False,
 ) -> None:
     """Find the lowest natural frequencies, with their shapes and damping ratios."""
     from reports.cli import modes as work
 
-    work.run(target, count, out, modal_ratio=modal_ratio, loss_factor=loss_factor, json=json)
+    work.run(
+        target,
+        count,
+        out,
+        modal_ratio=modal_ratio,
+        loss_factor=loss_factor,
+        preload=preload,
+        json=json,
+    )
 
 
 @app.command()
@@ -234,6 +252,7 @@ def frf(
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
+    preload: Preload = None,
     json: Json = False,
 ) -> None:
     """Compute a frequency response, and the exact least dynamic stiffness in its band."""
@@ -250,6 +269,7 @@ def frf(
         out,
         modal_ratio=modal_ratio,
         loss_factor=loss_factor,
+        preload=preload,
         json=json,
     )
 

@@ -22,10 +22,11 @@ def run(
     *,
     modal_ratio: float | None,
     loss_factor: float | None,
+    preload: str | None = None,
     json: bool,
 ) -> None:
     """Compute the response and print what it says; without a band, over one that covers."""
-    target = vibration_target(name, modal_ratio, loss_factor)
+    target = vibration_target(name, modal_ratio, loss_factor, preload)
     ports = (target.port(given), target.port(given if output is None else output))
     if band is None:
         band, stop = covering_band(target.placed, list(dict.fromkeys(ports)))

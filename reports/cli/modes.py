@@ -20,10 +20,11 @@ def run(
     *,
     modal_ratio: float | None,
     loss_factor: float | None,
+    preload: str | None = None,
     json: bool,
 ) -> None:
     """Find the lowest modes and print them."""
-    found = target_modes(vibration_target(name, modal_ratio, loss_factor), count)
+    found = target_modes(vibration_target(name, modal_ratio, loss_factor, preload), count)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if found.modes.note:
         sys.stderr.write(f"Note: {found.modes.note}\n")

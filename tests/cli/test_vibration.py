@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from machines.catalogue import CATALOGUE
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, Edit, drop, put, sample
 
+ROOT = Path(__file__).parents[2]
 EXAMPLE = {path.stem: path for path in EXAMPLES}
 Write = Callable[[Content], Path]
 
@@ -326,3 +328,55 @@ def test_everything_held(strutwork: Program, write: Write) -> None:
 def test_wrong_usage(strutwork: Program, arguments: tuple[str, ...]) -> None:
     run = strutwork(*arguments)
     assert (run.status, run.out) == (2, "")
+
+
+WIRE = ROOT / "tests" / "cases" / "models" / "f7_preload_ignored.toml"
+
+
+@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+def test_a_load_that_would_stiffen_is_named(strutwork: Program) -> None:
+    run = strutwork("modes", WIRE, "-n", "1", "--json")
+    assert run.result["frequencies"] == pytest.approx([4.604], abs=1e-3)
+    assert "load case load: its forces would change the first frequency from 4.604" in run.err
+    assert '--preload "load"' in run.err
+
+
+def test_modes_and_response_under_a_named_preload(strutwork: Program, write: Write) -> None:
+    run = strutwork("modes", WIRE, "-n", "2", "--json", "--preload", "load")
+    # the string's 63.7 Hz, and 2 % for its clamped ends
+    assert run.result["frequencies"] == pytest.approx([65.18] * 2, abs=0.01)
+    assert run.result["rigid_body_modes"] == 0
+    assert run.err == ""
+    in_file = write(tomllib.loads(WIRE.read_text()) | {"preload": "load"})
+    assert strutwork("modes", in_file, "-n", "2", "--json").result == run.result
+    ports = ("--input", "w/10:y", "--from", "1", "--to", "100", "--modal-ratio", "0.01", "--json")
+    response = strutwork("frf", in_file, *ports).result
+    assert response["minimum_dynamic_stiffness"]["frequency"] == pytest.approx(65.18, abs=0.02)
+    assert strutwork("frf", WIRE, *ports, "--preload", "load").result == response
+
+
+@pytest.mark.parametrize(
+    ("force", "expected"),
+    [
+        (-100.0, ["buckles under its preload", "critical load is 0.00"]),
+        (0.0, []),
+    ],
+)
+def test_a_preload_beyond_buckling(
+    strutwork: Program, write: Write, force: float, expected: list[str]
+) -> None:
+    content = tomllib.loads(WIRE.read_text()) | {"preload": "load"}
+    content["loads"][0]["force"] = [force, 0, 0]
+    run = strutwork("modes", write(content), "-n", "1", "--json")
+    assert run.status == bool(expected)
+    assert [part for part in expected if part not in run.err] == []
+
+
+def test_an_unknown_preload(strutwork: Program, write: Write) -> None:
+    run = strutwork("modes", WIRE, "--preload", "wind")
+    assert run.status == 1
+    assert 'preload: names the unknown load case "wind".\nCases: load.' in run.err
+    content = tomllib.loads(WIRE.read_text()) | {"preload": "gravity"}
+    assert "unknown load case" in strutwork("check", write(content)).err
+    machine = strutwork("modes", "proposed-3pprs", "--preload", "gravity")
+    assert "has no load cases" in machine.err
