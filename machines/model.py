@@ -11,11 +11,9 @@ from kinematics import Placement
 from machines.model_solid_element import SolidElement
 from msa import LoadCase, PlacedStructure, Structure
 from overconstraint.tolerance import Tolerance
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, ModelWarning
 
-
-class ModelWarning(UserWarning):
-    """Something in a model file that is probably a mistake and yet can be computed."""
+__all__ = ["Damping", "Model", "ModelWarning"]
 
 
 @dataclass(frozen=True)

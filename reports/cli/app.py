@@ -69,17 +69,21 @@ class Ranges(StrEnum):
 
 def main() -> None:
     """Run the program: the console script."""
+    said: set[str] = set()
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        # the steps of one command may warn of the same thing
+        if str(message) not in said:
+            sys.stderr.write(f"Warning: {message}\n")
+        said.add(str(message))
+
     with warnings.catch_warnings():
-        warnings.showwarning = _show_warning
+        warnings.showwarning = show
         try:
             app()
         except StrutworkError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(1)
-
-
-def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    sys.stderr.write(f"Warning: {message}\n")
 
 
 def _print_version(wanted: bool) -> None:
@@ -192,7 +196,13 @@ def map_stiffness(
 def modes(
     target: Target,
     count: Annotated[
-        int, typer.Option("--count", "-n", min=1, help="Modes, rigid-body modes included.")
+        int,
+        typer.Option(
+            "--count",
+            "-n",
+            min=1,
+            help="Elastic modes; rigid-body modes come first and in addition.",
+        ),
     ] = 10,
     out: Annotated[
         str | None,
@@ -224,8 +234,11 @@ def frf(
         str,
         typer.Option("--input", metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
     ],
-    low: Annotated[float, typer.Option("--from", help="Start of the band, Hz.")],
-    high: Annotated[float, typer.Option("--to", help="End of the band, Hz.")],
+    low: Annotated[
+        float | None,
+        typer.Option("--from", help="Start of the band, Hz; without a band, one that covers."),
+    ] = None,
+    high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
         typer.Option("--output", metavar="NODE:DIR", help="What moves; the input by default."),
@@ -245,11 +258,13 @@ def frf(
     """Compute a frequency response, and the exact least dynamic stiffness in its band."""
     from reports.cli import frf as work
 
+    if (low is None) != (high is None):
+        raise typer.BadParameter("give both --from and --to, or neither for an automatic band.")
     work.run(
         target,
         given,
         output,
-        (low, high),
+        None if low is None or high is None else (low, high),
         lines,
         out,
         modal_ratio=modal_ratio,
