@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from meshes.cells import CELL_TYPES, CellType
-from meshes.groups import Group, dimension_of
+from meshes.file_mesh import Block, FileMesh, remedy_for, unusable
+from meshes.groups import Group, with_cell_sets
+from meshes.med_file import read_file
 from meshes.mesh import CellBlock, Mesh
 from meshes.quality import cell_volumes
 from meshes.rows import row_groups
@@ -22,36 +24,44 @@ CORNERS = {"tetra": (0, 2, 1, 3), "hexahedron": (0, 3, 2, 1, 4, 7, 6, 5)}
 LONGEST_NAME = 80
 
 
-def read(path: Path) -> tuple[Array, list[Group]]:
-    """Points and groups of a .med file."""
-    import meshio  # noqa: PLC0415 - half a second that most commands never need
-
-    found = meshio.med.read(str(path))
-    points = np.asarray(found.points)
-    groups: list[Group] = []
-    tags = found.cell_data.get("cell_tags")
-    for i, block in enumerate(found.cells):
-        dimension = dimension_of(block.type)
-        nodes = np.asarray(block.data, dtype=np.int64)
+def read(path: Path) -> FileMesh:
+    """What a .med file holds. A cell of several groups is in each of them."""
+    found = read_file(path)
+    solids: list[Block] = []
+    sets: dict[str, list[Ints]] = {}
+    faces: dict[str, list[Block]] = {}
+    first = 0
+    for kind, nodes, families in found.cells:
+        if kind not in CELL_TYPES:
+            raise ModelError(
+                str(path),
+                f"holds {len(nodes)} cells of which each is {unusable(kind)}, which cannot be used.",
+                remedy_for(kind),
+            )
+        dimension = CELL_TYPES[kind].dimension
+        ordered = _outwards(found.points, kind, nodes) if dimension == 3 else nodes
+        for name, own in found.members(families).items():
+            if dimension == 3:
+                sets.setdefault(name, []).append(first + own)
+            else:
+                faces.setdefault(name, []).append((kind, ordered[own]))
         if dimension == 3:
-            nodes = _outwards(points, block.type, nodes)
-        own = np.zeros(len(nodes), np.int64) if tags is None else np.asarray(tags[i])
-        for tag in np.unique(own):
-            names = [n.rstrip("\x00") for n in found.cell_tags.get(int(tag), [])]
-            # a solid has one region: the first of its groups
-            names = (names or ["solid"])[:1] if dimension == 3 else names
-            groups += [Group(n, dimension, block.type, nodes[own == tag]) for n in names]
-    node_tags = np.asarray(found.point_data.get("point_tags", np.zeros(len(points))))
-    for tag, names in found.point_tags.items():
-        chosen = np.flatnonzero(node_tags == tag)[:, None]
-        groups += [Group(name.rstrip("\x00"), 0, "vertex", chosen) for name in names]
-    return points, [g for g in groups if g.dimension != 1]
+            solids.append((kind, ordered))
+            first += len(nodes)
+    return FileMesh(
+        found.points,
+        solids,
+        cell_sets={name: np.concatenate(own) for name, own in sets.items()},
+        faces=faces,
+        node_sets=found.members(found.node_families),
+    )
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
     """Write each face once, in a family of the patches that hold it; nodes likewise."""
-    import meshio  # noqa: PLC0415 - see read
+    import meshio  # noqa: PLC0415 - half a second that most commands never need
 
+    groups = with_cell_sets(mesh, groups)
     for group in groups:
         if not group.name.isascii() or "/" in group.name or len(group.name) > LONGEST_NAME:
             raise ModelError(
@@ -107,7 +117,7 @@ def _order(type_: CellType) -> list[int]:
 
 def _outwards(points: Array, kind: str, nodes: Ints) -> Ints:
     """The cells in our order, from MED's or, as meshio writes them, from VTK's."""
-    if kind not in CELL_TYPES or not len(nodes):
+    if not len(nodes):
         return nodes
     block = CellBlock(kind, nodes, np.zeros(len(nodes), np.int64))
     if cell_volumes(Mesh(points, (block,))).sum() >= 0:

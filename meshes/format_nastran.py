@@ -1,60 +1,119 @@
-"""Nastran bulk data: regions and patches are properties; their names stand in comments."""
+"""Nastran bulk data: regions and patches are properties; their names stand in comments.
+
+Read and written here, not by meshio, which drops coordinate systems, continuations without a
+mark and cards that it does not know. pyNastran reads decks well, but knows hundreds of cards where
+a mesh needs a dozen, and what it passes over it does not count.
+"""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from meshes.groups import Group, split_by_tag
+from meshes.cells import CELL_TYPES
+from meshes.file_mesh import Block, FileMesh
+from meshes.groups import Group
 from meshes.mesh import Mesh
+from meshes.middle_nodes import filled
+from meshes.nastran_deck import ELEMENTS, BulkData
+from strutwork.errors import ModelError
 
-Array = NDArray[Any]
 COMMENT = re.compile(r"^\$ property (\d+) (region|patch) (.*)$")
+COUNTS = re.compile(r"^\$ strutwork mesh: (\d+) nodes, (\d+) elements$")
+CARDS = {
+    "tetra": "CTETRA", "tetra10": "CTETRA", "hexahedron": "CHEXA", "hexahedron20": "CHEXA",
+    "triangle": "CTRIA3", "triangle6": "CTRIA6", "quad": "CQUAD4", "quad8": "CQUAD8",
+}  # fmt: skip
 
 
-def read(path: Path) -> tuple[Array, list[Group]]:
-    """Points and groups of a .bdf file."""
-    import meshio  # noqa: PLC0415 - half a second that most commands never need
-
-    names = {}
-    with path.open(encoding="utf-8", errors="replace") as file:
-        for line in file:
-            if line.startswith("BEGIN BULK"):
-                break
-            if match := COMMENT.match(line.rstrip("\n")):
-                names[3 if match[2] == "region" else 2, int(match[1])] = match[3]
-    found = meshio.nastran.read(str(path))
-    references = found.cell_data.get("nastran:ref")
-    groups = []
-    for i, block in enumerate(found.cells):
-        own = np.zeros(len(block.data), np.int64) if references is None else references[i]
-        nodes = np.asarray(block.data, dtype=np.int64)
-        groups += split_by_tag(block.type, nodes, np.asarray(own), names)
-    return np.asarray(found.points), groups
+def read(path: Path) -> FileMesh:
+    """What a .bdf file holds."""
+    bulk = BulkData(path)
+    tables = bulk.tables()
+    _check_counts(path, bulk, sum(len(p) for _, p, _ in tables))
+    names = {
+        (3 if match[2] == "region" else 2, int(match[1])): match[3]
+        for match in map(COMMENT.match, bulk.comments)
+        if match
+    }
+    points, made = filled(bulk.points, [(kind, nodes) for kind, _, nodes in tables])
+    solids: list[Block] = []
+    sections: dict[str, list[np.ndarray]] = {}
+    faces: dict[str, list[Block]] = {}
+    first = 0
+    for (kind, properties, _), nodes in zip(tables, made, strict=True):
+        dimension = CELL_TYPES[kind].dimension
+        word = "region" if dimension == 3 else "patch"
+        for number in np.unique(properties).tolist():
+            name = names.get((dimension, number), f"{word} {number}")
+            own = np.flatnonzero(properties == number)
+            if dimension == 3:
+                sections.setdefault(name, []).append(first + own)
+            else:
+                faces.setdefault(name, []).append((kind, nodes[own]))
+        if dimension == 3:
+            solids.append((kind, nodes))
+            first += len(nodes)
+    regions = {name: np.concatenate(own) for name, own in sections.items()}
+    return FileMesh(points, solids, sections=regions, faces=faces)
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
-    """Write regions and patches; the format has no names and meshio no node sets."""
-    import meshio  # noqa: PLC0415 - see read
-
+    """Write regions and patches; names stand in comments, node sets are left out."""
     kept = [g for g in groups if g.dimension > 0]
     keys = list(dict.fromkeys((g.dimension, g.name) for g in kept))
     number = {key: i + 1 for i, key in enumerate(keys)}
-    made = meshio.Mesh(
-        mesh.points,
-        [(g.kind, g.nodes) for g in kept],
-        cell_data={
-            "nastran:ref": [np.full(len(g.nodes), number[g.dimension, g.name]) for g in kept]
-        },
-    )
-    meshio.nastran.write(str(path), made)
     what = {3: "region", 2: "patch"}
-    comments = [
-        f"$ property {number[key]} {what[key[0]]} {' '.join(key[1].split())}" for key in keys
-    ]
-    text = path.read_text(encoding="utf-8")
-    path.write_text("\n".join([*comments, text]), encoding="utf-8")
+    count = sum(len(g.nodes) for g in kept)
+    if max(len(mesh.points), count) > 99_999_999:
+        raise ModelError(f"mesh {mesh.name}", "has more than 99999999 nodes.", "Mesh coarser.")
+    with path.open("w", encoding="utf-8") as file:
+        file.write(f"$ strutwork mesh: {len(mesh.points)} nodes, {count} elements\n")
+        for key in keys:
+            name = " ".join(key[1].split())
+            file.write(f"$ property {number[key]} {what[key[0]]} {name}\n")
+        file.write("BEGIN BULK\n")
+        for i, point in enumerate(mesh.points.tolist(), start=1):
+            x, y, z = map(sixteen, point)
+            file.write(f"GRID*   {i:>16}{'':16}{x:>16}{y:>16}\n*       {z:>16}\n")
+        first = 1
+        for group in kept:
+            card = CARDS[group.kind]
+            order = ELEMENTS[card][2][: group.nodes.shape[1]]
+            # where Nastran has its middle nodes: the order of a hexahedron's is its own inverse
+            nodes = group.nodes[:, list(order)] + 1
+            owner = number[group.dimension, group.name]
+            for i, row in enumerate(nodes.tolist(), start=first):
+                cells = [i, owner, *row]
+                lines = [cells[k : k + 8] for k in range(0, len(cells), 8)]
+                body = "\n+       ".join("".join(f"{v:>8}" for v in line) for line in lines)
+                file.write(f"{card:<8}{body}\n")
+            first += len(nodes)
+        file.write("ENDDATA\n")
+
+
+def sixteen(value: float) -> str:
+    """A number in at most 16 characters, with as many digits as these hold."""
+    plain = repr(value)
+    if len(plain) <= 16:
+        return plain.replace("e", "E") if "." in plain else plain.replace("e", ".E")
+    for digits in range(14, 8, -1):
+        mantissa, exponent = f"{value:.{digits}E}".split("E")
+        short = f"{mantissa}{int(exponent):+d}"
+        if len(short) <= 16:
+            return short
+    return short
+
+
+def _check_counts(path: Path, bulk: BulkData, elements: int) -> None:
+    """ModelError where a file of ours lacks what its first line counts."""
+    for match in filter(None, map(COUNTS.match, bulk.comments)):
+        if (int(match[1]), int(match[2])) != (len(bulk.points), elements):
+            raise ModelError(
+                str(path),
+                f"ends after {bulk.last or bulk.lines.where} with {len(bulk.points)} nodes and "
+                f"{elements} elements; its first line counts {match[1]} and {match[2]}.",
+                "The file is cut short: export it again.",
+            )

@@ -126,12 +126,15 @@ class Mesh:
         Named parts of surfaces.
     name : str
         For messages.
+    cell_sets : mapping of str to (k,) int
+        Named sets of cells that may overlap, by the index of the cell, blocks one after
+        another: groups of a file that are more, or less, than a region.
 
     Raises
     ------
     ModelError
-        Points that are not finite, a node or a region that does not exist, two regions of
-        one name.
+        Points that are not finite, a node, a cell or a region that does not exist, two regions
+        of one name.
     """
 
     points: Array
@@ -140,13 +143,15 @@ class Mesh:
     node_sets: Mapping[str, Ints] = field(default_factory=dict)
     patches: Mapping[str, Patch] = field(default_factory=dict)
     name: str = "mesh"
+    cell_sets: Mapping[str, Ints] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", _fixed(self.points, float))
         object.__setattr__(self, "blocks", tuple(self.blocks))
         object.__setattr__(self, "regions", tuple(self.regions))
-        sets = {name: _fixed(np.unique(nodes), np.int64) for name, nodes in self.node_sets.items()}
-        object.__setattr__(self, "node_sets", MappingProxyType(sets))
+        for field_ in ("node_sets", "cell_sets"):
+            sets = {k: _fixed(np.unique(v), np.int64) for k, v in getattr(self, field_).items()}
+            object.__setattr__(self, field_, MappingProxyType(sets))
         object.__setattr__(self, "patches", MappingProxyType(dict(self.patches)))
         self._check()
 
@@ -155,6 +160,7 @@ class Mesh:
         named = [f"{len(self.regions)} regions"]
         named += [f"{len(self.patches)} patches"] if self.patches else []
         named += [f"{len(self.node_sets)} node sets"] if self.node_sets else []
+        named += [f"{len(self.cell_sets)} cell sets"] if self.cell_sets else []
         size = " × ".join(f"{s:.4g}" for s in self.extent)
         return (
             f"Mesh({self.name}: {len(self.points)} points, {cells}, {', '.join(named)}, {size} m)"
@@ -184,12 +190,38 @@ class Mesh:
         """The nodes of the set of that name; ModelError lists those there are."""
         return self._named(self.node_sets, "node set", name)
 
+    @property
+    def cell_regions(self) -> Ints:
+        """Index of each cell's region, blocks one after another, (cells,)."""
+        return np.concatenate([b.region for b in self.blocks])
+
+    def region_cells(self, name: str) -> Ints:
+        """The cells of a cell set, or of a region where no set has the name, ascending.
+
+        A file's group that lies partly in others is a region of the cells it has alone, and a
+        cell set of all of them: here it is all.
+        """
+        if name in self.cell_sets:
+            return self.cell_sets[name]
+        self._named(dict.fromkeys((*self.regions, *self.cell_sets)), "region", name)
+        return np.flatnonzero(self.cell_regions == self.regions.index(name))
+
     def region_nodes(self, name: str) -> Ints:
-        """The nodes of the cells of a region, ascending."""
-        self._named(dict.fromkeys(self.regions), "region", name)
-        index = self.regions.index(name)
-        used = [b.nodes[b.region == index].ravel() for b in self.blocks]
+        """The nodes of the cells of a region or of a cell set, ascending."""
+        chosen = np.zeros(self.cell_count, dtype=bool)
+        chosen[self.region_cells(name)] = True
+        ends = np.cumsum([len(b.nodes) for b in self.blocks])[:-1]
+        split = np.split(chosen, ends)
+        used = [b.nodes[own].ravel() for b, own in zip(self.blocks, split, strict=True)]
         return np.unique(np.concatenate(used))
+
+    def holders(self, region: str) -> tuple[str, ...]:
+        """The region and the cell sets that hold all of it, the smallest first."""
+        self._named(dict.fromkeys(self.regions), "region", region)
+        own = np.flatnonzero(self.cell_regions == self.regions.index(region))
+        sets = sorted(self.cell_sets, key=lambda name: len(self.cell_sets[name]))
+        held = (n for n in sets if n != region and np.isin(own, self.cell_sets[n]).all())
+        return (region, *held)
 
     def _named(self, things: Mapping[str, Named], what: str, name: str) -> Named:
         if name not in things:
@@ -220,6 +252,8 @@ class Mesh:
             _in_range(f"{part}, {block.kind}", "region", [block.region], len(self.regions))
         for name, nodes in self.node_sets.items():
             _in_range(f"{part}, node set {name!r}", "node", [nodes], len(self.points))
+        for name, cells in self.cell_sets.items():
+            _in_range(f"{part}, cell set {name!r}", "cell", [cells], self.cell_count)
         for name, patch in self.patches.items():
             faces = [f.nodes for f in patch.faces]
             _in_range(f"{part}, patch {name!r}", "node", faces, len(self.points))

@@ -7,34 +7,26 @@ import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from meshes import format_abaqus, format_gmsh, format_med, format_nastran, format_vtu
-from meshes.groups import Group, from_groups, to_groups
+from meshes import format_abaqus, format_gmsh, format_med, format_nastran, format_vtu, limits
+from meshes.file_mesh import FileMesh
+from meshes.groups import Group, to_groups
 from meshes.mesh import Mesh
 from meshes.quality import check_quality
-from strutwork.errors import ModelError, StrutworkError
+from strutwork.errors import ModelError
 from strutwork.files import write_whole
 
-Array = NDArray[Any]
 #: Metres per unit.
 UNITS = {"m": 1.0, "mm": 1e-3}
-#: Larger files are refused: reading takes some twenty times their size in memory.
-LARGEST_FILE = 2 * 1024**3
-MOST_POINTS = 50_000_000
 
 
 @dataclass(frozen=True)
 class Format:
-    """How one kind of file is read and written, and whether its lines can be counted."""
+    """How one kind of file is read and written, and the kinds of cells that it holds."""
 
-    read: Callable[[Path], tuple[Array, list[Group]]]
+    read: Callable[[Path], FileMesh]
     write: Callable[[Path, Mesh, list[Group]], object]
     kinds: frozenset[str]
-    is_text: bool = False
 
 
 _COMMON = frozenset({
@@ -45,8 +37,8 @@ _ALL = _COMMON | {"hexahedron27", "quad9"}
 FORMATS = {
     ".msh": Format(format_gmsh.read, format_gmsh.write, _ALL),
     ".vtu": Format(format_vtu.read, format_vtu.write, _ALL),
-    ".inp": Format(format_abaqus.read, format_abaqus.write, _COMMON, is_text=True),
-    ".bdf": Format(format_nastran.read, format_nastran.write, _COMMON, is_text=True),
+    ".inp": Format(format_abaqus.read, format_abaqus.write, _COMMON),
+    ".bdf": Format(format_nastran.read, format_nastran.write, _COMMON),
     ".med": Format(format_med.read, format_med.write, _COMMON),
 }
 
@@ -54,9 +46,11 @@ FORMATS = {
 def read_mesh(path: Path | str, unit: str = "m", *, check: bool = True) -> Mesh:
     """Read a solid mesh.
 
-    What each format keeps: .msh and .vtu everything; .med everything, with names in ASCII;
-    .inp everything, with spaces in names turned into underscores; .bdf regions and patches,
-    no node sets.
+    What the file holds is counted against what was read; what is not understood is an error
+    that names it, with its line where the file has lines. What each format keeps: .msh and .vtu
+    everything; .med everything, with names in ASCII; .inp everything, with spaces in names
+    turned into underscores; .bdf regions and patches, no node sets and no cell sets. Points that
+    no cell uses are dropped, and faces of patches turned outwards.
 
     Parameters
     ----------
@@ -74,31 +68,28 @@ def read_mesh(path: Path | str, unit: str = "m", *, check: bool = True) -> Mesh:
     Raises
     ------
     ModelError
-        A file that is missing, empty, cut short, too large or of another format; cells that
-        cannot be used; inverted cells, with their count and place.
+        A file that is missing, empty, cut short, of another format, or larger than the limits
+        of `meshes.limits`; what is not understood; cells that cannot be used; inverted cells,
+        with their count and place.
     """
     path = Path(path)
     scale = _scale(path, unit)
     chosen = _format(path)
-    _check_file(path)
     try:
-        # meshio prints warnings; what matters becomes an error here
-        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-            points, groups = chosen.read(path)
-    except StrutworkError:
-        raise
-    except Exception as error:
-        raise _unreadable(path, chosen, error) from error
-    if len(points) > MOST_POINTS:
-        raise ModelError(
-            str(path), f"has {len(points)} points; {MOST_POINTS} is the limit.", "Mesh coarser."
-        )
-    if not len(points):
-        raise ModelError(str(path), "holds no points.", "Export the mesh again.")
-    try:
-        mesh = from_groups(np.asarray(points, dtype=float) * scale, groups, path.name)
+        found = chosen.read(path)
+        limits.check_counts(path, len(found.points), sum(len(nodes) for _, nodes in found.solids))
+        mesh = found.to_mesh(path.name, scale)
     except ModelError as error:
+        if error.part == str(path):
+            raise
         raise ModelError(str(path), f"{error.part}: {error.problem}", error.remedy) from error
+    except Exception as error:
+        why = " ".join(str(error).split()) or type(error).__name__
+        raise ModelError(
+            str(path),
+            f"cannot be read as {path.suffix.lower()}: {why[:200]}.",
+            "The file is damaged or of another format: export it again.",
+        ) from error
     if check:
         check_quality(mesh)
     return mesh
@@ -152,36 +143,6 @@ def _format(path: Path) -> Format:
             f"Use {', '.join(FORMATS)}; STL, OBJ and glTF are surfaces (`meshes.surfaces`).",
         )
     return FORMATS[suffix]
-
-
-def _check_file(path: Path) -> None:
-    if not path.is_file():
-        raise ModelError(str(path), "there is no such file.", "Check the path.")
-    size = path.stat().st_size
-    if size == 0:
-        raise ModelError(str(path), "the file is empty.", "Export the mesh again.")
-    if size > LARGEST_FILE:
-        raise ModelError(
-            str(path),
-            f"the file has {size / 1024**3:.1f} GiB; {LARGEST_FILE / 1024**3:g} GiB is the limit.",
-            "Mesh coarser, or export one body at a time.",
-        )
-
-
-def _unreadable(path: Path, chosen: Format, error: Exception) -> ModelError:
-    why = " ".join(str(error).split()) or type(error).__name__
-    where = ""
-    if chosen.is_text:
-        with path.open(encoding="utf-8", errors="replace") as file:
-            count, last = 0, ""
-            for line in file:
-                count, last = count + 1, line.strip() or last
-        where = f" The file ends at line {count} with {last[:60]!r}."
-    return ModelError(
-        str(path),
-        f"cannot be read as {path.suffix.lower()}: {why[:200]}.{where}",
-        "The file is cut short or damaged, or of another format: export it again.",
-    )
 
 
 def _check_kinds(path: Path, groups: Sequence[Group], chosen: Format) -> None:

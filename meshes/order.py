@@ -129,7 +129,10 @@ def refined(mesh: Mesh) -> Mesh:
         for owner, kind in zip(owners, kinds, strict=True)
     ]
     sets = {name: [found] for name, found in fine.node_sets.items()}
-    return _rebuilt(mesh, fine.points, kinds, nodes, sets)
+    made = _rebuilt(replace(mesh, cell_sets={}), fine.points, kinds, nodes, sets)
+    # every cell, of any kind, has eight children
+    children = {k: (8 * c[:, None] + np.arange(8)).ravel() for k, c in mesh.cell_sets.items()}
+    return replace(made, cell_sets=children)
 
 
 def _rebuilt(

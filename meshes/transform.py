@@ -80,7 +80,7 @@ def mapped(mesh: Mesh, function: Callable[[Array], Array]) -> Mesh:
 def joined(*meshes: Mesh, tolerance: float | None = None, name: str = "joined") -> Mesh:
     """Several meshes as one; points that coincide are merged.
 
-    Regions, patches and node sets of the same name become one.
+    Regions, patches, node sets and cell sets of the same name become one.
 
     Parameters
     ----------
@@ -102,6 +102,11 @@ def joined(*meshes: Mesh, tolerance: float | None = None, name: str = "joined") 
     blocks: list[CellBlock] = []
     patches: dict[str, Patch] = {}
     sets: dict[str, Ints] = {}
+    cell_sets: dict[str, Ints] = {}
+    first_cells = np.cumsum([0, *(m.cell_count for m in meshes)])
+    for mesh, first in zip(meshes, first_cells[:-1], strict=True):
+        for label, cells in mesh.cell_sets.items():
+            cell_sets[label] = np.concatenate([cell_sets.get(label, cells[:0]), cells + first])
     for mesh, offset in zip(meshes, offsets[:-1], strict=True):
         index = np.array([regions.index(region) for region in mesh.regions])
         blocks += [CellBlock(b.kind, b.nodes + offset, index[b.region]) for b in mesh.blocks]
@@ -112,7 +117,8 @@ def joined(*meshes: Mesh, tolerance: float | None = None, name: str = "joined") 
         for label, nodes in mesh.node_sets.items():
             sets[label] = np.concatenate([sets.get(label, nodes[:0]), nodes + offset])
     points = np.concatenate([m.points for m in meshes])
-    together = Mesh(points, _blocks_by_kind(blocks), regions, sets, patches, name)
+    cell_sets = {label: _cells_by_kind(blocks)[cells] for label, cells in cell_sets.items()}
+    together = Mesh(points, _blocks_by_kind(blocks), regions, sets, patches, name, cell_sets)
     return merged(together, tolerance)
 
 
@@ -201,3 +207,12 @@ def _blocks_by_kind(blocks: list[CellBlock]) -> tuple[CellBlock, ...]:
         )
         for kind, same in chosen.items()
     )
+
+
+def _cells_by_kind(blocks: list[CellBlock]) -> Ints:
+    """Number that each cell has once blocks of one kind are put together."""
+    kind = [list(dict.fromkeys(b.kind for b in blocks)).index(b.kind) for b in blocks]
+    order = np.argsort(np.repeat(kind, [len(b.nodes) for b in blocks]), kind="stable")
+    number = np.empty(len(order), dtype=np.int64)
+    number[order] = np.arange(len(order))
+    return number

@@ -16,6 +16,7 @@ from meshes import (
     Faces,
     Mesh,
     cell_volumes,
+    limits,
     patch_area,
     quadratic,
     read_mesh,
@@ -175,15 +176,21 @@ def test_a_missing_file_and_an_unknown_suffix_are_refused(tmp_path: Path) -> Non
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("suffix", ALL)
 def test_a_file_beyond_the_limits_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    suffix: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    path = write_mesh(two_regions(), tmp_path / "part.msh")
-    monkeypatch.setattr("meshes.mesh_files.MOST_POINTS", 10)
-    with pytest.raises(ModelError, match="has 45 points; 10 is the limit"):
-        read_mesh(path)
-    monkeypatch.setattr("meshes.mesh_files.LARGEST_FILE", 100)
-    with pytest.raises(ModelError, match="GiB is the limit"):
+    path = write_mesh(two_regions(), tmp_path / f"part{suffix}")
+    with monkeypatch.context() as patched:
+        patched.setattr(limits, "MOST_POINTS", 10)
+        with pytest.raises(ModelError, match=r"; \d+ is the limit"):
+            read_mesh(path)
+    with monkeypatch.context() as patched:
+        patched.setattr(limits, "MOST_CELLS", 5)
+        with pytest.raises(ModelError, match=r" cells; 5 is the limit"):
+            read_mesh(path)
+    monkeypatch.setattr(limits, "LARGEST_FILE", 100)
+    with pytest.raises(ModelError, match="MB is the limit"):
         read_mesh(path)
 
 
@@ -191,7 +198,7 @@ def test_cells_that_cannot_be_used_are_named(tmp_path: Path) -> None:
     points = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (0, 1, 1)], float)
     path = tmp_path / "part.vtu"
     meshio.vtu.write(str(path), meshio.Mesh(points, [("wedge", [[0, 1, 2, 3, 4, 5]])]))
-    with pytest.raises(ModelError, match=r"part.vtu.*'wedge', which cannot be used"):
+    with pytest.raises(ModelError, match=r"part.vtu.*a wedge .pentahedron., which cannot be used"):
         read_mesh(path)
     meshio.vtu.write(str(path), meshio.Mesh(points, [("triangle", [[0, 1, 2]])]))
     with pytest.raises(ModelError, match=r"part.vtu.*no solid cells"):
