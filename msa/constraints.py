@@ -45,6 +45,11 @@ class Rows:
     size: Array
     rank: NDArray[np.intp]
 
+    def __getitem__(self, poses: Any) -> Rows:
+        """The rows of the poses of an index."""
+        parts = (self.basis, self.values, self.left, self.size, self.rank)
+        return Rows(*(part[poses] for part in parts))
+
     def right_side(self, gaps: Array) -> Array:
         """Right-hand side of the orthonormal rows, (p, r, m), from misfits (p, r, m)."""
         scaled = gaps / self.size[..., None]

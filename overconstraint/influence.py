@@ -17,7 +17,8 @@ from msa.diagnosis import mechanism_error
 from msa.loads import LoadCase
 from msa.solve import Method, solve
 from msa.structure import PlacedStructure
-from overconstraint.self_stress import redundancy, undetermined
+from msa.undetermined import undetermined
+from overconstraint.self_stress import redundancy
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
