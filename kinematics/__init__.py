@@ -15,6 +15,7 @@ from kinematics.linkage import GROUND, Body, Linkage
 from kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
 from kinematics.mechanism import Mechanism, Poses, drive_values, forward_kinematics
 from kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
+from kinematics.near_mechanism import NearMechanism, near_motions
 from kinematics.placement import Placement, check_coincidence
 from kinematics.rows import (
     ConstraintRows,
@@ -36,6 +37,7 @@ __all__ = [
     "Linkage",
     "Mechanism",
     "Mobility",
+    "NearMechanism",
     "Placement",
     "Poses",
     "SelfStress",
@@ -53,6 +55,7 @@ __all__ = [
     "forward_kinematics",
     "jacobians",
     "mobility",
+    "near_motions",
     "rotation_x",
     "rotation_y",
     "rotation_z",

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from msa.assembly import System, system_of
 from msa.condensed import solve_condensed
 from msa.loads import LoadCase
-from msa.null_space import solve_null_space
 from msa.nodal import beam_end_forces
+from msa.null_space import solve_null_space
 from msa.saddle_point import solve_saddle_point
 from msa.sparse import SPARSE_FROM, solve_sparse
 from msa.structure import PlacedStructure
