@@ -27,7 +27,7 @@ Array = NDArray[Any]
 #: Singular values below this share of the largest count as zero.
 RANK_TOLERANCE = 1e-8
 
-#: Bodies above which rank and null spaces are found block by block of the linkage's graph.
+#: Bodies or joints above which rank and null spaces are found block by block of the graph.
 LARGE = 40
 
 
@@ -147,7 +147,7 @@ def mobility(linkage: Linkage, placement: Placement) -> Mobility:
     held = constraint_rows(linkage, placement, resists)
     free = constraint_rows(linkage, placement, resists & ~driven)
     columns = 6 * len(linkage.body_names)
-    large = len(linkage.body_names) > LARGE
+    large = max(len(linkage.body_names), len(linkage.joints)) > LARGE
     spaces = _large_spaces if large else _small_spaces
     rank_held, null_held, states = spaces(held, length, True)
     rank_free, null_free = rank_held, null_held

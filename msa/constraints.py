@@ -170,7 +170,7 @@ def free_unknowns(system: System) -> Array:
     if bodies == 0:
         return np.zeros((system.poses, 0, 0))
     references = body_references(linkage, system.placed.placement)
-    if system.poses == 1 and bodies > LARGE:
+    if system.poses == 1 and max(bodies, len(linkage.joints)) > LARGE:
         twists = _large_free_twists(system)
     else:
         twists = _free_twists(system)

@@ -133,9 +133,14 @@ def row_groups(a: sp.csr_array) -> Iterator[tuple[NDArray[np.intp], Array, NDArr
     graph = sp.block_array([[None, touched], [touched.T, None]], format="csr")
     _, label = connected_components(graph, directed=False)
     label = label[: a.shape[0]]
+    entries = a.tocoo()
+    # entries and rows in the order of their groups: slicing a sparse matrix is slow
+    by_group = np.argsort(label[entries.row], kind="stable")
     order = np.argsort(label, kind="stable")
-    starts = np.flatnonzero(np.diff(label[order], prepend=-1))
-    for rows in np.split(order, starts[1:]):
-        block = a[rows]
-        columns = np.unique(block.indices)
-        yield rows, block[:, columns].toarray(), columns
+    names, starts = np.unique(label[order], return_index=True)
+    cuts = np.searchsorted(label[entries.row][by_group], names)
+    for rows, own in zip(np.split(order, starts[1:]), np.split(by_group, cuts[1:]), strict=True):
+        columns, column = np.unique(entries.col[own], return_inverse=True)
+        block = np.zeros((len(rows), len(columns)))
+        block[np.searchsorted(rows, entries.row[own]), column] = entries.data[own]
+        yield rows, block, columns.astype(np.intp)
