@@ -185,11 +185,11 @@ def _decomposed(
     wrenches[:, 3:] /= length
     size = np.linalg.norm(wrenches, axis=1)
     wrenches /= size[:, None]
-    matrix = np.zeros((len(rows), len(groups), 6))
+    spread = np.zeros((len(rows), len(groups), 6))
     for side, sign in zip(ends, (-1.0, 1.0), strict=True):
         moves = np.flatnonzero(side != carrier)
-        matrix[moves, np.searchsorted(groups, side[moves])] += sign * wrenches[moves]
-    matrix = matrix.reshape(len(rows), 6 * len(groups))
+        spread[moves, np.searchsorted(groups, side[moves])] += sign * wrenches[moves]
+    matrix = spread.reshape(len(rows), 6 * len(groups))
     # with more rows than columns the left vectors are many and nobody reads them
     _, values, right = np.linalg.svd(matrix, full_matrices=len(rows) < matrix.shape[1])
     return Block(rows, groups, values, right, matrix, size, centre, length)

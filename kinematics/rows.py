@@ -8,6 +8,7 @@ and its multipliers, all read the rows made here.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -59,7 +60,7 @@ class ConstraintRows:
             for j, d in zip(self.joint, self.direction, strict=True)
         )
 
-    @property
+    @cached_property
     def nodes(self) -> NDArray[np.intp]:
         """Indices of the first and second node of each row, (r, 2)."""
         index = self.linkage.node_index

@@ -150,8 +150,7 @@ class System:
         found = Triplets()
         for _, nodes, part in parts:
             dofs, moves = self.dofs(nodes)
-            block = self.carried(nodes, part)[0][moves][:, moves]
-            found.add(dofs[moves], dofs[moves], block)
+            found.add(dofs[moves], dofs[moves], self.carried(nodes, part)[0][moves][:, moves])
         return sp.csc_array(found.matrix((self.topology.size, self.topology.size)))
 
     @cached_property
@@ -163,18 +162,13 @@ class System:
     @cached_property
     def locked_rows(self) -> ConstraintRows:
         """The constraint rows at their nodes."""
-        linkage, placement = self.placed.structure.linkage, self.placed.placement
-        return constraint_rows(linkage, placement, self.topology.locked)
-
-    @cached_property
-    def row_nodes(self) -> NDArray[np.intp]:
-        """First and second node of every constraint row, (r, 2)."""
-        return self.locked_rows.nodes
+        placed = self.placed
+        return constraint_rows(placed.structure.linkage, placed.placement, self.topology.locked)
 
     @cached_property
     def row_blocks(self) -> tuple[NDArray[np.intp], Array]:
         """Constraint rows in blocks: cluster (r, 2), −1 for ground, and values (p, r, 2, 6)."""
-        rows, nodes = self.locked_rows, self.row_nodes
+        rows, nodes = self.locked_rows, self.locked_rows.nodes
         vertex = self.placed.structure.vertex_of_node[nodes]
         maps = rigid_map(self.placed.arms[:, nodes])
         values = np.einsum("pri,prkij->prkj", rows.axes, maps)
@@ -220,7 +214,8 @@ class System:
         moved = np.swapaxes(self._carry(nodal), -1, -2) @ nodal
         shape = (self.poses, structure.vertex_count + 1, *nodal.shape[2:])
         result = np.zeros(shape, dtype=nodal.dtype)
-        np.add.at(result, (slice(None), structure.vertex_of_node), moved)
+        at: Any = (slice(None), structure.vertex_of_node)
+        np.add.at(result, at, moved)
         return result[:, :-1].reshape(self.poses, self.topology.size, nodal.shape[-1])
 
     def _carry(self, like: Array) -> Array:

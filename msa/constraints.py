@@ -204,7 +204,7 @@ def _free_twists(system: System) -> Array:
     twists = np.swapaxes(right[:, first:] * free[:, first:, None], -1, -2)
     twists = twists.reshape(system.poses, matrix.shape[-1] // 6, 6, k).copy()
     twists[:, :, 3:] /= length
-    return twists
+    return np.asarray(twists)
 
 
 def _large_free_twists(system: System) -> Array:

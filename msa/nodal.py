@@ -75,7 +75,8 @@ def unbalanced(
 
     def add(nodes: NDArray[np.intp], part: Array) -> None:
         nonlocal carried
-        np.add.at(force, (slice(None), nodes), part)
+        at: Any = (slice(None), nodes)
+        np.add.at(force, at, part)
         size = np.abs(part * lever[:, None]).max(axis=(1, 2), initial=0.0)
         carried = np.maximum(carried, size)
 
@@ -95,7 +96,7 @@ def unbalanced(
         del name
         moved = nodal[:, nodes].reshape(system.poses, 6 * len(nodes), m)
         add(nodes, (stiffness @ moved).reshape(system.poses, len(nodes), 6, m))
-    rows, nodes = system.locked_rows, system.row_nodes
+    rows, nodes = system.locked_rows, system.locked_rows.nodes
     held = rows.axes[..., None] * multipliers[:, :, None]
     inside = structure.vertex_of_node[nodes[:, 0]] == structure.vertex_of_node[nodes[:, 1]]
     held[:, inside] = 0.0

@@ -361,10 +361,11 @@ class PlacedStructure:
         """From the mesh nodes of each beam element to its ends, (s, 2, 3), m."""
         s = self.structure
         result = np.zeros((len(s.segments), 2, 3))
-        for i, beam in enumerate(s.beams):
-            rows = np.flatnonzero(s.segments[:, 0] == i)
-            result[rows[0], 0] = beam.offsets[0]
-            result[rows[-1], 1] = beam.offsets[1]
+        last = -1
+        for beam in s.beams:
+            first, last = last + 1, last + beam.elements
+            result[first, 0] = beam.offsets[0]
+            result[last, 1] = beam.offsets[1]
         return result
 
     def check(self) -> None:

@@ -11,6 +11,7 @@ import pytest
 from machines.model_file import parse_model, read_model
 from reports.model_check import check_model
 from reports.model_solution import solve_model
+from strutwork.errors import NumericalError
 
 MODELS = Path(__file__).parents[1] / "cases" / "models"
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
@@ -116,8 +117,6 @@ def test_a_soft_bar_before_a_stiff_one() -> None:
 
 
 def test_a_failing_tool_does_not_discard_the_cases(monkeypatch: pytest.MonkeyPatch) -> None:
-    from strutwork.errors import NumericalError
-
     def fail(_: object) -> None:
         raise NumericalError("tool compliance", "is not sure.", "Look at it.")
 
