@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msa.assembly import System, system_of
-from msa.beam import local_stiffness
 from msa.condensed import solve_condensed
 from msa.loads import LoadCase
+from msa.nodal import beam_end_forces
 from msa.null_space import solve_null_space
-from msa.saddle_point import Unknowns, solve_saddle_point
+from msa.saddle_point import solve_saddle_point
 from msa.sparse import SPARSE_FROM, solve_sparse
-from msa.structure import PlacedStructure, rigid_map
+from msa.structure import PlacedStructure
+from msa.trust import Unknowns
 from strutwork.errors import ModelError, NumericalError
 
 Array = NDArray[Any]
@@ -178,7 +179,9 @@ def solve(
     return replace(
         flat,
         **{
-            name: getattr(flat, name).reshape((*batch, *getattr(flat, name).shape[1:]))
+            name: getattr(flat, name)
+            .astype(float)
+            .reshape((*batch, *getattr(flat, name).shape[1:]))
             for name in (
                 "displacements",
                 "joint_forces",
@@ -200,20 +203,7 @@ def _beams(system: System, displacements: Array, cases: Sequence[LoadCase]) -> t
     structure, m = system.placed.structure, len(cases)
     if not structure.beams:
         return np.zeros((system.poses, 0, 2, 6, m)), np.zeros((system.poses, m))
-    segments = structure.segments
-    length, axes = system.placed.beam_geometry
-    pieces = np.array([b.elements for b in structure.beams], dtype=float)
-    properties = np.array([b.properties for b in structure.beams]).T[:, segments[:, 0]]
-    piece_length = (length / pieces)[:, segments[:, 0]]
-    at_nodes = displacements[:, segments[:, 1:]]
-    at_ends = rigid_map(system.placed.segment_offsets) @ at_nodes
-    turned = np.einsum(
-        "psij,psekjm->psekim",
-        axes[:, segments[:, 0]],
-        at_ends.reshape(*at_ends.shape[:3], 2, 3, m),
-    )
-    local = turned.reshape(system.poses, len(segments), 12, m)
-    forces = local_stiffness(piece_length, properties) @ local
+    local, forces = beam_end_forces(system, displacements)
     energy = 0.5 * np.einsum("psim,psim->pm", local, forces)
     for c, case in enumerate(cases):
         loads = system.line_loads(case)
@@ -276,10 +266,10 @@ def _joints(
     """Joint forces (p, j, 6, m) on the second nodes in joint axes, and energy (p, m)."""
     linkage = system.placed.structure.linkage
     m = displacements.shape[-1]
-    forces = np.zeros((system.poses, len(linkage.joints), 6, m))
+    forces = np.zeros((system.poses, len(linkage.joints), 6, m), dtype=displacements.dtype)
     joint, direction = system.row_owner
     forces[:, joint, direction] = -unknowns.multipliers
-    energy = np.zeros((system.poses, m))
+    energy = np.zeros((system.poses, m), dtype=displacements.dtype)
     index = linkage.node_index
     for j in system.topology.elastic_joints:
         first, second = (index[n] for n in linkage.joints[j].between)

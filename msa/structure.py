@@ -283,9 +283,11 @@ class PlacedStructure:
     @cached_property
     def beam_ends(self) -> tuple[Array, Array]:
         """Ends of the whole beams, offsets included, (..., b, 3) each, m."""
+        return self._ends(self.placement.positions)
+
+    def _ends(self, positions: Array) -> tuple[Array, Array]:
         s = self.structure
         index = s.linkage.node_index
-        positions = self.placement.positions
         ends = []
         for k in (0, 1):
             rows = [index[b.nodes[k]] for b in s.beams]
@@ -296,8 +298,20 @@ class PlacedStructure:
     @cached_property
     def beam_geometry(self) -> tuple[Array, Array]:
         """Length (..., b) in m and local axes as rows (..., b, 3, 3) of the whole beams."""
+        return self._geometry(*self.beam_ends)
+
+    @cached_property
+    def extended_geometry(self) -> tuple[Array, Array]:
+        """`beam_geometry` in extended precision: axes orthogonal to more digits than a double."""
+        return self._geometry(*self._ends(self.placement.positions.astype(np.longdouble)))
+
+    @cached_property
+    def extended_arms(self) -> Array:
+        """`arms` in extended precision."""
+        return self._arms(self.positions.astype(np.longdouble))
+
+    def _geometry(self, start: Array, end: Array) -> tuple[Array, Array]:
         s = self.structure
-        start, end = self.beam_ends
         up = np.full(start.shape, np.nan)
         for i, beam in enumerate(s.beams):
             if isinstance(beam.orientation, str):
@@ -329,11 +343,14 @@ class PlacedStructure:
     @cached_property
     def arms(self) -> Array:
         """From each cluster's reference node to its nodes, (..., n, 3), m; zero for ground."""
+        return self._arms(self.positions)
+
+    def _arms(self, positions: Array) -> Array:
         s = self.structure
         vertex = s.vertex_of_node
         reference, moves = np.arange(len(vertex)), vertex >= 0
         reference[moves] = s.reference_nodes[vertex[moves]]
-        return self.positions - self.positions[..., reference, :]
+        return np.asarray(positions - positions[..., reference, :])
 
     @cached_property
     def segment_stiffness(self) -> Array:
@@ -358,10 +375,11 @@ class PlacedStructure:
         """From the mesh nodes of each beam element to its ends, (s, 2, 3), m."""
         s = self.structure
         result = np.zeros((len(s.segments), 2, 3))
-        for i, beam in enumerate(s.beams):
-            rows = np.flatnonzero(s.segments[:, 0] == i)
-            result[rows[0], 0] = beam.offsets[0]
-            result[rows[-1], 1] = beam.offsets[1]
+        last = -1
+        for beam in s.beams:
+            first, last = last + 1, last + beam.elements
+            result[first, 0] = beam.offsets[0]
+            result[last, 1] = beam.offsets[1]
         return result
 
     def check(self) -> None:
@@ -387,7 +405,7 @@ class PlacedStructure:
 
 def rigid_map(arm: Array) -> Array:
     """Twist at the end of a rigid arm from the twist at its start, (..., 3) to (..., 6, 6)."""
-    result = np.zeros((*arm.shape[:-1], 6, 6))
+    result = np.zeros((*arm.shape[:-1], 6, 6), dtype=np.result_type(arm, float))
     result[..., range(6), range(6)] = 1.0
     x, y, z = arm[..., 0], arm[..., 1], arm[..., 2]
     result[..., 0, 4], result[..., 0, 5] = z, -y

@@ -117,7 +117,8 @@ def tool_stiffness(compliance: Array) -> Array:
     SingularPoseError
         A compliance without inverse: the tool cannot move in some direction.
     """
-    scale = np.sqrt(np.einsum("...ii->...i", compliance))
+    # a direction that cannot move has the rounding of zero on the diagonal, of either sign
+    scale = np.sqrt(np.maximum(np.einsum("...ii->...i", compliance), 0.0))
     if np.any(scale <= 0) or not np.all(np.isfinite(scale)):
         raise SingularPoseError(
             "tool",

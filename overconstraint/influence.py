@@ -15,8 +15,9 @@ from msa.assembly import system_of
 from msa.loads import LoadCase
 from msa.solve import Method, solve
 from msa.structure import PlacedStructure
+from msa.undetermined import undetermined
 from overconstraint.rounding import without_rounding
-from overconstraint.self_stress import redundancy, undetermined
+from overconstraint.self_stress import redundancy
 from overconstraint.tool_place import MOVES, check_tool_place
 from strutwork.errors import ModelError
 

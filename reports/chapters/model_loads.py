@@ -85,18 +85,21 @@ def _six(
     title: str,
     what: str,
     columns: Sequence[tuple[str, str]],
-    values: Mapping[str, Sequence[float]],
+    values: Mapping[str, Sequence[float | None]],
     data: str = "solution.json",
 ) -> list[Block]:
     if not values:
         return []
     rows = []
     # round-off beside the table's largest entries says nothing
-    table = np.abs(np.array(list(values.values())))
+    table = np.nan_to_num(np.abs(np.array(list(values.values()), dtype=float)))
     floors = 1e-9 * np.repeat([table[:, :3].max(), table[:, 3:].max()], 3)
     for part, six in list(values.items())[:SHOWN]:
-        shown = [0.0 if abs(v) <= low else v for v, low in zip(six, floors, strict=True)]
-        rows.append([part, *(significant(v, 4) for v in shown)])
+        shown = [
+            "not determined" if v is None else significant(0.0 if abs(v) <= low else v, 4)
+            for v, low in zip(six, floors, strict=True)
+        ]
+        rows.append([part, *shown])
     heads = (Column(what, "", False), *(Column(title, unit) for title, unit in columns))
     blocks: list[Block] = [Table(title, heads, rows, data)]
     if len(values) > SHOWN:

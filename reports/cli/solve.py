@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import isfinite
+from math import isfinite, isnan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,15 +54,18 @@ def _six(
     title: str,
     what: str,
     columns: Sequence[str],
-    values: Mapping[str, Sequence[float]],
+    values: Mapping[str, Sequence[float | None]],
 ) -> None:
     if not values:
         return
     # round-off beside the largest force or moment is shown as zero
-    numbers = np.array(list(values.values()))
-    largest = np.abs(numbers.reshape(-1, 2, 3)).max(axis=(0, 2)).repeat(3)
-    numbers[np.abs(numbers) < 1e-10 * largest] = 0.0
-    rows = [(name, *row) for name, row in zip(values, numbers.tolist(), strict=True)]
+    numbers = np.array(list(values.values()), dtype=float)
+    sizes = np.nan_to_num(np.abs(numbers)).reshape(-1, 2, 3)
+    numbers[np.abs(numbers) < 1e-10 * sizes.max(axis=(0, 2)).repeat(3)] = 0.0
+    rows = [
+        (name, *("not determined" if isnan(v) else v for v in row))
+        for name, row in zip(values, numbers.tolist(), strict=True)
+    ]
     out.print(table(title, [what, *columns], rows))
 
 
