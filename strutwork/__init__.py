@@ -8,11 +8,13 @@ from strutwork.errors import (
     MechanismError,
     ModelError,
     NumericalError,
+    PoseWarning,
     SingularPoseError,
     StrutworkError,
     UnitError,
     UnreachableError,
 )
+from strutwork.outcome import Outcome
 
 __version__ = "0.1.0"
 
@@ -21,6 +23,8 @@ __all__ = [
     "MechanismError",
     "ModelError",
     "NumericalError",
+    "Outcome",
+    "PoseWarning",
     "SingularPoseError",
     "StrutworkError",
     "UnitError",

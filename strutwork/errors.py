@@ -53,3 +53,7 @@ class SingularPoseError(StrutworkError):
 
 class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
+
+
+class PoseWarning(UserWarning):
+    """Some poses of a batch have no answer; the message counts them by reason."""
