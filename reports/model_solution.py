@@ -118,7 +118,9 @@ def solve_model(model: Model) -> ModelSolution:
         except (MechanismError, SingularPoseError) as error:
             if not model.cases and compliance is None:
                 raise
-            warnings.warn(f"tool: {error}", ModelWarning, stacklevel=2)
+            # an error of the tool itself says so
+            where = "" if error.part == "tool" else "tool: "
+            warnings.warn(f"{where}{error}", ModelWarning, stacklevel=2)
     return ModelSolution(model, statics, compliance, stiffness)
 
 
