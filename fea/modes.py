@@ -164,7 +164,9 @@ def modes(
     if not np.all(np.isfinite(shapes[outcome.solved])):
         raise NumericalError("mode shapes", "are not finite.", "Check masses and stiffnesses.")
     batch = placed.batch
-    names = tuple(dict.fromkeys(name for name, _, _ in system_of(placed).contributions()))
+    # parts have the same names at every pose; at one without an answer they may have no numbers
+    one = system_of(system.placed[np.flatnonzero(outcome.solved)[:1]])
+    names = tuple(dict.fromkeys(name for name, _, _ in one.contributions()))
 
     def shaped(array: Array) -> Array:
         return array.reshape((*batch, *array.shape[1:]))

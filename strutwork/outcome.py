@@ -33,7 +33,7 @@ class Outcome:
     reasons : tuple of str
         Why poses were not solved, each once.
     errors : tuple of StrutworkError
-        For each reason the error of the first pose that has it.
+        For each reason the error of the first pose met with it, without the pose's number.
     """
 
     status: NDArray[np.int16]
@@ -86,7 +86,7 @@ class Outcome:
             The error of the first pose.
         """
         if self.status.size and not self.solved.any():
-            raise self.errors[int(self.status.flat[0]) - 1]
+            raise self._error()
         return self
 
     def require_all(self) -> Outcome:
@@ -97,10 +97,20 @@ class Outcome:
         StrutworkError
             The error of the first pose that was not.
         """
-        bad = self.status[~self.solved]
-        if bad.size:
-            raise self.errors[int(bad[0]) - 1]
+        if not self.solved.all():
+            raise self._error()
         return self
+
+    def _error(self) -> StrutworkError:
+        """The error of the first pose without an answer, with its place in this batch."""
+        first = tuple(int(i) for i in np.argwhere(~self.solved)[0])
+        error = self.errors[int(self.status[first]) - 1]
+        if self.status.size == 1:
+            return error
+        place = first[0] if len(first) == 1 else first
+        made = type(error)(error.part, f"at pose {place}: {error.problem}", error.remedy)
+        made.__cause__ = error.__cause__
+        return made
 
     def warn(self, what: str, stacklevel: int = 2) -> None:
         """Warn, with counts and reasons, where poses of `what` have no answer.
@@ -162,7 +172,10 @@ def solve_poses(
                 words = next(reversed(reasons))
             else:
                 reasons[words] = len(reasons) + 1
-                errors.append(error)
+                # the number in the text is that of the stack that was solved, not of the batch
+                bare = type(error)(error.part, _WHERE.sub("", error.problem), error.remedy)
+                bare.__cause__ = error.__cause__
+                errors.append(bare)
         status[part] = reasons[words]
 
     # no pose at all is solved too: the arrays then have their shapes
