@@ -274,4 +274,4 @@ def _inverse(compliance: Array) -> Array:
 def _flat(compliance: Array) -> tuple[Array, NDArray[np.bool_]]:
     """One batch axis, (k, 6, 6), and where the numbers are there, (k,)."""
     flat = compliance.reshape(-1, 6, 6)
-    return flat, np.isfinite(flat).all(axis=(1, 2))
+    return flat, np.asarray(np.isfinite(flat).all(axis=(1, 2)))

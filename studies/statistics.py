@@ -117,9 +117,12 @@ def statistics(
                 "the weights are not one a value, negative, all zero, or go with a sample.",
                 "Give finite weights that are not negative, and the population's variance.",
             )
-        # a weight of nothing takes no part, however stiff
-        mean = float(np.average(x[w > 0], weights=w[w > 0]))
-        variance = float(np.average((x - mean) ** 2, weights=w)) if np.isfinite(mean) else np.inf
+        # what weighs nothing takes no part, however stiff
+        part, share = x[w > 0], w[w > 0]
+        mean = float(np.average(part, weights=share))
+        variance = np.inf
+        if np.isfinite(mean):
+            variance = float(np.average((part - mean) ** 2, weights=share))
         quantiles = np.quantile(x, QUANTILES, weights=w, method="inverted_cdf")
     return Statistics(
         x.size, mean, variance, variance**0.5, tuple(float(q) for q in quantiles), sample
