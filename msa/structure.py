@@ -19,9 +19,6 @@ from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
-#: Batches up to this size have their beams' geometry checked as soon as they are placed.
-CHECKED_AT_ONCE = 256
-
 
 class Element(Protocol):
     """Anything that stands in a structure: nodes and a stiffness between them.
@@ -237,8 +234,8 @@ class Structure:
         ------
         ModelError
             Joint nodes that do not coincide; a beam of zero length, an orientation along its
-            beam, a spring that resists rigid rotation (in a large batch these come when the
-            poses are solved).
+            beam, a spring that resists rigid rotation (in a batch these come when the poses are
+            solved, and mark the poses at fault).
         UnreachableError
             A pose that cannot be taken.
 
@@ -250,7 +247,7 @@ class Structure:
         placement.require_reachable()
         check_coincidence(self.linkage, placement)
         placed = PlacedStructure(self, placement)
-        if np.prod(placement.batch, dtype=int) <= CHECKED_AT_ONCE:
+        if np.prod(placement.batch, dtype=int) == 1:
             placed.check()
         warn_of_proportions(placed)
         return placed

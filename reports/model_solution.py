@@ -148,7 +148,9 @@ def solve_model(model: Model) -> ModelSolution:
         except StrutworkError as error:
             if not model.cases and compliance is None:
                 raise
-            warnings.warn(f"tool: {error}", ModelWarning, stacklevel=2)
+            # an error of the tool itself says so
+            where = "" if error.part == "tool" else "tool: "
+            warnings.warn(f"{where}{error}", ModelWarning, stacklevel=2)
     near = near_motions(model.structure.linkage, model.placement)
     warn_of_near(near)
     undetermined = undetermined_names(model.placed) if model.cases else {}
