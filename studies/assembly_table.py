@@ -189,7 +189,9 @@ def _worth(case: str, which: Set) -> tuple[Status, str]:
 
     Calibrated throughout: layout and stiffness ratios were chosen with all cases in view.
     """
-    note = f"reconstructed structure, figures 40 and 42 of the thesis are not at hand; {SETS[which]}"
+    note = (
+        f"reconstructed structure, figures 40 and 42 of the thesis are not at hand; {SETS[which]}"
+    )
     if which == "case I" and case != "I":
         note += "; layout and stiffness ratios were chosen with this case in view too"
     return "calibrated", note

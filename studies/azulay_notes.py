@@ -1,4 +1,4 @@
-"""What was chosen for the numbers of the Azulay comparison, and with which of the prints in view."""
+"""What was chosen for the numbers of the Azulay comparison, with which prints in view."""
 
 from __future__ import annotations
 
@@ -38,12 +38,16 @@ def note_of(entry: PublishedValue, model: str) -> str:
     machine = entry.row.split()[0]
     notes = [_MODEL[model]]
     if _other_length(entry.row):
-        notes.append("pole height fitted at 216 mm and carried over; the check points and the drives "
-                     "were chosen with this table in view")
+        notes.append(
+            "pole height fitted at 216 mm and carried over; the check points and the drives "
+            "were chosen with this table in view"
+        )
     else:
         notes.append(f"fitted to the means of Table 4: {_FITTED[machine]}")
     if entry.quantity.endswith("variance"):
-        notes.append("nothing was fitted to a variance: it follows from what was fitted to the means")
+        notes.append(
+            "nothing was fitted to a variance: it follows from what was fitted to the means"
+        )
     if machine == _PROPOSED and not _other_length(entry.row) and entry.quantity == "Kzz mean":
         notes.append(
             "Tables 2 and 4 print 5.43 and 5.690 for this machine: nothing can meet both better "

@@ -53,6 +53,7 @@ _BAR_COLOURS = {"spherical": "#0072b2", "apparent": "#9ccbe8"}
 #: A variance farther than this factor from the print, with either joint model, is named.
 FAR = 2.0
 
+
 def summary_chapter(study: Comparison) -> Chapter:
     """What the comparison says, in a paragraph and a table of means."""
     azulay = study.azulay
@@ -250,7 +251,7 @@ def reasons_chapter(study: Comparison) -> Chapter:
     fitted = (
         "The heights of the workpiece's pole, the length of the Eclipse column and of the Alizade "
         "strut, and how the Glozman machine's turning drive yields are not printed. What matters "
-        "of them was fitted to Table 4, so its rows are called calibrated, whether they come near or not."
+        "of them was fitted to Table 4, so its rows are called calibrated, whether near or not."
     )
     points = "The check points are not printed, only their number."
     return Chapter(
