@@ -3,12 +3,13 @@
 from msa.assembly import System, system_of
 from msa.beam import Beam
 from msa.budget import ComplianceBudget, compliance_budget
+from msa.element import Element
 from msa.loads import LineLoad, LoadCase
 from msa.materials import Material
 from msa.sections import Section, box, rectangle, rod, tube
 from msa.solve import METHODS, StaticSolution, solve
 from msa.springs import PointMass, Spring
-from msa.structure import Element, PlacedStructure, Structure, rigid_map
+from msa.structure import PlacedStructure, Structure, rigid_map
 from msa.tool import (
     StiffnessEllipsoid,
     axis_stiffness_blocked,
