@@ -3,6 +3,7 @@
 from msa.assembly import System, system_of
 from msa.beam import Beam
 from msa.budget import ComplianceBudget, compliance_budget
+from msa.element import Element
 from msa.loads import LineLoad, LoadCase
 from msa.materials import Material
 from msa.movable import MovableDirections, movable_directions
@@ -17,7 +18,7 @@ from msa.stiffness import (
     stiffness_ellipsoid,
     tool_stiffness,
 )
-from msa.structure import Element, PlacedStructure, Structure, rigid_map
+from msa.structure import PlacedStructure, Structure, rigid_map
 from msa.tool import compliance_and_outcome, tool_compliance
 from msa.topology import Topology
 

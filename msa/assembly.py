@@ -212,8 +212,7 @@ class System:
         """Loads on the unknowns (p, 6v, m) from loads at the mesh nodes (p, n, 6, m)."""
         structure = self.placed.structure
         moved = np.swapaxes(self._carry(nodal), -1, -2) @ nodal
-        shape = (self.poses, structure.vertex_count + 1, *nodal.shape[2:])
-        result = np.zeros(shape, dtype=nodal.dtype)
+        result = np.zeros((self.poses, structure.vertex_count + 1, *nodal.shape[2:]), nodal.dtype)
         at: Any = (slice(None), structure.vertex_of_node)
         np.add.at(result, at, moved)
         return result[:, :-1].reshape(self.poses, self.topology.size, nodal.shape[-1])

@@ -5,37 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import GROUND, Body, Linkage, Placement, check_coincidence
 from msa.beam import Beam, beam_axes, local_stiffness, to_global
+from msa.element import Element
 from msa.proportions import warn_of_proportions
 from msa.springs import PointMass, Spring
 from msa.stiffening import Stiffening
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
-
-
-class Element(Protocol):
-    """Anything that stands in a structure: nodes and a stiffness between them.
-
-    Only a rigid motion of its nodes may cost no energy.
-    """
-
-    @property
-    def name(self) -> str:
-        """Unique among the parts."""
-
-    @property
-    def nodes(self) -> tuple[str, ...]:
-        """The k nodes it connects; all on one body of the linkage."""
-
-    def stiffness(self, at: PlacedStructure) -> Array:
-        """Stiffness in global axes at a batch of poses, (..., 6 k, 6 k)."""
 
 
 @dataclass(frozen=True)
