@@ -15,6 +15,7 @@ from fea.level_set import exceeds, level_crossings
 from fea.modal import ModalModel, modal_model
 from fea.modes import Modes, modes
 from fea.ports import Port
+from fea.preload import preloaded
 
 __all__ = [
     "ComplexModes",
@@ -37,5 +38,6 @@ __all__ = [
     "minimum_dynamic_stiffness",
     "modal_model",
     "modes",
+    "preloaded",
     "worst_direction",
 ]

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
-from scipy.optimize import minimize_scalar
 
 from strutwork.errors import ModelError
 
@@ -16,12 +13,6 @@ Array = NDArray[Any]
 
 #: Directions of a span below this share of the largest are rounding.
 SPAN_RANK = 1e-8
-
-#: Frequency scales are tried up to this many.
-MOST_SCALES = 4001
-
-#: Share of the measured lines that a scaled response must still cover.
-COVERED = 0.5
 
 
 def mac(first: ArrayLike, second: ArrayLike) -> Array:
@@ -56,8 +47,8 @@ def _shapes(rows: ArrayLike) -> Array:
     a = np.atleast_2d(np.asarray(rows))
     if not np.all(np.isfinite(a)):
         raise ModelError("shapes", "hold a number that is not finite.", "Leave it out.")
-    # the largest entry first: the square of a tiny number would vanish
-    largest = np.abs(a).max(axis=1, keepdims=True, initial=0.0)
+    # the largest entry first: the square of a tiny number would vanish, that of a huge one be none
+    largest = np.maximum(np.abs(a.real), np.abs(a.imag)).max(axis=1, keepdims=True, initial=0.0)
     if np.any(largest == 0):
         raise ModelError("shapes", "hold one that is zero everywhere.", "Leave it out.")
     a = a / largest
@@ -114,100 +105,3 @@ def frac(first: ArrayLike, second: ArrayLike) -> float:
         As `mac`.
     """
     return float(mac(np.asarray(first)[None], np.asarray(second)[None])[0, 0])
-
-
-@dataclass(frozen=True)
-class FracScale:
-    """FRAC as it is, and with the frequency scale that makes it best.
-
-    Parameters
-    ----------
-    frac : float
-        On the common lines, frequencies as they are.
-    scale : float
-        The computed frequencies times this meet the measured ones best.
-    scaled_frac : float
-        FRAC at that scale.
-    at_limit : bool
-        The best scale lies at the end of the search: the true one may lie beyond.
-    """
-
-    frac: float
-    scale: float
-    scaled_frac: float
-    at_limit: bool
-
-    def __repr__(self) -> str:
-        return f"<FRAC {self.frac:.3f}, {self.scaled_frac:.3f} at scale {self.scale:.4f}>"
-
-
-def frac_with_scale(
-    computed: tuple[ArrayLike, ArrayLike],
-    measured: tuple[ArrayLike, ArrayLike],
-    limits: tuple[float, float] = (0.8, 1.25),
-) -> FracScale:
-    """FRAC of a computed and a measured response, and the best frequency scale.
-
-    The computed response is interpolated (cubic) at measured frequency / scale. Scales from
-    `limits` are tried in geometric steps of half the measured line spacing at the upper end of
-    the band, so that no peak is stepped over, and the best refined by bounded search. A scale
-    counts where the computed band still covers half of the measured lines.
-
-    Parameters
-    ----------
-    computed, measured : (frequencies (f,), values (f,))
-        Hz, complex.
-    limits : (float, float)
-
-    Returns
-    -------
-    FracScale
-
-    Raises
-    ------
-    ModelError
-        Bands that do not overlap in half of the measured lines, or limits without one.
-    """
-    lines, values = (np.asarray(a) for a in measured)
-    own, response = (np.asarray(a) for a in computed)
-    low, high = limits
-    if not (np.isfinite(high) and 0 < low <= 1 <= high):
-        raise ModelError("frequency scale", f"goes from {low:g} to {high:g}.", "Include one.")
-    if len(own) < 4 or len(lines) < 4:
-        raise ModelError("response", "has fewer than four lines.", "Give more lines.")
-    spline = CubicSpline(own, response)
-
-    def score(scale: float) -> float:
-        at = lines / scale
-        slack = 1e-9 * own[-1]
-        inside = (at >= own[0] - slack) & (at <= own[-1] + slack)
-        if inside.sum() < max(4, COVERED * len(lines)):
-            return -1.0
-        shifted = spline(np.clip(at[inside], own[0], own[-1]))
-        if not np.any(shifted) or not np.any(values[inside]):
-            return 0.0
-        return frac(shifted, values[inside])
-
-    plain = score(1.0)
-    if plain < 0:
-        raise ModelError(
-            "responses",
-            f"share too little of the band: computed {own[0]:g} to {own[-1]:g} Hz, measured "
-            f"{lines[0]:g} to {lines[-1]:g} Hz.",
-            "Compute at least half of the measured band.",
-        )
-    step = 0.5 * float(np.median(np.diff(lines))) / lines[-1]
-    count = int(np.clip(np.ceil(np.log(high / low) / step), 41, MOST_SCALES))
-    # one itself is tried too: what is equal is found equal
-    tried = np.unique(np.concatenate([np.geomspace(low, high, count), [1.0]]))
-    scores = np.array([score(s) for s in tried])
-    k = int(scores.argmax())
-    scale, best = float(tried[k]), float(scores[k])
-    around = (float(tried[max(k - 1, 0)]), float(tried[min(k + 1, len(tried) - 1)]))
-    if around[1] > around[0]:
-        fine = minimize_scalar(
-            lambda s: -score(s), bounds=around, method="bounded", options={"xatol": 1e-9}
-        )
-        if -fine.fun > best:
-            scale, best = float(fine.x), float(-fine.fun)
-    return FracScale(plain, scale, best, k in (0, len(tried) - 1) and high > low)

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.assurance import frac_with_scale
 from fea.comparison import Comparison, FunctionPair
+from fea.frac_scale import frac_with_scale
 from fea.pairing import ModeSet, pair_modes
+from fea.same_nodes import same_nodes
 from fea.uff import MOTIONS, FrfRecord, ModeRecord, UniversalFile
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
-
-#: Nodes of two files nearer than this share of the larger extent are the same place.
-SAME_PLACE = 1e-3
 
 
 def compare_files(
@@ -28,20 +27,32 @@ def compare_files(
     least: float = 0.5,
     doublet: float = 0.01,
     scales: tuple[float, float] = (0.8, 1.25),
+    progress: Callable[[int, int], object] | None = None,
 ) -> Comparison:
     """Compare the modes and responses that two files have in common.
 
-    Nodes are the same by name; where no name is common, by place. Modes are compared in the
-    translations that the measured shapes have; responses in the higher of their two motions
-    (acceleration above velocity above displacement), and, as receptances are reciprocal, with
-    output and input exchanged where only that exists.
+    Nodes are the same by place where both files have places, else by name (`same_nodes`). Modes
+    are compared in the translations that the measured shapes have; responses in the higher of
+    their two motions (acceleration above velocity above displacement), and, as receptances are
+    reciprocal, with output and input exchanged where only that exists. What was left out, assumed
+    or changed on the way stands in the notes.
+
+    Parameters
+    ----------
+    computed, measured : UniversalFile
+    window, least, doublet : float
+        As `pair_modes`.
+    scales : (float, float)
+        As `frac_with_scale`.
+    progress : callable, optional
+        Told how many responses of how many are compared.
 
     Raises
     ------
     ModelError
         Neither modes nor responses in common.
     """
-    to_computed = _same_nodes(computed, measured)
+    to_computed, notes = same_nodes(computed, measured)
     pairs = Comparison()
     if computed.modes and measured.modes:
         pairs = pair_modes(
@@ -50,20 +61,63 @@ def compare_files(
             least=least,
             doublet=doublet,
         )
-    found = []
-    by_name = {(f.output, f.input): f for f in computed.functions}
-    for theirs in measured.functions:
-        ends = [(to_computed.get(node, ""), way) for node, way in (theirs.output, theirs.input)]
-        ours = by_name.get((ends[0], ends[1])) or by_name.get((ends[1], ends[0]))
-        if ours is not None:
-            found.append(_function_pair(ours, theirs, scales))
-    if not found and not (computed.modes and measured.modes):
+    matched, said = _same_functions(computed.functions, measured.functions, to_computed)
+    if not matched and not (computed.modes and measured.modes):
         raise ModelError(
             "comparison",
-            f"the files have nothing in common: {_held(computed)} and {_held(measured)}.",
+            f"the files have nothing in common: {_held(computed)} and {_held(measured)}."
+            + "".join(f" Note: {note}." for note in notes),
             "Give both modes, or both responses between the same nodes and directions.",
         )
-    return Comparison(pairs.modes, tuple(found), pairs.only_computed, pairs.only_measured)
+    found = []
+    for done, (ours, theirs) in enumerate(matched):
+        if progress is not None:
+            progress(done, len(matched))
+        found.append(_function_pair(ours, theirs, scales))
+    if progress is not None and matched:
+        progress(len(matched), len(matched))
+    notes = (*_told("computed", computed), *_told("measured", measured), *notes, *said)
+    return replace(pairs, functions=tuple(found), notes=notes)
+
+
+def _told(which: str, content: UniversalFile) -> list[str]:
+    """What was left out and assumed in reading, the same once with its count."""
+    counts: dict[str, int] = {}
+    for one in content.ignored:
+        counts[one] = counts.get(one, 0) + 1
+    left = [f"{one}{f' ({n} times)' if n > 1 else ''}" for one, n in counts.items()]
+    return [f"{which} file: not used: {one}" for one in left] + [
+        f"{which} file: {one}" for one in content.notes
+    ]
+
+
+def _same_functions(
+    computed: Sequence[FrfRecord], measured: Sequence[FrfRecord], to_computed: dict[str, str]
+) -> tuple[list[tuple[FrfRecord, FrfRecord]], list[str]]:
+    """Computed and measured responses between the same ends, and what has no partner."""
+    by_name: dict[tuple[tuple[str, str], tuple[str, str]], list[FrfRecord]] = {}
+    for f in computed:
+        by_name.setdefault((f.output, f.input), []).append(f)
+    matched, alone = [], []
+    several = 0
+    for theirs in measured:
+        ends = [(to_computed.get(node, ""), way) for node, way in (theirs.output, theirs.input)]
+        ours = by_name.get((ends[0], ends[1])) or by_name.get((ends[1], ends[0]))
+        if not ours:
+            alone.append(theirs.name)
+            continue
+        same_run = [f for f in ours if f.run == theirs.run]
+        several += len(ours) > 1 and not same_run
+        matched.append(((same_run or ours)[0], theirs))
+    notes = []
+    if alone and computed:
+        listed = ", ".join(alone[:3]) + (" …" if len(alone) > 3 else "")
+        notes.append(f"{len(alone)} measured responses have no computed one: {listed}")
+    if several:
+        notes.append(
+            f"{several} measured responses are compared with the first of several computed ones"
+        )
+    return matched, notes
 
 
 def _held(content: UniversalFile) -> str:
@@ -75,29 +129,17 @@ def _held(content: UniversalFile) -> str:
 
 def _function_pair(ours: FrfRecord, theirs: FrfRecord, scales: tuple[float, float]) -> FunctionPair:
     motion = max(ours.motion, theirs.motion, key=MOTIONS.index)
-    found = frac_with_scale(
-        (ours.frequencies, ours.as_motion(motion)),
-        (theirs.frequencies, theirs.as_motion(motion)),
-        scales,
-    )
-    return FunctionPair(":".join(theirs.output), ":".join(theirs.input), motion, found)
-
-
-def _same_nodes(computed: UniversalFile, measured: UniversalFile) -> dict[str, str]:
-    """The computed file's node of each measured one."""
-    common = set(computed.nodes) & set(measured.nodes)
-    if common or not (computed.positions and measured.positions):
-        return {name: name for name in common}
-    names = list(computed.positions)
-    places = np.array([computed.positions[n] for n in names])
-    extent = float(np.ptp(places, axis=0).max())
-    matched = {}
-    for node, place in measured.positions.items():
-        distances = np.linalg.norm(places - place, axis=1)
-        nearest = int(distances.argmin())
-        if distances[nearest] <= SAME_PLACE * extent:
-            matched[node] = names[nearest]
-    return matched
+    try:
+        found = frac_with_scale(
+            (ours.frequencies, ours.as_motion(motion)),
+            (theirs.frequencies, theirs.as_motion(motion)),
+            scales,
+        )
+    except ModelError as error:
+        raise ModelError(
+            f"function {theirs.name}, {error.part}", error.problem, error.remedy
+        ) from None
+    return FunctionPair(":".join(theirs.output), ":".join(theirs.input), motion, found, theirs.run)
 
 
 def _common_shapes(

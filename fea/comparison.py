@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from fea.assurance import FracScale
+from fea.frac_scale import FracScale
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,15 @@ class FunctionPair:
     motion : str
         What is compared: displacement, velocity or acceleration per force.
     found : FracScale
+    run : str
+        Tells measured responses between the same ends apart; empty where there is one.
     """
 
     output: str
     input: str
     motion: str
     found: FracScale
+    run: str = ""
 
 
 @dataclass(frozen=True)
@@ -67,12 +70,15 @@ class Comparison:
     functions : tuple of FunctionPair
     only_computed, only_measured : tuple of float
         Frequencies of modes without a partner, Hz.
+    notes : tuple of str
+        What of the files was left out, assumed or changed, in words.
     """
 
     modes: tuple[ModePair, ...] = ()
     functions: tuple[FunctionPair, ...] = ()
     only_computed: tuple[float, ...] = ()
     only_measured: tuple[float, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Comparison: {len(self.modes)} paired modes, {len(self.functions)} responses>"
@@ -82,11 +88,18 @@ class Comparison:
         return {
             "modes": [{**vars(pair)} for pair in self.modes],
             "functions": [
-                {"output": f.output, "input": f.input, "motion": f.motion, **vars(f.found)}
+                {
+                    "output": f.output,
+                    "input": f.input,
+                    "run": f.run,
+                    "motion": f.motion,
+                    **vars(f.found),
+                }
                 for f in self.functions
             ],
             "only_computed": list(self.only_computed),
             "only_measured": list(self.only_measured),
+            "notes": list(self.notes),
         }
 
     def to_dataframe(self) -> Any:

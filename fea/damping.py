@@ -137,19 +137,9 @@ Damping = ModalRatio | LossFactor | Rayleigh
 def modal_ratios(damping: Damping, square: Array) -> Array:
     """Equivalent viscous ratio ζ of every mode; η/2 for a loss factor, (..., m).
 
-    Raises
-    ------
-    ModelError
-        A mode damped beyond critical.
+    One and more where a mode is damped to critical and beyond, as stiffness-proportional damping
+    does from some frequency on: such a mode creeps and has no resonance.
     """
     root = np.sqrt(np.where(square > 0, square, np.inf))
     ratios = damping.viscous(square) / (2.0 * root) + damping.structural / 2.0
-    ratios = np.where(square > 0, ratios, 0.0)
-    if np.any(ratios >= 1.0):
-        worst = float(ratios.max())
-        raise ModelError(
-            "damping",
-            f"damps a mode beyond critical (ratio {worst:.3g}).",
-            "Lower the damping; stiffness-proportional damping grows with frequency.",
-        )
-    return np.asarray(ratios)
+    return np.asarray(np.where(square > 0, ratios, 0.0))

@@ -12,9 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 from fea.coupled import AnyDamping, PartDamping, damped_matrices, is_coupled
 from fea.damping import LossFactor
 from fea.eigen import Eigen, solve_eigen
-from fea.modal import ModalModel, modal_model_of
-from fea.ports import Port, port_motions
+from fea.modal import modal_model_of
+from fea.ports import Port
 from fea.reduction import Reduced, reduce_system
+from fea.rounding import uncoupled
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -36,7 +37,8 @@ class FrequencyResponse:
     frequencies : (f,)
         Hz.
     receptance : (..., f, o, i)
-        Complex, m/N and the like, peak per peak.
+        Complex, m/N and the like, peak per peak; zero between ports that do not answer one
+        another but for rounding (`fea.rounding`).
     outputs, inputs : tuple of Port
     static_compliance : (..., o, i)
         At zero frequency; infinite where a rigid-body mode takes part.
@@ -161,19 +163,15 @@ def frequency_response(
             response = model.receptance(lines) + rest[:, None]
         else:
             response = model.receptance(lines)
-    response = response[:, :, rows][..., columns]
     if not np.all(np.isfinite(response)):
         raise NumericalError(
             "frequency response",
             "is not finite at some line.",
             "Give damping, or leave zero frequency out where the structure floats.",
         )
-    at, rigid = port_motions(reduced, ports, eigen.rigid)
-    flexible = at @ eigen.flexibility
-    static = flexible @ np.swapaxes(flexible, -1, -2)
-    floats = ModalModel(ports, flexible, eigen.square, rigid, LossFactor(0.0))
-    static = np.where(floats.mobility_of_rigid_modes == 0, static, np.inf)
-    static = static[:, rows][..., columns]
+    apart = uncoupled(response)
+    response = np.where(apart[:, None], 0.0, response)[:, :, rows][..., columns]
+    static = np.where(apart, 0.0, _static(reduced, eigen, ports))[:, rows][..., columns]
     batch = placed.batch
     return FrequencyResponse(
         lines,
@@ -186,6 +184,12 @@ def frequency_response(
         kept,
         share,
     )
+
+
+def _static(reduced: Reduced, eigen: Eigen, ports: Sequence[Port]) -> Array:
+    """Static compliance (p, q, q), infinite where a rigid-body mode takes part."""
+    model = modal_model_of(reduced, eigen, ports, LossFactor(0.0))
+    return np.where(model.mobility_of_rigid_modes == 0, model.static_compliance, np.inf)
 
 
 def _direct(

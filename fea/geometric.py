@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System
+from kinematics import characteristic_lengths
+from msa.assembly import System, system_of
 from msa.beam import to_global
 from msa.solve import StaticSolution
-from msa.structure import rigid_map
+from msa.stiffening import Stiffening
+from msa.structure import PlacedStructure, rigid_map
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -59,7 +62,10 @@ def local_geometric_stiffness(length: Array, properties: Array) -> Array:
 
 
 def axial_forces(solution: StaticSolution, case: str) -> Array:
-    """Mean axial force of every beam element in a load case, N, tension positive, (..., s)."""
+    """Mean axial force of every beam element in a load case, N, tension positive, (..., s).
+
+    The mean of the two ends of the whole beam; `fea.preloaded` takes what acts along it too.
+    """
     if case not in solution.cases:
         raise ModelError("preload", f'no case "{case}".', "Cases: " + ", ".join(solution.cases))
     forces = solution.beam_forces[..., solution.cases.index(case)]
@@ -67,15 +73,13 @@ def axial_forces(solution: StaticSolution, case: str) -> Array:
     return np.asarray(mean[..., solution.placed.structure.segments[:, 0]])
 
 
-def geometric_contributions(
-    system: System, axial: Array
-) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
-    """Geometric stiffness of the beam elements: name, mesh nodes (2,), (p, 12, 12).
+def pulled(placed: PlacedStructure, axial: Array) -> PlacedStructure:
+    """The structure with the geometric stiffness of given axial forces in its beams, and no more.
 
     Parameters
     ----------
-    system : System
-    axial : (p, s)
+    placed : PlacedStructure
+    axial : (..., s)
         Axial force in every beam element, N, tension positive.
 
     Raises
@@ -83,22 +87,35 @@ def geometric_contributions(
     ModelError
         Axial forces of another number of elements, or not finite.
     """
-    if axial.shape[1:] != (len(system.placed.structure.segments),):
+    system = system_of(placed)
+    structure = placed.structure
+    if axial.shape[-1] != len(structure.segments):
         raise ModelError(
             "preload",
-            f"has {axial.shape[-1]} axial forces for "
-            f"{len(system.placed.structure.segments)} beam elements.",
+            f"has {axial.shape[-1]} axial forces for {len(structure.segments)} beam elements.",
             "Take it from fea.axial_forces of the same structure.",
         )
     if not np.all(np.isfinite(axial)):
         raise ModelError("preload", "is not finite.", "Give axial forces in N.")
-    placed, structure = system.placed, system.placed.structure
-    length, axes = placed.beam_geometry
+    flat = np.broadcast_to(axial, (*placed.batch, axial.shape[-1])).reshape(system.poses, -1)
+    length, _ = system.placed.beam_geometry
     beam = structure.segments[:, 0]
     pieces = np.array([b.elements for b in structure.beams], dtype=float)
     properties = np.array([b.properties for b in structure.beams]).reshape(-1, 6).T
     local = local_geometric_stiffness((length / pieces)[:, beam], properties[:, beam])
-    parts = to_global(axes[:, beam], local * axial[..., None, None])
+    parts = segment_parts(system, local * flat[..., None, None])
+    shaped = tuple((n, at, m.reshape((*placed.batch, 12, 12))) for n, at, m in parts)
+    return replace(placed, stiffening=Stiffening("axial forces", shaped))
+
+
+def segment_parts(system: System, local: Array) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
+    """Matrices of the beam elements in local axes (p, s, 12, 12) at their mesh nodes.
+
+    Yields the name, the mesh nodes (2,) and the matrix in global axes (p, 12, 12).
+    """
+    placed, structure = system.placed, system.placed.structure
+    _, axes = placed.beam_geometry
+    parts = to_global(axes[:, structure.segments[:, 0]], local)
     offsets = placed.segment_offsets
     if np.any(offsets):
         carry = np.zeros((*offsets.shape[:-2], 12, 12))
@@ -109,12 +126,24 @@ def geometric_contributions(
         yield f"beam {structure.beams[beam_index].name}", np.array([a, b]), parts[:, s]
 
 
-def geometric_stiffness(system: System, axial: Array) -> Array:
-    """Geometric stiffness of a structure on its unknowns, dense, (p, n, n).
-
-    Parameters, errors as `geometric_contributions`.
-    """
+def geometric_stiffness(system: System) -> Array:
+    """Geometric stiffness of a placed structure's preload on its unknowns, dense, (p, n, n)."""
     matrix = np.zeros((system.poses, system.topology.size, system.topology.size))
-    for _, nodes, part in geometric_contributions(system, axial):
-        system.add_part(matrix, nodes, part)
+    if system.placed.stiffening is not None:
+        for _, nodes, part in system.placed.stiffening.contributions():
+            system.add_part(matrix, nodes, part)
     return matrix
+
+
+def largest_work(system: System) -> Array:
+    """Largest entry of the geometric stiffness of any part, scaled unknowns, (p,), N/m."""
+    largest = np.zeros(system.poses)
+    if system.placed.stiffening is not None:
+        turn = 1.0 / characteristic_lengths(system.placed.placement)
+        for _, nodes, part in system.placed.stiffening.contributions():
+            scale = np.ones((system.poses, 6))
+            scale[:, 3:] = turn[:, None]
+            scale = np.tile(scale, len(nodes))
+            size = np.abs(part) * scale[:, :, None] * scale[:, None, :]
+            largest = np.maximum(largest, size.max(axis=(1, 2)))
+    return largest

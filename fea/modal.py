@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.damping import Damping, modal_ratios
+from fea.damping import Damping
 from fea.eigen import Eigen, solve_eigen
 from fea.ports import STILL, Port, port_motions
 from fea.reduction import Reduced, reduce_system
@@ -147,7 +147,7 @@ def modal_model(placed: PlacedStructure, ports: Sequence[Port], damping: Damping
     Raises
     ------
     ModelError
-        No mass, all locked, no port or one that cannot move, damping beyond critical.
+        No mass, all locked, no port or one that cannot move.
     """
     reduced = reduce_system(system_of(placed))
     return modal_model_of(reduced, solve_eigen(reduced), ports, damping)
@@ -160,5 +160,4 @@ def modal_model_of(
     if not ports:
         raise ModelError("ports", "are missing.", "Name at least one port.")
     at, rigid = port_motions(reduced, ports, eigen.rigid)
-    modal_ratios(damping, eigen.square)
     return ModalModel(tuple(ports), at @ eigen.flexibility, eigen.square, rigid, damping)

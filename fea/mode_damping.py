@@ -2,55 +2,89 @@
 
 from __future__ import annotations
 
-from typing import Any
+import warnings
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from fea.coupled import AnyDamping, PartDamping, is_coupled
 from fea.damping import modal_ratios
-from fea.eigen import solve_eigen
+from fea.eigen import Array, Eigen, solve_eigen
 from fea.modes import Modes
-from fea.pole_residue import pole_model
-from fea.reduction import reduce_system
+from fea.poles import find_poles
+from fea.reduction import Reduced, reduce_system
 from msa.assembly import system_of
-
-Array = NDArray[Any]
+from strutwork.errors import UnverifiedWarning
 
 #: Parts of a pole below this share of it are rounding.
 REAL = 1e-9
+
+#: A ratio below this is rounding of a mode that nothing damps.
+ROUNDING = 1e-12
+
+#: A ratio is verified where its error is at most this share of it, or below `REAL`.
+VERIFIED = 1e-3
 
 
 def damping_ratios(modes: Modes, damping: AnyDamping) -> Array:
     """Damping ratio ζ of every mode of one pose, (m,).
 
     Of damping that couples the modes, ζ = −Re s / |s| of the pole that holds most of the mode;
-    one where it is critical or beyond. Zero for rigid-body modes.
+    one where it is critical or beyond. Zero for rigid-body modes. Not a number where the residual
+    of the pole does not verify it to `VERIFIED`.
 
     Raises
     ------
     ModelError
-        Several poses; uncoupled damping beyond critical.
+        Several poses.
+    NumericalError
+        Poles that cannot be told apart.
+
+    Warns
+    -----
+    UnverifiedWarning
+        Names the modes whose ratio is withheld.
     """
     frequencies = np.asarray(modes.frequencies)
-    rigid = int(modes.rigid_body_modes)
+    rigid = min(int(modes.rigid_body_modes), len(frequencies))
     reduced = reduce_system(system_of(modes.placed))
     ratios = np.zeros(len(frequencies))
     if not is_coupled(reduced, damping):
         simple = damping.background if isinstance(damping, PartDamping) else damping
         if simple is not None:
             square = (2.0 * np.pi * frequencies[rigid:]) ** -2.0
-            ratios[rigid:] = modal_ratios(simple, square)
+            # beyond critical a mode has two real poles
+            ratios[rigid:] = np.minimum(modal_ratios(simple, square), 1.0)
         return ratios
-    model = pole_model(reduced, solve_eigen(reduced), [], damping)
-    size = np.abs(model.poles)
+    if len(frequencies) > rigid:
+        found = _coupled(reduced, solve_eigen(reduced), damping)[: len(frequencies) - rigid]
+        ratios[rigid : rigid + len(found)] = found
+    lost = np.flatnonzero(np.isnan(ratios))
+    if len(lost):
+        named = ", ".join(f"{m + 1} ({frequencies[m]:.4g} Hz)" for m in lost)
+        warnings.warn(
+            f"damping ratios of the modes {named} are withheld: the residual of their poles does "
+            "not verify them. Poles that nearly fall together are the usual cause: change the "
+            "damping by a little.",
+            UnverifiedWarning,
+            stacklevel=2,
+        )
+    return ratios
+
+
+def _coupled(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Array:
+    """Ratios of all flexible modes that have mass; not a number where they are not verified."""
+    model = find_poles(reduced, eigen, damping)
+    size = np.abs(model.values)
     # of each pair the pole in the upper half plane; two real poles are one overdamped mode
-    upper = model.poles.imag >= -REAL * size
-    chosen = upper & (model.poles.real <= REAL * size) & (size > 0)
-    poles, shares = model.poles[chosen], model.shares[chosen]
-    count = min(len(frequencies) - rigid, shares.shape[1])
-    rows, columns = linear_sum_assignment(-shares[:, :count].T)
-    found = -poles[columns].real / np.abs(poles[columns])
-    ratios[rigid + rows] = np.clip(found, 0.0, 1.0)
+    upper = model.values.imag >= -REAL * size
+    chosen = upper & (model.values.real <= REAL * size)
+    poles, shares, errors = model.values[chosen], model.shares[chosen], model.errors[chosen]
+    # which pole is a mode's, the lower ones decide among themselves as the higher ones do
+    rows, columns = linear_sum_assignment(-shares.T)
+    ratios = np.full(shares.shape[1], np.nan)
+    found = np.clip(-poles[columns].real / np.abs(poles[columns]), 0.0, 1.0)
+    sure = errors[columns] <= np.maximum(VERIFIED * found, REAL)
+    found[found <= np.maximum(errors[columns], ROUNDING)] = 0.0
+    ratios[rows] = np.where(sure, found, np.nan)
     return ratios

@@ -10,15 +10,15 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fea.eigen import Eigen, solve_eigen
-from fea.geometric import geometric_contributions, geometric_stiffness
-from fea.participation import effective_mass, energy_shares
+from fea.geometric import pulled
+from fea.participation import PRELOAD, effective_mass, energy_shares
 from fea.reduction import reduce_system
 from fea.sparse_modes import SPARSE_FROM, lanczos_suits, sparse_modes
 from fea.sparse_reduction import reduce_sparse
 from msa.assembly import System, system_of
 from msa.mass import mass_matrix, sparse_mass
 from msa.structure import PlacedStructure
-from strutwork.errors import MechanismError, ModelError, NumericalError
+from strutwork.errors import ModelError, NumericalError
 
 Array = NDArray[Any]
 Method = Literal["dense", "sparse"]
@@ -50,7 +50,8 @@ class Modes:
         Parts that store strain energy.
     energy_shares : (..., m, q)
         Share of each part in the strain energy of a mode; they add to one, zero for
-        rigid-body modes.
+        rigid-body modes. Under a preload the last part is its own share, below zero where it
+        presses.
     note : str
         Empty, or that fewer modes exist than were asked for.
     solver : str
@@ -105,8 +106,8 @@ def modes(
     count : int
         Number of modes, rigid-body modes included.
     preload : (..., s) or None
-        Axial force in every beam element, N, tension positive, from `fea.axial_forces`: adds
-        the geometric stiffness. What costs no elastic energy stays a rigid-body mode.
+        Axial force in every beam element, N, tension positive, in place of the preload that
+        `fea.preloaded` takes from a load case.
     method : "dense" or "sparse", optional
         All modes by LAPACK, or the lowest by shift-invert Lanczos. Default: sparse for a single
         pose with more than `SPARSE_FROM` independent coordinates.
@@ -122,7 +123,7 @@ def modes(
         A count below one, no mass, every direction locked, a free motion without mass, an
         unknown method or one that does not suit.
     NumericalError
-        A preload under which the structure buckles.
+        A preload under which the structure buckles or falls; names the critical share of it.
     MechanismError
         The stiffness is not positive beside the rigid-body modes.
     """
@@ -130,20 +131,10 @@ def modes(
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
     if method not in (None, "dense", "sparse"):
         raise ModelError("modes", f'unknown method "{method}".', "Choose dense or sparse.")
-    system = system_of(placed)
-    flat = None
     if preload is not None:
-        flat = np.asarray(preload, dtype=float).reshape(system.poses, -1)
-    try:
-        found, solver = _solve(system, count, flat, method)
-    except (MechanismError, NumericalError) as error:
-        if preload is None:
-            raise
-        raise NumericalError(
-            "structure",
-            "is not stable under its preload: it buckles.",
-            "Lower the preload, or check its sign: tension is positive.",
-        ) from error
+        placed = pulled(placed, np.asarray(preload, dtype=float))
+    system = system_of(placed)
+    found, solver = _solve(system, count, method)
     frequencies, shapes, effective, total, shares, rigid = found
     exist = int(np.isfinite(frequencies).sum(axis=-1).max())
     note = ""
@@ -155,6 +146,8 @@ def modes(
         raise NumericalError("mode shapes", "are not finite.", "Check masses and stiffnesses.")
     batch = placed.batch
     names = tuple(dict.fromkeys(name for name, _, _ in system_of(placed).contributions()))
+    if placed.stiffening is not None:
+        names = (*names, PRELOAD)
 
     def shaped(array: Array) -> Array:
         return array.reshape((*batch, *array.shape[1:]))
@@ -173,14 +166,11 @@ def modes(
     )
 
 
-def _solve(
-    system: System, count: int, preload: Array | None, method: Method | None
-) -> tuple[list[Array], str]:
+def _solve(system: System, count: int, method: Method | None) -> tuple[list[Array], str]:
     """Frequencies, shapes, effective masses, total mass, rigid-body modes, energy shares."""
     large = system.poses == 1 and system.topology.forest.count > SPARSE_FROM
     if method == "sparse" or (method is None and large):
-        geometric = None if preload is None else geometric_contributions(system, preload)
-        reduced = reduce_sparse(system, geometric)
+        reduced = reduce_sparse(system)
         if method == "sparse" or lanczos_suits(reduced, count):
             found = sparse_modes(reduced, count)
             unknowns = (reduced.basis @ found.vectors)[None]
@@ -190,10 +180,7 @@ def _solve(
     parts = []
     for start in range(0, system.poses, CHUNK):
         part = system_of(system.placed[start : start + CHUNK])
-        stiffening = None
-        if preload is not None:
-            stiffening = geometric_stiffness(part, preload[start : start + CHUNK])
-        dense = reduce_system(part, stiffening)
+        dense = reduce_system(part)
         frequencies, vectors = lowest(solve_eigen(dense), count)
         summary = _summary(part, dense.basis @ vectors, frequencies, mass_matrix(part))
         parts.append([*summary, dense.rigid_count])

@@ -14,6 +14,9 @@ from msa.structure import rigid_map
 
 Array = NDArray[Any]
 
+#: The part that stands for the work of a preload.
+PRELOAD = "preload"
+
 
 def effective_mass(
     system: System, unknowns: Array, mass: Array | sp.csc_array
@@ -48,6 +51,8 @@ def effective_mass(
 def energy_shares(system: System, unknowns: Array, frequencies: Array) -> Array:
     """Share of every part in the strain energy of modes, (p, m, q); zero for rigid-body modes.
 
+    Under a preload its own work is the last part.
+
     Parameters
     ----------
     system : System
@@ -70,6 +75,11 @@ def energy_shares(system: System, unknowns: Array, frequencies: Array) -> Array:
         if not name.startswith("beam "):
             at = moved[:, nodes].reshape(system.poses, -1, moved.shape[-1])
             energy[name] = energy.get(name, 0.0) + (at * (stiffness @ at)).sum(axis=1)
+    if system.placed.stiffening is not None:
+        energy[PRELOAD] = np.zeros((system.poses, moved.shape[-1]))
+        for _, nodes, stiffness in system.placed.stiffening.contributions():
+            at = moved[:, nodes].reshape(system.poses, -1, moved.shape[-1])
+            energy[PRELOAD] += (at * (stiffness @ at)).sum(axis=1)
     if not energy:
         return np.zeros((*frequencies.shape, 0))
     stacked = np.stack(list(energy.values()), axis=-1)

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fea.geometric import geometric_stiffness, largest_work
+from fea.stability import check_stable, motions_left_free, without_elastic_work
 from kinematics.mobility import RANK_TOLERANCE
 from msa.assembly import System
 from msa.constraints import free_unknowns, scales
@@ -80,14 +82,12 @@ class Reduced:
         return symmetric_product(self.basis, matrix)
 
 
-def reduce_system(system: System, geometric: Array | None = None) -> Reduced:
-    """Bring stiffness and mass to independent coordinates.
+def reduce_system(system: System) -> Reduced:
+    """Bring stiffness, with what a preload adds, and mass to independent coordinates.
 
     Parameters
     ----------
     system : System
-    geometric : (p, n, n), optional
-        Geometric stiffness to add, on the unknowns.
 
     Returns
     -------
@@ -97,6 +97,8 @@ def reduce_system(system: System, geometric: Array | None = None) -> Reduced:
     ------
     ModelError
         No coordinate is left: every direction is locked.
+    NumericalError
+        The structure does not stand under its preload; names the critical share of it.
     """
     no_gaps = np.zeros((system.poses, len(system.row_labels), 0))
     basis, _ = joint_coordinates(system, no_gaps)
@@ -118,16 +120,31 @@ def reduce_system(system: System, geometric: Array | None = None) -> Reduced:
             "has no degree of freedom: every direction is locked.",
             "Release a support, or make a joint direction elastic.",
         )
-    stiffness = system.stiffness if geometric is None else system.stiffness + geometric
     free = free_unknowns(system)
     rigid: Array = np.zeros((system.poses, basis.shape[-1], free.shape[-1]))
     if free.shape[-1]:
         rigid = np.linalg.pinv(basis / d) @ free
         present = np.any(free, axis=1)
         rigid = rigid * present[:, None, :]
-    reduced = symmetric_product(basis, stiffness)
+    reduced = symmetric_product(basis, system.stiffness)
+    if system.placed.stiffening is not None:
+        reduced, rigid = _stiffened(system, basis, reduced, rigid)
     # a coordinate that a pose does not have gets a stiffness and no mass: no finite frequency
     absent = ~np.any(basis, axis=1)
     diagonal = np.einsum("pii->pi", reduced)
     diagonal[absent] = np.broadcast_to(diagonal.max(axis=1, keepdims=True), diagonal.shape)[absent]
     return Reduced(system, basis, reduced, symmetric_product(basis, mass_matrix(system)), rigid)
+
+
+def _stiffened(system: System, basis: Array, elastic: Array, free: Array) -> tuple[Array, Array]:
+    """Stiffness with what a preload adds, (p, c, c), and the motions that stay free, (p, c, k)."""
+    geometric = symmetric_product(basis, geometric_stiffness(system))
+    rigid = free
+    if free.shape[-1]:
+        elastic = without_elastic_work(elastic, free)
+        # forces in coordinates of unit size
+        unit = np.linalg.norm(basis / scales(system)[..., None], axis=1)
+        push = (geometric @ free) / np.where(unit > 0, unit, 1.0)[..., None]
+        rigid = motions_left_free(free, push, largest_work(system))
+    check_stable(system, elastic, geometric, free, rigid, ~np.any(basis, axis=1))
+    return elastic + geometric, rigid

@@ -13,8 +13,9 @@ from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
 from fea.factorize import Factor, factorize
 from fea.sparse_reduction import SparseReduced
+from fea.stability import critical_factor_sparse, unstable
 from msa.diagnosis import mechanism_error
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import MechanismError, ModelError, NumericalError
 
 Array = NDArray[Any]
 
@@ -92,13 +93,28 @@ def sparse_modes(reduced: SparseReduced, count: int) -> LowestModes:
         )
     rigid = reduced.rigid[:, :count]
     flexible = count - reduced.rigid.shape[1]
-    if flexible <= 0:
-        return LowestModes(np.zeros(count), rigid, "kinematics")
+    if reduced.geometric is None:
+        if flexible <= 0:
+            return LowestModes(np.zeros(count), rigid, "kinematics")
+        return _lowest_modes(reduced, flexible)
+    try:
+        # one flexible mode at least tells whether the structure stands under its preload
+        found = _lowest_modes(reduced, max(flexible, 1))
+        return LowestModes(found.frequencies[:count], found.vectors[:, :count], found.solver)
+    except (MechanismError, NumericalError) as error:
+        elastic = sp.csc_array(reduced.stiffness - reduced.geometric)
+        share = critical_factor_sparse(elastic, reduced.geometric, reduced.free)
+        raise unstable(reduced.system, share, 0) from error
+
+
+def _lowest_modes(reduced: SparseReduced, flexible: int) -> LowestModes:
+    """Rigid-body modes, and as many flexible ones as asked."""
+    rigid = reduced.rigid
     shift, factor, solve = _factorised(reduced)
-    if reduced.preloaded and factor.negative_pivots():
-        raise NumericalError("structure", "has a stiffness that is not positive.", "It buckles.")
+    if reduced.geometric is not None and factor.negative_pivots():
+        raise mechanism_error(reduced.system, 0)
     values, vectors = _lanczos(reduced, solve, shift, reduced.rigid, flexible)
-    while True:
+    while values.min() > 0.0:
         known = np.concatenate([reduced.rigid, vectors], axis=1)
         more, beside = _lanczos(reduced, solve, shift, known, min(4, flexible), 1e-10)
         missed = more < values.max() * (1.0 - 10.0 * EQUAL)

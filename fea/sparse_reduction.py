@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.linalg import qr
 from scipy.sparse.csgraph import connected_components
 
 from fea.eigen import rigid_modes
 from fea.factorize import factorize
+from fea.geometric import largest_work
+from fea.stability import motions_left_free
 from kinematics.mobility import RANK_TOLERANCE
 from msa.assembly import System
 from msa.constraints import free_unknowns, scales
@@ -40,8 +42,10 @@ class SparseReduced:
     stiffness, mass : (c, c) sparse
     rigid : (c, k)
         Rigid-body modes, orthonormal in the mass.
-    preloaded : bool
-        Whether the stiffness holds a geometric part.
+    geometric : (c, c) sparse or None
+        What a preload adds; the stiffness holds it.
+    free : int
+        Under a preload, how many of the last coordinates are motions without elastic work.
     """
 
     system: System
@@ -49,7 +53,8 @@ class SparseReduced:
     stiffness: sp.csc_array
     mass: sp.csc_array
     rigid: Array
-    preloaded: bool
+    geometric: sp.csc_array | None = None
+    free: int = 0
 
     def __repr__(self) -> str:
         return f"<SparseReduced: {self.size} coordinates, {self.rigid.shape[1]} rigid-body modes>"
@@ -60,10 +65,8 @@ class SparseReduced:
         return int(self.basis.shape[1])
 
 
-def reduce_sparse(
-    system: System, geometric: Iterable[tuple[str, NDArray[np.intp], Array]] | None = None
-) -> SparseReduced:
-    """Bring stiffness and mass of a batch of one to independent coordinates.
+def reduce_sparse(system: System) -> SparseReduced:
+    """Bring stiffness, with what a preload adds, and mass of one pose to independent coordinates.
 
     Joint coordinates along the spanning forest; rows that close loops are removed by an
     orthonormal basis of their null space, loop by loop: rows that share no coordinate do
@@ -72,8 +75,6 @@ def reduce_sparse(
     Parameters
     ----------
     system : System
-    geometric : parts, optional
-        Geometric stiffness to add, as `fea.geometric.geometric_contributions`.
 
     Raises
     ------
@@ -89,20 +90,49 @@ def reduce_sparse(
             "has no degree of freedom: every direction is locked.",
             "Release a support, or make a joint direction elastic.",
         )
-    stiffness = system.sparse_stiffness
-    if geometric is not None:
-        stiffness = stiffness + system.sparse_sum(geometric)
+    free = _rigid(system, basis)
+    geometric = None
+    if system.placed.stiffening is None:
+        stiffness, rigid = _product(basis, system.sparse_stiffness), free
+    else:
+        basis, stiffness, geometric, rigid = _stiffened(system, basis, free)
     mass = _product(basis, sparse_mass(system))
     if not mass.diagonal().sum() > 0:
         raise ModelError(
             "structure", "has no mass.", "Give materials a density, or add masses: modes need them."
         )
-    rigid = _rigid(system, basis)
     gram, largest = (rigid.T @ (mass @ rigid))[None], np.array([mass.diagonal().max()])
     rigid = rigid_modes(system, rigid[None], gram, largest)[0]
-    return SparseReduced(
-        system, basis, _product(basis, stiffness), mass, rigid, geometric is not None
-    )
+    return SparseReduced(system, basis, stiffness, mass, rigid, geometric, free.shape[1])
+
+
+def _stiffened(
+    system: System, basis: sp.csc_array, free: Array
+) -> tuple[sp.csc_array, sp.csc_array, sp.csc_array, Array]:
+    """Basis, stiffness with a preload, what the preload adds, and the motions it leaves free.
+
+    Free motions become coordinates of their own, in which elastic stiffness is exactly none:
+    the rounding of a machine's stiffness would drown the weight of what swings.
+    """
+    stiffening = system.placed.stiffening
+    if stiffening is None:
+        raise ValueError("no preload")
+    k = free.shape[1]
+    elastic = _product(basis, system.sparse_stiffness)
+    if k:
+        replaced = qr(free.T, mode="r", pivoting=True)[1][:k]
+        kept = np.setdiff1d(np.arange(basis.shape[1]), replaced)
+        nothing = sp.csc_array((k, k))
+        elastic = sp.csc_array(sp.block_diag([elastic[kept][:, kept], nothing]))
+        basis = sp.csc_array(sp.hstack([basis[:, kept], sp.csc_array(basis @ free)]))
+        free = np.eye(basis.shape[1])[:, -k:]
+    geometric = _product(basis, system.sparse_sum(stiffening.contributions()))
+    scaled = sp.csc_array(sp.diags_array(1.0 / scales(system)[0]) @ basis)
+    unit = np.sqrt(np.asarray(scaled.power(2).sum(axis=0)).ravel())
+    push = (geometric @ free) / np.where(unit > 0, unit, 1.0)[:, None]
+    rigid = motions_left_free(free[None], push[None], largest_work(system))[0]
+    rigid = rigid[:, np.any(rigid, axis=0)]
+    return basis, sp.csc_array(elastic + geometric), geometric, rigid
 
 
 def _product(basis: sp.csc_array, matrix: sp.csc_array) -> sp.csc_array:

@@ -42,6 +42,8 @@ class FrfRecord:
     values : (f,)
         Complex motion per force, SI.
     motion : "displacement", "velocity" or "acceleration"
+    run : str
+        Tells functions between the same ends apart, as in `#2`.
 
     Raises
     ------
@@ -55,6 +57,7 @@ class FrfRecord:
     frequencies: Array
     values: Array
     motion: Motion = "displacement"
+    run: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "frequencies", np.asarray(self.frequencies, dtype=float))
@@ -85,8 +88,8 @@ class FrfRecord:
 
     @property
     def name(self) -> str:
-        """Output and input, as in `TCP:x / TCP:x`."""
-        return f"{':'.join(self.output)} / {':'.join(self.input)}"
+        """Output and input, as in `TCP:x / TCP:x`, and the run where there are several."""
+        return f"{':'.join(self.output)} / {':'.join(self.input)} {self.run}".rstrip()
 
     def as_motion(self, motion: Motion) -> Array:
         """Values brought to another motion, (f,).
@@ -94,7 +97,8 @@ class FrfRecord:
         Raises
         ------
         ModelError
-            A line at zero frequency that would have to be divided by zero.
+            A line at zero frequency that would have to be divided by zero, or a number that
+            grows beyond all numbers.
         """
         power = MOTIONS.index(motion) - MOTIONS.index(self.motion)
         if power < 0 and self.frequencies[0] == 0:
@@ -103,7 +107,17 @@ class FrfRecord:
                 f"has a line at 0 Hz, where {self.motion} tells nothing of {motion}.",
                 "Leave that line out.",
             )
-        return np.asarray(self.values * (2j * np.pi * self.frequencies) ** power)
+        if not power:
+            return np.asarray(self.values)
+        with np.errstate(all="ignore"):
+            found = np.asarray(self.values * (2j * np.pi * self.frequencies) ** power)
+        if not np.all(np.isfinite(found)):
+            raise ModelError(
+                f"function {self.name}",
+                f"is beyond all numbers as {motion}.",
+                "Check its unit and its frequencies.",
+            )
+        return found
 
 
 @dataclass(frozen=True)
@@ -158,15 +172,17 @@ class UniversalFile:
     Parameters
     ----------
     functions : tuple of FrfRecord
-        Data sets 58 and 58b.
+        Data sets 58 and 58b; their names differ.
     modes : tuple of ModeRecord
         Data sets 55 and 2414.
     positions : mapping of node to (3,)
-        Data set 2411, m.
+        Data sets 2411 and 15, m.
     lines : tuple of (str, str)
-        Data set 2412 as lines for drawing.
+        Data sets 2412 and 82 as lines for drawing.
     ignored : tuple of str
-        Data sets that were there and are not used, in words.
+        What was there and is not used, in words, once for each time.
+    notes : tuple of str
+        What was assumed or changed in reading, in words.
     """
 
     functions: tuple[FrfRecord, ...] = ()
@@ -174,6 +190,7 @@ class UniversalFile:
     positions: Mapping[str, Array] = field(default_factory=lambda: MappingProxyType({}))
     lines: tuple[tuple[str, str], ...] = ()
     ignored: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return (

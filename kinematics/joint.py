@@ -126,9 +126,12 @@ class Joint:
                 )
             if self.stiffness:
                 raise ModelError(part, "has both matrix and stiffness.", "Keep one of the two.")
-        if self.type == "bushing" and self.matrix is None and not self.stiffness:
+        elastic = self.matrix is not None or self.stiffness
+        if self.type == "bushing" and not elastic and not any(self.damping.values()):
             raise ModelError(
-                part, "a bushing without matrix or stiffness.", "Give it one of the two."
+                part,
+                "a bushing without matrix or stiffness or damping.",
+                "Give it a matrix or a stiffness; damping alone makes it a dashpot.",
             )
 
     @property

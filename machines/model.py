@@ -6,15 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from fea import preloaded
 from kinematics import Placement
 from machines.model_solid_element import SolidElement
 from msa import LoadCase, PlacedStructure, Structure
 from overconstraint.tolerance import Tolerance
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, ModelWarning
 
-
-class ModelWarning(UserWarning):
-    """Something in a model file that is probably a mistake and yet can be computed."""
+__all__ = ["Damping", "Model", "ModelWarning"]
 
 
 @dataclass(frozen=True)
@@ -62,6 +61,8 @@ class Model:
         Weights of an allocation.
     force_limits : mapping of (joint name, kind of quantity) to float
         Greatest forces and moments that joints may bear, N and N·m.
+    preload : str or None
+        The load case under which the structure vibrates.
     solids : tuple of SolidElement
         Its elements that are solids. Their monitors, nodes inside a solid, are nodes of the
         linkage and none of the file.
@@ -79,6 +80,7 @@ class Model:
     tolerance_costs: Mapping[str, float] = field(default_factory=dict)
     force_limits: Mapping[tuple[str, str], float] = field(default_factory=dict)
     solids: tuple[SolidElement, ...] = ()
+    preload: str | None = None
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"
@@ -104,3 +106,35 @@ class Model:
     def placed(self) -> PlacedStructure:
         """The structure at its placement."""
         return self.structure.at(self.placement)
+
+    def case(self, name: str) -> LoadCase:
+        """A load case by its name.
+
+        Raises
+        ------
+        ModelError
+            There is none.
+        """
+        for case in self.cases:
+            if case.name == name:
+                return case
+        raise ModelError(
+            "preload",
+            f'names the unknown load case "{name}".',
+            "Cases: " + ", ".join(case.name for case in self.cases) + "."
+            if self.cases
+            else "The model has no load case: add [[loads]] or gravity.",
+        )
+
+    @cached_property
+    def vibrating(self) -> PlacedStructure:
+        """The structure as it vibrates: under its preload, where it names one.
+
+        Raises
+        ------
+        StrutworkError
+            The preload cannot be solved.
+        """
+        return (
+            self.placed if self.preload is None else preloaded(self.placed, self.case(self.preload))
+        )

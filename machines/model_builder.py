@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,13 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
-from machines.model import Damping, Model
+from machines.model import Damping, Model, ModelWarning
 from machines.model_cases import load_cases
 from machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
 from machines.model_schema import ModelTable
 from machines.model_solid_element import SolidElement
 from machines.model_tolerances import model_tolerances
 from msa import Beam, Structure
+from msa.unjoined import in_words, unjoined_nodes
 from strutwork.errors import ModelError
 
 #: Bounds that keep a file from asking for more memory than any machine has.
@@ -100,10 +102,25 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         tolerance_costs=toleranced.costs,
         force_limits=toleranced.limits,
         solids=solids,
+        preload=tables.preload,
     )
+    if model.preload is not None:
+        model.case(model.preload)
     # coincidence of joint nodes, lengths and orientations of beams: now, not at the first solve
     _ = model.placed
+    _warn_of_unjoined(model)
     return model
+
+
+def _warn_of_unjoined(model: Model) -> None:
+    """Ends that meet under two names; a tool may stand at a workpiece's place."""
+    for group in unjoined_nodes(model.placed):
+        if model.tool not in group:
+            warnings.warn(
+                f"{in_words(model.placed, group)}. If they meet, give them one node or a joint.",
+                ModelWarning,
+                stacklevel=4,
+            )
 
 
 def _check_size(tables: ModelTable) -> None:

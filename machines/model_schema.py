@@ -329,6 +329,7 @@ class ModelTable(Table):
 
     title: str = ""
     gravity: tuple[Acceleration, Acceleration, Acceleration] | None = None
+    preload: Name | None = None
     materials: dict[Name, MaterialTable] = Field(default_factory=dict)
     sections: dict[Name, SectionTable] = Field(default_factory=dict)
     nodes: dict[Name, Point]

@@ -6,6 +6,7 @@ with an exception for linking; this package calls it when it is installed and do
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib import import_module
@@ -19,9 +20,9 @@ from numpy.typing import NDArray
 from meshes.boundary import boundary
 from meshes.mesh import CellBlock, Faces, Mesh, Patch
 from meshes.order import without_orphans
-from meshes.quality import check_quality
+from meshes.quality import check_quality, quality
 from meshes.rows import row_groups
-from meshes.surfaces import Surface, check_closed
+from meshes.surfaces import Surface, check_closed, check_one_body
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -31,11 +32,17 @@ TETRAHEDRA = {4: ("tetra", [0, 1, 2, 3]), 11: ("tetra10", [0, 1, 2, 3, 4, 5, 6, 
 TRIANGLES = {2: "triangle", 9: "triangle6"}
 #: A mesh of more takes more than 10 GB while it is made.
 MOST_CELLS = 1e7
+#: Share of the exact volume that a mesh may lack without a word.
+VOLUME_ERROR = 0.01
 LICENCE = "Gmsh, GPL-2.0-or-later with a linking exception"
 
 
 def tetrahedra(
-    source: Surface | Path | str, size: float, *, order: int = 1, edge_angle: float = radians(40.0)
+    source: Surface | Path | str,
+    size: float,
+    *,
+    order: int | None = None,
+    edge_angle: float = radians(40.0),
 ) -> Mesh:
     """Mesh a STEP file or a closed surface with tetrahedra.
 
@@ -46,8 +53,9 @@ def tetrahedra(
         file, whose own unit is honoured. Bodies of one file that touch share their nodes.
     size : float
         Edge of a tetrahedron, m.
-    order : int
-        1 or 2; quadratic tetrahedra have curved edges on the curved faces of a STEP file.
+    order : int, optional
+        1 or 2; quadratic tetrahedra have curved edges on the curved faces of a STEP file. By
+        default 2 for a STEP file and 1 for a surface.
     edge_angle : float
         An edge of a surface is sharp where its triangles turn by more, rad.
 
@@ -57,6 +65,12 @@ def tetrahedra(
         A region for each body, "body 1" and so on; a patch for each face, "face 1" and so on.
         A face of a surface may come as several patches.
 
+    Warns
+    -----
+    UserWarning
+        The mesh of a STEP file lacks or adds more than 1 % of the exact volume, with the size
+        that reaches it; or curved edges would turn cells inside out and are straight.
+
     Raises
     ------
     ModelError
@@ -64,6 +78,9 @@ def tetrahedra(
         that is not closed; a mesh that Gmsh fails to make.
     """
     name = source.name if isinstance(source, Surface) else Path(source).name
+    # a surface has flat triangles: nothing is gained by curved edges, which may invert cells
+    straight = isinstance(source, Surface)
+    order = (1 if straight else 2) if order is None else order
     if not (isfinite(size) and size > 0) or order not in {1, 2}:
         raise ModelError(
             f"mesh {name}",
@@ -72,6 +89,7 @@ def tetrahedra(
         )
     if isinstance(source, Surface):
         check_closed(source)
+        check_one_body(source)
     else:
         _check_step(Path(source))
     with _session(name) as gmsh:
@@ -85,29 +103,59 @@ def tetrahedra(
             )
         # metres per unit of the model
         scale = 1.0 if isinstance(source, Surface) else 1e-3
-        _check_count(gmsh, name, source, size)
+        exact = _volume(gmsh, source)
+        _check_count(name, exact, size)
         gmsh.option.setNumber("Mesh.MeshSizeMax", size / scale)
         gmsh.option.setNumber("Mesh.MeshSizeMin", size / scale / 10.0)
         gmsh.option.setNumber("Mesh.MeshSizeExtendFromBoundary", 0)
         gmsh.model.mesh.generate(3)
-        # a surface has flat triangles: nothing is gained by curved edges, which may invert cells
-        straight = isinstance(source, Surface)
         gmsh.option.setNumber("Mesh.SecondOrderLinear", int(straight))
         gmsh.model.mesh.setOrder(order)
         if order == 2 and not straight:
             gmsh.model.mesh.optimize("HighOrder")
         mesh = _collect(gmsh, name, scale)
-    check_quality(mesh)
+        inverted = len(quality(mesh).inverted)
+        if inverted and order == 2 and not straight:
+            warnings.warn(
+                f"mesh {name}: {inverted} cells would be inside out with curved edges; all edges "
+                "are straight. Choose smaller cells to keep the curves.",
+                stacklevel=2,
+            )
+            gmsh.model.mesh.setOrder(1)
+            gmsh.option.setNumber("Mesh.SecondOrderLinear", 1)
+            gmsh.model.mesh.setOrder(2)
+            straight, mesh = True, _collect(gmsh, name, scale)
+    found = float(check_quality(mesh).volume.sum())
+    if not isinstance(source, Surface):
+        _compare_volume(name, found, exact, size, curved=order == 2 and not straight)
     return mesh
 
 
-def _check_count(gmsh: Any, name: str, source: Surface | Path | str, size: float) -> None:
-    """ModelError before a mesh that would fill the memory."""
+def _volume(gmsh: Any, source: Surface | Path | str) -> float:
+    """Volume of a surface or of the bodies of the geometry kernel, m³."""
     if isinstance(source, Surface):
-        volume = float(np.linalg.det(source.points[source.triangles]).sum() / 6.0)
-    else:
-        cubic_mm = sum(gmsh.model.occ.getMass(3, tag) for _, tag in gmsh.model.getEntities(3))
-        volume = 1e-9 * cubic_mm
+        return float(np.linalg.det(source.points[source.triangles]).sum() / 6.0)
+    cubic_mm = sum(gmsh.model.occ.getMass(3, tag) for _, tag in gmsh.model.getEntities(3))
+    return 1e-9 * float(cubic_mm)
+
+
+def _compare_volume(name: str, found: float, exact: float, size: float, *, curved: bool) -> None:
+    """Warn of a mesh whose volume is not that of the part, and say which cells would reach it."""
+    error = found / exact - 1.0
+    if abs(error) <= VOLUME_ERROR:
+        return
+    # chords err by the square of the size, parabolas by its fourth power at best
+    reach = 0.9 * size * (VOLUME_ERROR / abs(error)) ** (1.0 / (3.0 if curved else 2.0))
+    other = "" if curved else ", or quadratic cells (order 2)"
+    warnings.warn(
+        f"mesh {name}: its volume {found:.5g} m³ is {100 * error:+.1f} % off the exact "
+        f"{exact:.5g} m³. Cells of {reach:.2g} m should reach 1 %{other}.",
+        stacklevel=3,
+    )
+
+
+def _check_count(name: str, volume: float, size: float) -> None:
+    """ModelError before a mesh that would fill the memory."""
     # a regular tetrahedron of edge a has the volume a³ / (6 √2)
     count = 6.0 * sqrt(2.0) * volume / size**3
     if count > MOST_CELLS:

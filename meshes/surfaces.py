@@ -108,13 +108,15 @@ def read_surface(path: Path | str, unit: str = "m") -> Surface:
         raise ModelError(
             str(path), f"the file has {size} bytes.", "Export it again, of at most 2 GiB."
         )
-    if path.suffix.lower() == ".stl":
-        _check_stl(path)
+    text = _stl_text(path) if path.suffix.lower() == ".stl" else None
     import trimesh  # noqa: PLC0415 - a fifth of a second that most commands never need
 
     try:
         with contextlib.redirect_stdout(io.StringIO()):
-            found = trimesh.load_mesh(path, process=False)
+            if text is None:
+                found = trimesh.load_mesh(path, process=False)
+            else:
+                found = trimesh.load_mesh(io.BytesIO(text), file_type="stl_ascii", process=False)
         points, triangles = np.asarray(found.vertices, float), np.asarray(found.faces)
     except Exception as error:
         why = " ".join(str(error).split()) or type(error).__name__
@@ -184,7 +186,8 @@ def check_closed(surface: Surface) -> None:
     Raises
     ------
     ModelError
-        Open edges or triangles that disagree about the outside, with their count and place;
+        Open edges, edges of more than two triangles, or triangles that disagree about the
+        outside, with their count and place;
         a body that is inside out.
     """
     part = f"surface {surface.name}"
@@ -194,7 +197,16 @@ def check_closed(surface: Surface) -> None:
     )
     # +1 for each use from the lower to the higher number, −1 back: a closed surface cancels
     balance = np.bincount(edge.reshape(-1), np.where(ends[:, 0] < ends[:, 1], 1.0, -1.0))
-    alone = np.flatnonzero(uses % 2)
+    joined = np.flatnonzero(uses > 2)
+    if len(joined):
+        middle = surface.points[ends[first[joined[0]]]].mean(axis=0)
+        raise ModelError(
+            part,
+            f"has {len(joined)} edges with more than two triangles, the first at "
+            f"{_place(middle)}: bodies touch along them, or triangles lie on one another.",
+            "Take double triangles out, or part the bodies in CAD.",
+        )
+    alone = np.flatnonzero(uses == 1)
     if len(alone):
         middle = surface.points[ends[first[alone]]].mean(axis=1)
         raise ModelError(
@@ -247,14 +259,38 @@ def surface_properties(surface: Surface, density: float) -> MassProperties:
     )
 
 
-def _check_outwards(part: str, surface: Surface) -> None:
-    """ModelError for a shell that is inside out and no cavity of another."""
+def check_one_body(surface: Surface) -> None:
+    """Pass a closed surface of one body, with or without cavities.
+
+    Raises
+    ------
+    ModelError
+        Several shells that bound a volume, with their number.
+    """
+    shell, pieces = _shells(surface)
+    bodies = int(np.sum(np.bincount(shell, pieces) > 0))
+    if bodies > 1:
+        raise ModelError(
+            f"surface {surface.name}",
+            f"holds {bodies} separate bodies (shells of triangles that touch nowhere).",
+            "Export each part to a file of its own.",
+        )
+
+
+def _shells(surface: Surface) -> tuple[Ints, Array]:
+    """Shell of each triangle, (t,), and its share of the volume, (t,)."""
     size = len(surface.points)
     start, end = surface.triangles[:, [0, 0]].ravel(), surface.triangles[:, 1:].ravel()
     links = coo_array((np.ones(len(start)), (start, end)), shape=(size, size))
     shell = connected_components(links, directed=False)[1][surface.triangles[:, 0]]
     corners = surface.points[surface.triangles] - surface.points.mean(axis=0)
-    pieces = np.linalg.det(corners) / 6.0
+    return shell.astype(np.int64), np.linalg.det(corners) / 6.0
+
+
+def _check_outwards(part: str, surface: Surface) -> None:
+    """ModelError for a shell that is inside out and no cavity of another."""
+    shell, pieces = _shells(surface)
+    corners = surface.points[surface.triangles] - surface.points.mean(axis=0)
     numbers = np.unique(shell)
     volumes = np.array([pieces[shell == n].sum() for n in numbers])
     boxes = [
@@ -274,19 +310,27 @@ def _check_outwards(part: str, surface: Surface) -> None:
             )
 
 
-def _check_stl(path: Path) -> None:
-    """ModelError for an STL file that ends before its header or its first word says."""
+def _stl_text(path: Path) -> bytes | None:
+    """A text STL as its reader wants it, small letters from `solid` on; None for a binary one.
+
+    Programs write capitals, blank lines and a byte-order mark, which mean nothing.
+
+    Raises
+    ------
+    ModelError
+        A file that ends before its header or its first word says.
+    """
     size = path.stat().st_size
     with path.open("rb") as file:
         head = file.read(84)
-        file.seek(max(size - 200, 0))
-        tail = file.read()
     count = int.from_bytes(head[80:84], "little")
-    last = tail.rstrip().rpartition(b"\n")[2].lstrip()
-    if size == 84 + 50 * count or (head.startswith(b"solid") and last.startswith(b"endsolid")):
-        return
+    if len(head) == 84 and size == 84 + 50 * count:
+        return None
     wanted = f"its header counts {count} triangles"
-    if head.startswith(b"solid"):
+    if head.removeprefix(b"\xef\xbb\xbf").lstrip()[:5].lower() == b"solid":
+        text = path.read_bytes().removeprefix(b"\xef\xbb\xbf").strip().lower()
+        if text.rpartition(b"\n")[2].lstrip().startswith(b"endsolid"):
+            return text + b"\n"
         wanted = "its last line is not `endsolid`"
     raise ModelError(
         str(path),

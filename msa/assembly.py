@@ -257,12 +257,12 @@ class System:
                     fall = np.tile(np.append(np.asarray(case.gravity), np.zeros(3)), len(nodes))
                     weight = (element.mass(self.placed) @ fall).reshape(-1, len(nodes), 6)
                     loads[..., m][:, nodes] += weight
-            per_length = self._line_loads(case)
+            per_length = self.per_length_loads(case)
             if per_length is not None:
                 self._add_segment_loads(loads[..., m], self.segment_loads(per_length))
         return loads
 
-    def _line_loads(self, case: LoadCase) -> Array | None:
+    def per_length_loads(self, case: LoadCase) -> Array | None:
         """Load per length at both ends of every beam, global axes, (b, 2, 3)."""
         structure = self.placed.structure
         if not structure.beams or not (case.line_loads or case.gravity is not None):
@@ -290,7 +290,7 @@ class System:
 
     def line_loads(self, case: LoadCase) -> Array | None:
         """Equivalent end loads of every beam element in local axes, (p, s, 12); None if none."""
-        per_length = self._line_loads(case)
+        per_length = self.per_length_loads(case)
         return None if per_length is None else self.segment_loads(per_length)
 
     def segment_loads(self, per_length: Array) -> Array:
@@ -381,5 +381,6 @@ def system_of(placed: PlacedStructure) -> System:
         values = flat.values.reshape(count, flat.values.shape[-1])
         status = np.asarray(flat.status).reshape(count)
         flat = type(flat)(positions, frames, values, flat.names, status, flat.reasons)
-        placed = PlacedStructure(placed.structure, flat)
+        added = None if placed.stiffening is None else placed.stiffening.flat(count)
+        placed = PlacedStructure(placed.structure, flat, added)
     return System(placed, Topology(placed.structure))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from kinematics import mobility
 from msa.assembly import System
 from msa.constraints import scales
+from msa.unjoined import in_words, unjoined_nodes
 from strutwork.errors import MechanismError, NumericalError, StrutworkError
 
 Array = NDArray[Any]
@@ -61,9 +62,11 @@ def mechanism_error(system: System, pose: int) -> StrutworkError:
     )
     part = "joints " + ", ".join(names) if names else "structure"
     motions = "; ".join(motion.description for motion in found.motions[:4])
+    loose = unjoined_nodes(placed[pose])
+    cause = f" Probably {in_words(placed, loose[0])}." if loose else ""
     return MechanismError(
         part,
-        f"the structure is a mechanism under its load{where}: {motions}.",
+        f"the structure is a mechanism under its load{where}: {motions}.{cause}",
         "Lock, drive or spring one of these directions, or add a support.",
     )
 

@@ -214,8 +214,31 @@ class MassProperties:
         return f"<MassProperties: total {np.mean(self.total):.4g} kg, batch {self.total.shape}>"
 
 
+def total_mass(placed: PlacedStructure) -> Array:
+    """Total mass at a batch of poses, (...), kg; zero where there is none.
+
+    Raises
+    ------
+    ModelError
+        A material without density.
+    """
+    return np.asarray(_rigid_mass(system_of(placed))[:, 0, 0].reshape(placed.batch))
+
+
+def _rigid_mass(system: System) -> Array:
+    """Mass of the whole moved as one rigid body about the origin, (p, 6, 6)."""
+    total = np.zeros((system.poses, 6, 6))
+    positions = system.placed.positions
+    for _, nodes, part in mass_contributions(system):
+        carry = np.concatenate([rigid_map(positions[:, n]) for n in nodes], axis=-2)
+        total += np.swapaxes(carry, -1, -2) @ part @ carry
+    return total
+
+
 def mass_properties(placed: PlacedStructure) -> MassProperties:
     """Total mass, centre and inertia, from the same matrices that vibrate.
+
+    The one place where a structure is weighed: beams, superelements, bodies and point masses.
 
     Raises
     ------
@@ -223,11 +246,7 @@ def mass_properties(placed: PlacedStructure) -> MassProperties:
         A material without density, or no mass at all.
     """
     system = system_of(placed)
-    total = np.zeros((system.poses, 6, 6))
-    positions = system.placed.positions
-    for _, nodes, part in mass_contributions(system):
-        carry = np.concatenate([rigid_map(positions[:, n]) for n in nodes], axis=-2)
-        total += np.swapaxes(carry, -1, -2) @ part @ carry
+    total = _rigid_mass(system)
     mass = total[:, 0, 0]
     if np.any(mass <= 0):
         raise ModelError("structure", "has no mass.", "Give densities or point masses.")

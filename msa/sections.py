@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import isfinite, pi, tanh
 
+from msa.hollow_rectangle import hollow_rectangle
 from strutwork.errors import ModelError
 
 #: Shear coefficients κ_y, κ_z as functions of Poisson's ratio.
@@ -160,10 +161,11 @@ def rectangle_torsion_constant(side: float, other: float) -> float:
 
 
 def box(width_y: float, height_z: float, thickness: float, name: str = "box") -> Section:
-    """Rectangular hollow section of one wall thickness.
+    """Rectangular hollow section of one wall thickness, thin or thick.
 
-    Torsion by Bredt's formula on the wall's middle line; shear coefficients of a thin-walled
-    box (Cowper 1966).
+    Torsion constant by Saint-Venant's theory and shear coefficients by Cowper's (1966), solved for
+    the section as it is (`msa.hollow_rectangle`): Bredt's formula loses 38 % of the torsion
+    constant of a square with walls of 0.4 of its width.
 
     Raises
     ------
@@ -179,31 +181,13 @@ def box(width_y: float, height_z: float, thickness: float, name: str = "box") ->
             "Use a rectangle, or a thinner wall.",
         )
     inner_y, inner_z = width_y - 2 * thickness, height_z - 2 * thickness
-    middle_y, middle_z = width_y - thickness, height_z - thickness
-
-    def along(height: float, width: float, nu: float) -> float:
-        # Cowper's box for shear along `height`: webs of `height`, flanges of `width`
-        m, n = width / height, width / height
-        return (
-            10.0
-            * (1.0 + nu)
-            * (1.0 + 3.0 * m) ** 2
-            / (
-                12.0
-                + 72.0 * m
-                + 150.0 * m**2
-                + 90.0 * m**3
-                + nu * (11.0 + 66.0 * m + 135.0 * m**2 + 90.0 * m**3)
-                + 10.0 * n**2 * ((3.0 + nu) * m + 3.0 * m**2)
-            )
-        )
-
+    exact = hollow_rectangle(width_y, height_z, thickness)
     return Section(
         width_y * height_z - inner_y * inner_z,
         (width_y * height_z**3 - inner_y * inner_z**3) / 12.0,
         (height_z * width_y**3 - inner_z * inner_y**3) / 12.0,
-        2.0 * thickness * (middle_y * middle_z) ** 2 / (middle_y + middle_z),
-        lambda nu: (along(middle_y, middle_z, nu), along(middle_z, middle_y, nu)),
+        exact.torsion_constant,
+        exact.coefficients,
         name=name,
         outline=(width_y, height_z),
     )

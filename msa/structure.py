@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from kinematics import GROUND, Body, Linkage, Placement, check_coincidence
 from msa.beam import Beam, beam_axes, local_stiffness, to_global
 from msa.springs import PointMass, Spring
+from msa.stiffening import Stiffening
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -250,10 +251,15 @@ class Structure:
 
 @dataclass(frozen=True)
 class PlacedStructure:
-    """A structure at a batch of poses; made by `Structure.at`."""
+    """A structure at a batch of poses; made by `Structure.at`.
+
+    `stiffening` is what a preload adds when it vibrates (`fea.preloaded`); statics is linear and
+    does without.
+    """
 
     structure: Structure
     placement: Placement
+    stiffening: Stiffening | None = None
 
     def __repr__(self) -> str:
         return f"<PlacedStructure: {self.structure!r}, batch {self.batch}>"
@@ -264,7 +270,8 @@ class PlacedStructure:
         return self.placement.batch
 
     def __getitem__(self, index: Any) -> PlacedStructure:
-        return PlacedStructure(self.structure, self.placement[index])
+        added = None if self.stiffening is None else self.stiffening[index]
+        return PlacedStructure(self.structure, self.placement[index], added)
 
     @cached_property
     def beam_ends(self) -> tuple[Array, Array]:

@@ -12,18 +12,15 @@ from numpy.typing import NDArray
 
 from kinematics import DIRECTIONS, Linkage, State
 from msa.assembly import system_of
-from msa.constraints import free_unknowns, scales
-from msa.diagnosis import mechanism_error
 from msa.loads import LoadCase
 from msa.solve import Method, solve
 from msa.structure import PlacedStructure
+from overconstraint.rounding import without_rounding
 from overconstraint.self_stress import redundancy, undetermined
+from overconstraint.tool_place import MOVES, check_tool_place
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
-
-#: A free motion moves the tool when the tool's part of it exceeds this share.
-MOVES = 1e-9
 
 
 class UndeterminedWarning(UserWarning):
@@ -133,7 +130,8 @@ def influence(
     Raises
     ------
     MechanismError
-        The structure moves freely with its drives held; names the joints.
+        Misfits move the tool along a motion that nothing resists; names the joints. Free motions
+        that no misfit drives, a shaft that spins in its bearings, change nothing.
     InconsistentConstraintsError
         A rigid loop that no elastic part closes: its misfit would take an infinite force.
     ModelError
@@ -146,7 +144,6 @@ def influence(
     """
     linkage = placed.structure.linkage
     chosen = tuple(misfit_directions(linkage) if columns is None else columns)
-    check_held_still(placed)
     batch = placed.batch
     if not chosen:
         empty = np.zeros((*batch, len(linkage.joints), 6, 0))
@@ -171,11 +168,15 @@ def influence(
     _warn_of_rigid_shares(linkage, forces, undetermined(placed))
     node = 0 if linkage.tool is None else linkage.node_index[linkage.tool]
     tool = solution.displacements[..., node, :, :]
+    if linkage.tool is None:
+        tool = np.zeros_like(tool)
+    forces, tool = without_rounding(placed, chosen, forces, tool)
+    check_tool_place(system_of(placed), tool.reshape(-1, *tool.shape[-2:]))
     return Influence(
         linkage,
         chosen,
         forces,
-        tool if linkage.tool is not None else np.zeros_like(tool),
+        tool,
         found.count,
         solution.residual,
     )
@@ -246,27 +247,3 @@ def misfit_directions(linkage: Linkage) -> tuple[tuple[str, str], ...]:
         for d, state in zip(DIRECTIONS, joint.states, strict=True)
         if state != State.FREE
     )
-
-
-def check_held_still(placed: PlacedStructure) -> None:
-    """Check that nothing moves freely that the tool depends on.
-
-    A motion that leaves the tool where it is, a strut that turns about itself between two balls,
-    changes no force and no position, and is let pass. Without a tool every free motion counts.
-
-    Raises
-    ------
-    MechanismError
-        Names the joints and directions that move, and the pose.
-    """
-    system = system_of(placed)
-    free = free_unknowns(system)
-    if free.shape[-1] == 0:
-        return
-    linkage = placed.structure.linkage
-    moved = system.expand(free * scales(system)[..., None])
-    if linkage.tool is not None:
-        moved = moved[:, [linkage.node_index[linkage.tool]]]
-    moves = (np.abs(moved) > MOVES).any(axis=(1, 2, 3))
-    if np.any(moves):
-        raise mechanism_error(system, int(np.flatnonzero(moves)[0]))

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from kinematics import DIRECTIONS, Linkage, State
 from msa.structure import PlacedStructure
 from overconstraint.influence import Influence, influence
+from overconstraint.rounding import product_without_rounding, row_scale
 from overconstraint.sources import MisfitSources, misfit_sources
 from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError
@@ -156,17 +157,22 @@ def responses(
     forces, tool = found.forces[..., pick], found.tool[..., pick]
     batch = tool.shape[:-2]
     rows = np.zeros((*batch, len(quantities), 2, len(pick)))
+    scale = np.zeros_like(rows)
+    # a joint's force is made from what its misfits do to all joints
+    every = np.abs(forces).max(axis=-3, initial=0.0)
     for q, quantity in enumerate(quantities):
         if quantity.joint is None:
-            table = tool
+            table, made_from = tool, row_scale(tool)
         elif quantity.joint in linkage.joint_index:
             table = forces[..., linkage.joint_index[quantity.joint], :, :]
+            made_from = row_scale(every)
         else:
             raise ModelError(f"joint {quantity.joint}", "is not in the linkage.", "Name a joint.")
         for i, direction in enumerate(quantity.directions):
             rows[..., q, i, :] = table[..., DIRECTIONS.index(direction), :]
-    gain = rows @ sources.map[..., None, :, :]
-    mean = (rows @ sources.mean[..., None, :, None])[..., 0]
+            scale[..., q, i, :] = made_from[..., DIRECTIONS.index(direction), :]
+    gain = product_without_rounding(rows, sources.map[..., None, :, :], scale)
+    mean = product_without_rounding(rows, sources.mean[..., None, :, None], scale)[..., 0]
     return Responses(tuple(quantities), gain, mean, sources, found)
 
 

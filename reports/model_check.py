@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from kinematics import DIRECTIONS, FreeMotion, Mobility, SelfStress, mobility
 from kinematics.mobility import RANK_TOLERANCE
 from machines.model import Model, ModelWarning
-from machines.model_solid_element import SolidElement
 from msa import PlacedStructure, system_of
 from msa.constraints import scales
+from msa.mass import mass_properties, total_mass
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def check_model(model: Model) -> ModelCheck:
         model,
         degrees_of_freedom(model.placed),
         mobility(model.structure.linkage, model.placement),
-        mass_properties(model.placed),
+        check_mass(model.placed),
     )
 
 
@@ -134,10 +134,9 @@ def degrees_of_freedom(placed: PlacedStructure) -> int:
     return system.topology.size - int(np.count_nonzero(values > RANK_TOLERANCE * values[0]))
 
 
-def mass_properties(placed: PlacedStructure) -> MassProperties | None:
-    """Mass of beams, solids and point masses; None, with a warning, without a density."""
-    structure = placed.structure
-    without = {b.material.name for b in structure.beams if b.material.density is None}
+def check_mass(placed: PlacedStructure) -> MassProperties | None:
+    """Mass and centre of one pose, as `msa.mass`; None, with a warning, without a density."""
+    without = {b.material.name for b in placed.structure.beams if b.material.density is None}
     if without:
         warnings.warn(
             f"material {', '.join(sorted(without))}: has no density, so the mass is not known.",
@@ -145,26 +144,11 @@ def mass_properties(placed: PlacedStructure) -> MassProperties | None:
             stacklevel=2,
         )
         return None
-    total, moment = 0.0, np.zeros(3)
-    if structure.beams:
-        start, end = placed.beam_ends
-        length, _ = placed.beam_geometry
-        for i, beam in enumerate(structure.beams):
-            mass = float((beam.material.density or 0.0) * beam.section.area * length[i])
-            total += mass
-            moment += mass * (start[i] + end[i]) / 2.0
-    for solid in (e for e in structure.elements if isinstance(e, SolidElement)):
-        mass, centre = solid.weighed
-        total += mass
-        moment += mass * centre
-    for point in structure.masses:
-        at = placed.placement.positions[structure.linkage.node_index[point.node]]
-        total += point.mass
-        moment += point.mass * (at + np.asarray(point.offset))
-    if total == 0.0:
+    if float(total_mass(placed)) == 0.0:
         return MassProperties(0.0, None)
-    x, y, z = (float(v) for v in moment / total)
-    return MassProperties(total, (x, y, z))
+    found = mass_properties(placed)
+    x, y, z = found.centre.tolist()
+    return MassProperties(float(found.total), (x, y, z))
 
 
 def _by_joint(state: SelfStress) -> dict[str, list[float]]:

@@ -12,10 +12,9 @@ from reports.chapters.model_loads import forces_chapter, loads_chapter
 from reports.chapters.model_tool import budget_chapter, tool_chapter
 from reports.chapters.overconstraint_model import study_model_tolerances, tolerance_chapter
 from reports.chapters.vibration import vibration_chapter
-from reports.content import Chapter, Note
+from reports.content import Chapter
 from reports.model_check import check_model
 from reports.model_solution import solve_model
-from reports.vibration import beyond
 from reports.vibration_study import has_mass, study_model_vibration
 
 
@@ -48,8 +47,7 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
         content["tolerances"] = found.to_dict()
     if model.damping is not None and has_mass(model):
         study = study_model_vibration(model, "vibration")
-        limit = beyond(study.placed, float(study.modes.frequencies.max(initial=0.0)))
-        chapters.append(vibration_chapter(study, after=(Note(limit),) if limit else ()))
+        chapters.append(vibration_chapter(study))
         content["vibration"] = study.to_dict()
     chapters.append(closing_chapter(path.name, settings, content, chapters))
     return (

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,22 +15,23 @@ from fea import (
     LossFactor,
     ModalRatio,
     Modes,
-    PartDamping,
     Port,
-    Rayleigh,
     frequency_response,
     modes,
 )
 from fea.coupled import AnyDamping
 from fea.dynamic_stiffness import check_band
+from fea.idle import IdleMotion, free_motions, idle_line, idle_motions
 from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
-from machines.model import Model, ModelWarning
-from machines.model_solid_element import SolidElement
-from msa import PlacedStructure
+from fea.validity import warn_beyond
+from machines.model import Model
+from msa import LoadCase, PlacedStructure
 from reports.data_files import csv_file
+from reports.model_damping import model_damping
+from reports.preload_note import WATCHED, warn_of_preload
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
 
@@ -39,6 +39,13 @@ Array = NDArray[Any]
 
 #: Names that stand for the tool where no node bears them.
 TOOL_NAMES = ("TCP", "tcp", "tool")
+
+
+#: Why there is no stiffness between two ports.
+APART = (
+    "uncoupled: a load at one does not move the other but for rounding, and the stiffness between "
+    "them is infinite."
+)
 
 
 @dataclass(frozen=True)
@@ -54,6 +61,8 @@ class Target:
     nodes : tuple of str
         Those the user knows.
     damping : damping of any kind or None
+    cases : tuple of LoadCase
+        Loads whose forces might stiffen it; empty where it vibrates under a preload.
     """
 
     title: str
@@ -61,6 +70,7 @@ class Target:
     placed: PlacedStructure
     nodes: tuple[str, ...]
     damping: AnyDamping | None
+    cases: tuple[LoadCase, ...] = ()
 
     def port(self, text: str) -> Port:
         """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
@@ -107,7 +117,10 @@ class Target:
 
 
 def vibration_target(
-    name: str, modal_ratio: float | None = None, loss_factor: float | None = None
+    name: str,
+    modal_ratio: float | None = None,
+    loss_factor: float | None = None,
+    preload: str | None = None,
 ) -> Target:
     """The structure that a model file or a machine's name stands for.
 
@@ -119,11 +132,13 @@ def vibration_target(
         Path of a model file, or a machine of the catalogue.
     modal_ratio, loss_factor : float or None
         Damping in place of the file's; joints' dashpots stay.
+    preload : str or None
+        Load case in place of the file's preload.
 
     Raises
     ------
     ModelError
-        No such machine or file, a wrong model, both kinds of damping.
+        No such machine or file, a wrong model, both kinds of damping, an unknown load case.
     """
     from machines.catalogue import CATALOGUE, Machine
     from machines.model_file import read_model
@@ -138,6 +153,10 @@ def vibration_target(
     elif loss_factor is not None:
         given = LossFactor(loss_factor)
     if name in CATALOGUE:
+        if preload is not None:
+            raise ModelError(
+                name, "has no load cases to preload it.", "Describe it in a model file."
+            )
         from machines.azulay_dynamic import DYNAMIC_SETS, dynamic_machine
         from machines.three_legs import ThreeLegs
 
@@ -157,70 +176,19 @@ def vibration_target(
             "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
         )
     model = read_model(name)
+    if preload is not None:
+        model = replace(model, preload=preload)
+    return model_target(model, Path(name).stem, given)
+
+
+def model_target(model: Model, stem: str, given: Damping | None = None) -> Target:
+    """A model under its preload, where it names one, with its damping or `given`."""
+    title = model.title or "Model"
+    if model.preload is not None:
+        title += f"; preload: {model.preload}"
+    cases = model.cases if model.preload is None else ()
     damping = model_damping(model, given)
-    return Target(model.title or "Model", Path(name).stem, model.placed, model.nodes, damping)
-
-
-def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | None:
-    """Damping of a model: its [damping] or `given`, and the dashpots of its joints.
-
-    The materials' loss factors act where no damping of the whole is given, which would hold
-    them already. None where nothing damps.
-    """
-    found = given
-    table = model.damping
-    if found is None and table is not None:
-        if table.modal_ratio is not None:
-            found = ModalRatio(table.modal_ratio)
-        elif table.loss_factor is not None:
-            found = LossFactor(table.loss_factor)
-        elif table.rayleigh is not None:
-            found = Rayleigh(*table.rayleigh)
-    structure = model.structure
-    dashpots = any(any(j.damping.values()) for j in structure.linkage.joints)
-    lossy = [b.material.loss_factor for b in structure.beams]
-    lossy += [solid.loss_factor for solid in model.solids]
-    materials = found is None and any(lossy)
-    if dashpots or materials:
-        return PartDamping(found, materials=materials, dashpots=dashpots)
-    return found
-
-
-def beyond(placed: PlacedStructure, highest: float) -> str:
-    """What to say of frequencies above those to which a solid's reduction holds.
-
-    Parameters
-    ----------
-    placed : PlacedStructure
-    highest : float
-        Hz.
-
-    Returns
-    -------
-    str
-        Empty where all is well.
-    """
-    solids = [e for e in placed.structure.elements if isinstance(e, SolidElement)]
-    short = [s for s in solids if highest > s.accurate_to]
-    if not short:
-        return ""
-    named = ", ".join(f"{s.name} {s.accurate_to:.4g} Hz" for s in short)
-    return (
-        f"Frequencies up to {highest:.4g} Hz are shown. Above half of a solid's cutoff their "
-        f"accuracy is not promised: {named}. Raise its cutoff or its number of modes."
-    )
-
-
-def warn_beyond(placed: PlacedStructure, highest: float) -> None:
-    """Warn of what `beyond` says.
-
-    Warns
-    -----
-    ModelWarning
-    """
-    text = beyond(placed, highest)
-    if text:
-        warnings.warn(text, ModelWarning, stacklevel=3)
+    return Target(title, stem, model.vibrating, model.nodes, damping, cases)
 
 
 @dataclass(frozen=True)
@@ -231,20 +199,41 @@ class TargetModes:
     ----------
     target : Target
     modes : Modes
+        Rigid-body modes first.
     ratios : (m,) or None
-        Damping ratios; None without damping.
+        Damping ratios, not a number where one is withheld; None without damping.
+    idle : tuple of IdleMotion
+        Those of the rigid-body modes that neither strain anything nor move the tool.
     """
 
     target: Target
     modes: Modes
     ratios: Array | None
+    idle: tuple[IdleMotion, ...] = ()
 
     def __repr__(self) -> str:
         return f"<TargetModes of {self.target.title}: {self.modes!r}>"
 
+    @property
+    def elastic(self) -> TargetModes:
+        """The same without the rigid-body modes."""
+        after = slice(int(self.modes.rigid_body_modes), None)
+        ratios = None if self.ratios is None else self.ratios[after]
+        return TargetModes(self.target, _some(self.modes, after), ratios, self.idle)
+
+    @property
+    def rigid_line(self) -> str:
+        """What to say of the rigid-body modes, and which of them are idle."""
+        rigid = int(self.modes.rigid_body_modes)
+        if not rigid:
+            return ""
+        text = f"{rigid} rigid-body mode{'s' if rigid > 1 else ''} at 0 Hz."
+        return f"{text} {idle_line(self.idle)}".rstrip()
+
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers in SI, shapes at the nodes the user knows."""
         found = self.modes
+        idle = [{"parts": list(m.parts), "description": str(m)} for m in self.idle]
         index = found.placed.structure.mesh_index
         return {
             "frequencies": found.frequencies.tolist(),
@@ -254,6 +243,7 @@ class TargetModes:
             ],
             "effective_mass": found.effective_mass.tolist(),
             "damping_ratios": self._ratios(),
+            **({"idle_motions": idle} if idle else {}),
         }
 
     def write(self, folder: Path) -> tuple[Path, ...]:
@@ -264,15 +254,38 @@ class TargetModes:
     def _ratios(self) -> list[float | None]:
         if self.ratios is None:
             return [None] * len(self.modes.frequencies)
-        return [float(r) for r in self.ratios]
+        return [float(r) if np.isfinite(r) else None for r in self.ratios]
 
 
 def target_modes(target: Target, count: int) -> TargetModes:
-    """Lowest modes of a target, with damping ratios where it has damping."""
-    found = modes(target.placed, count)
+    """The `count` lowest elastic modes of a target, and before them all its rigid-body modes.
+
+    With damping ratios where it has damping.
+    """
+    rigid = free_motions(target.placed)
+    found = modes(target.placed, count + rigid)
     warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
+    warn_of_preload(found, target.cases)
+    # a preload gives some free motions a frequency
+    rigid = int(found.rigid_body_modes)
+    found = _some(found, slice(rigid + count))
+    exist = len(found.frequencies) - rigid
+    if exist < count:
+        note = f"{count} modes were asked for and {exist} exist: these are all there are."
+        found = replace(found, note=note)
     ratios = None if target.damping is None else damping_ratios(found, target.damping)
-    return TargetModes(target, found, ratios)
+    idle = idle_motions(target.placed)
+    return TargetModes(target, found, ratios, idle if len(idle) <= rigid else ())
+
+
+def _some(found: Modes, which: slice) -> Modes:
+    return replace(
+        found,
+        frequencies=found.frequencies[which],
+        shapes=found.shapes[which],
+        effective_mass=found.effective_mass[which],
+        energy_shares=found.energy_shares[which],
+    )
 
 
 @dataclass(frozen=True)
@@ -305,7 +318,8 @@ class TargetResponse:
         return np.asarray(self.response.receptance[:, 0, 0])
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers in SI."""
+        """Plain numbers in SI; without a least stiffness, and with a reason, where none exists."""
+        apart = self.least.uncoupled
         return {
             "frequencies": self.response.frequencies.tolist(),
             "receptance": {
@@ -313,10 +327,12 @@ class TargetResponse:
                 "imag": self.receptance.imag.tolist(),
             },
             "minimum_dynamic_stiffness": {
-                "value": self.least.value,
-                "frequency": self.least.frequency,
+                "value": None if apart else self.least.value,
+                "frequency": None if apart else self.least.frequency,
+                "certified": self.least.certified,
             },
             "static_stiffness": self.least.static,
+            **({"reason": f"{self.least.input} and {self.least.output}: {APART}"} if apart else {}),
         }
 
     def write(self, folder: Path) -> tuple[Path, ...]:
@@ -367,5 +383,7 @@ def target_response(
     response = frequency_response(
         target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
     )
+    if target.cases:
+        warn_of_preload(modes(target.placed, WATCHED), target.cases)
     least = least_dynamic_stiffness(target.placed, given, output, damping, band)
     return TargetResponse(target, response, least)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,11 +12,13 @@ from numpy.typing import NDArray
 
 from fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
 from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from fea.validity import beyond
 from kinematics import GROUND
 from machines.catalogue import Machine
 from machines.model import Model
 from msa import PlacedStructure
-from reports.vibration import Target, TargetModes, model_damping, target_modes
+from reports.covering_band import covering_band
+from reports.vibration import Target, TargetModes, model_target, target_modes
 from studies.dynamic import BAND, GRID_STEP, MODES, ONE_PERCENT, at_home
 
 Array = NDArray[Any]
@@ -45,6 +48,8 @@ class VibrationStudy:
         One an axis.
     grid : (3,)
         Least 1/|H_ii| on the multiples of `GRID_STEP`, N/m.
+    stop : str
+        Empty, or where the band stops though modes beyond it carry static compliance.
     """
 
     key: str
@@ -55,14 +60,25 @@ class VibrationStudy:
     response: FrequencyResponse | None
     least: tuple[LeastStiffness, ...]
     grid: Array
+    stop: str = ""
 
     def __repr__(self) -> str:
         return f"<VibrationStudy of {self.title}: {self.modes!r}>"
 
+    @cached_property
+    def elastic(self) -> TargetModes:
+        """Lowest modes that strain something, with their damping ratios."""
+        return self.found.elastic
+
     @property
     def modes(self) -> Modes:
-        """Lowest modes."""
-        return self.found.modes
+        """Lowest elastic modes."""
+        return self.elastic.modes
+
+    @property
+    def validity(self) -> str:
+        """Empty, or which superelement is shown beyond the frequencies to which it holds."""
+        return beyond(self.placed, max(self.band[1], *self.modes.frequencies, 0.0))
 
     @property
     def placed(self) -> PlacedStructure:
@@ -117,7 +133,7 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
     ModelError
         No mass, or all locked.
     """
-    target = Target(model.title or key, key, model.placed, model.nodes, model_damping(model))
+    target = model_target(model if model.title else replace(model, title=key), key)
     known = set(model.placed.structure.mesh_nodes)
     beams = {frozenset(b.nodes) for b in model.structure.beams}
     linkage = model.structure.linkage
@@ -144,10 +160,10 @@ def _study(
     target: Target, lines: Sequence[tuple[str, str]], band: tuple[float, float] | None
 ) -> VibrationStudy:
     found = target_modes(target, MODES)
-    elastic = found.modes.frequencies[found.modes.frequencies > 0]
     tool = target.placed.structure.linkage.tool
-    if band is None and elastic.size:
-        band = (float(elastic[0]) / 20.0, 2.0 * float(elastic[-1]))
+    stop = ""
+    if band is None and tool is not None and target.damping is not None:
+        band, stop = covering_band(target.placed, [Port(tool, axis) for axis in AXES])
     if tool is None or target.damping is None or band is None:
         span = band or (0.0, 0.0)
         return VibrationStudy(
@@ -165,5 +181,5 @@ def _study(
         at = frequency_response(target.placed, ports, ports, steps, target.damping, "all_modes")
         coarse = (1.0 / np.abs(np.einsum("fii->fi", at.receptance))).min(axis=0)
     return VibrationStudy(
-        target.stem, target.title, found, tuple(lines), band, response, least, coarse
+        target.stem, target.title, found, tuple(lines), band, response, least, coarse, stop
     )

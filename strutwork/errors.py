@@ -53,3 +53,15 @@ class SingularPoseError(StrutworkError):
 
 class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
+
+
+class UnverifiedWarning(UserWarning):
+    """A number failed its own check and was withheld, while the others stand."""
+
+
+class ModelWarning(UserWarning):
+    """Something in a model that is probably a mistake and yet can be computed."""
+
+
+class ValidityWarning(ModelWarning):
+    """A model is used beyond the range in which it was shown to hold."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -53,16 +54,17 @@ def tool_ports(machine: Machine) -> tuple[Port, ...]:
 def modal_data(
     placed: PlacedStructure, ports: tuple[Port, ...], damping: Damping, count: int = MODES
 ) -> tuple[Array, ModalModel]:
-    """Lowest frequencies, Hz (p, count), and the modal model between ports, of one eigensolution.
+    """Lowest elastic frequencies, Hz (p, count), and the modal model, of one eigensolution.
 
     Raises
     ------
     ModelError
-        No mass, all locked, fewer modes than `count`, damping beyond critical.
+        No mass, all locked, fewer modes than `count`.
     """
     reduced = reduce_system(system_of(placed))
     eigen = solve_eigen(reduced)
-    frequencies, _ = lowest(eigen, count)
+    # a rod that spins between its balls is no first frequency
+    frequencies, _ = lowest(replace(eigen, rigid=eigen.rigid[..., :0]), count)
     if not np.all(np.isfinite(frequencies)):
         raise ModelError(
             "modes", f"are fewer than {count}.", "Divide the beams, or list fewer modes."

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fea import Damping
 from fea.dynamic_stiffness import check_band, minimum_of
+from fea.validity import warn_beyond
 from kinematics import Placement
 from machines import Machine, roll_angles
 from strutwork.errors import MechanismError, ModelError, NumericalError
@@ -114,6 +115,11 @@ def dynamic_map(
     ------
     ModelError
         No rolls, no mass, no damping, a wrong band, or a machine whose model is wrong.
+
+    Warns
+    -----
+    ValidityWarning
+        The band goes beyond what a superelement holds to.
     """
     vibration = vibration or Vibration()
     filters = filters or Filters()
@@ -123,7 +129,9 @@ def dynamic_map(
         raise ModelError("rolls", "are none, or not finite.", "Give a list of angles, rad.")
     evaluator = Evaluator(machine, filters).prepared()
     # what is wrong whatever the pose is told before the work begins
-    _vibrate_stack(machine, machine.place(machine.home()), vibration)
+    home = machine.place(machine.home())
+    _vibrate_stack(machine, home, vibration)
+    warn_beyond(machine.structure.at(home), vibration.band[1])
 
     def evaluate(chunk: Chunk) -> Arrays:
         poses = points.poses(chunk.items, turns)

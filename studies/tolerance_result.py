@@ -166,7 +166,9 @@ class ToleranceStudy:
             "limit": float(self.limit[q]) if limited else None,
             "utilisation": float(self.utilisation[q]) if limited else None,
             "quantiles": None if found is None else _quantiles(found, q),
-            "shares": dict(zip(names, self.shares[q].tolist(), strict=True)),
+            "shares": None
+            if self.contributor(q) is None
+            else dict(zip(names, self.shares[q].tolist(), strict=True)),
             "contributor": self.contributor(q),
             "misfits": self.misfits(q),
         }
@@ -246,7 +248,11 @@ def write_table(path: Path, study: ToleranceStudy) -> Path:
                         quantity.unit,
                         repr(float(study.worst.value[p, q])),
                         repr(limit) if np.isfinite(limit) else "",
-                        *(repr(float(v)) for v in study.worst.shares[p, q]),
+                        # nothing has no parts
+                        *(
+                            repr(float(v)) if study.worst.value[p, q] else ""
+                            for v in study.worst.shares[p, q]
+                        ),
                     ]
                 )
 

@@ -20,6 +20,7 @@ def response_chapter(study: WholeStudy) -> Chapter:
             "as high as that number makes them. Tool against the floor, bearings as in the "
             "thesis's finite element model."
         ),
+        *([Note(some.validity)] if some.validity else []),
         response_figure(some),
         minima_table([("", some)], f"{some.key}-minima.csv"),
         minima_table([("", elastic)], f"{elastic.key}-minima.csv"),

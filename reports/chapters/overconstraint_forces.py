@@ -314,7 +314,8 @@ def cause_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Dat
         150 + 24 * len(some),
     )
     rows = [
-        [label(q), *(float(v) for v in study.shares[i])] for i, q in enumerate(study.quantities)
+        [label(q), *(float(v) if study.largest[i] else None for v in study.shares[i])]
+        for i, q in enumerate(study.quantities)
     ]
     what = "share of each tolerance in each worst case"
     return [figure], [csv_file(file, what, ["quantity", *names], rows)]

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from fea.eigen import Array
 from fea.uff import UniversalFile, node_positions, response_records
 from fea.uff_write import write_universal
 from reports.content import Block, Cell, Chapter, Column, Figure, Note, Points, Table, Text
@@ -32,14 +33,17 @@ def vibration_chapter(
 ) -> Chapter:
     """The vibration of one structure, with what a machine of the literature adds."""
     blocks: list[Block] = [*before, modes_table(study)]
-    if study.modes.note:
-        blocks.append(Note(study.modes.note))
-    blocks += [Text(SWING_TEXT), mode_figure(study)]
+    blocks += [
+        Note(text) for text in (study.found.rigid_line, study.modes.note, study.validity) if text
+    ]
+    if len(study.modes.frequencies):
+        blocks += [Text(SWING_TEXT), mode_figure(study)]
     if study.response is not None:
         blocks += [
             response_figure(study),
             minima_table([("", study)], f"{study.key}-minima.csv"),
             Text(GRID_TEXT),
+            *([Note(study.stop)] if study.stop else []),
         ]
     else:
         blocks.append(Note(f"No frequency response: {_missing(study)}."))
@@ -66,10 +70,12 @@ SWING_TEXT = (
 
 def modes_table(study: VibrationStudy, caption: str = "") -> Table:
     """Frequencies, damping and what bends."""
-    modes, ratios = study.modes, study.found.ratios
+    modes, ratios = study.modes, study.elastic.ratios
     rows = []
     for i, frequency in enumerate(modes.frequencies):
-        damping = "none given" if ratios is None else f"{100 * ratios[i]:.3g} %"
+        damping = "none given"
+        if ratios is not None:
+            damping = f"{100 * ratios[i]:.3g} %" if np.isfinite(ratios[i]) else "withheld"
         rows.append([str(i + 1), significant(float(frequency), 4), damping, bends(study, i)])
     rigid = int(modes.rigid_body_modes)
     text = caption or "Natural frequencies"
@@ -199,22 +205,27 @@ def _end(frequency: float, band: tuple[float, float]) -> str:
 def vibration_files(study: VibrationStudy) -> tuple[DataFile, ...]:
     """Every plotted and tabulated number, and the responses as a universal file."""
     modes, key, what = study.modes, study.key, study.title
-    ratios = study.found.ratios
+    ratios = study.elastic.ratios
     files = [
         csv_file(
             f"{key}-modes.csv",
             f"{what}: frequencies, damping ratios, shares of the strain energy",
             ["mode", "frequency_Hz", "damping_ratio", *(f"share_{p}" for p in modes.energy_parts)],
             [
-                [i + 1, float(f), None if ratios is None else float(ratios[i]), *shares.tolist()]
+                [i + 1, float(f), _number(ratios, i), *shares.tolist()]
                 for i, (f, shares) in enumerate(
                     zip(modes.frequencies, modes.energy_shares, strict=True)
                 )
             ],
         ),
-        _shape_file(study),
     ]
+    if len(modes.frequencies):
+        files.append(_shape_file(study))
     return (*files, *response_files(study))
+
+
+def _number(ratios: Array | None, mode: int) -> float | None:
+    return None if ratios is None or not np.isfinite(ratios[mode]) else float(ratios[mode])
 
 
 def response_files(study: VibrationStudy) -> tuple[DataFile, ...]:

@@ -42,6 +42,15 @@ Loss = Annotated[
     typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
 ]
 
+Preload = Annotated[
+    str | None,
+    typer.Option(
+        "--preload",
+        metavar="CASE",
+        help="Load case under which it vibrates, for the file's preload.",
+    ),
+]
+
 
 class Objective(StrEnum):
     """What an allocation of tolerances aims at."""
@@ -60,17 +69,21 @@ class Ranges(StrEnum):
 
 def main() -> None:
     """Run the program: the console script."""
+    said: set[str] = set()
+
+    def show(message: Warning | str, *_: object, **__: object) -> None:
+        # the steps of one command may warn of the same thing
+        if str(message) not in said:
+            sys.stderr.write(f"Warning: {message}\n")
+        said.add(str(message))
+
     with warnings.catch_warnings():
-        warnings.showwarning = _show_warning
+        warnings.showwarning = show
         try:
             app()
         except StrutworkError as error:
             sys.stderr.write(f"Error: {error}\n")
             sys.exit(1)
-
-
-def _show_warning(message: Warning | str, *_: object, **__: object) -> None:
-    sys.stderr.write(f"Warning: {message}\n")
 
 
 def _print_version(wanted: bool) -> None:
@@ -183,7 +196,13 @@ def map_stiffness(
 def modes(
     target: Target,
     count: Annotated[
-        int, typer.Option("--count", "-n", min=1, help="Modes, rigid-body modes included.")
+        int,
+        typer.Option(
+            "--count",
+            "-n",
+            min=1,
+            help="Elastic modes; rigid-body modes come first and in addition.",
+        ),
     ] = 10,
     out: Annotated[
         str | None,
@@ -191,12 +210,21 @@ def modes(
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
+    preload: Preload = None,
     json: Json = False,
 ) -> None:
     """Find the lowest natural frequencies, with their shapes and damping ratios."""
     from reports.cli import modes as work
 
-    work.run(target, count, out, modal_ratio=modal_ratio, loss_factor=loss_factor, json=json)
+    work.run(
+        target,
+        count,
+        out,
+        modal_ratio=modal_ratio,
+        loss_factor=loss_factor,
+        preload=preload,
+        json=json,
+    )
 
 
 @app.command()
@@ -206,8 +234,11 @@ def frf(
         str,
         typer.Option("--input", metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
     ],
-    low: Annotated[float, typer.Option("--from", help="Start of the band, Hz.")],
-    high: Annotated[float, typer.Option("--to", help="End of the band, Hz.")],
+    low: Annotated[
+        float | None,
+        typer.Option("--from", help="Start of the band, Hz; without a band, one that covers."),
+    ] = None,
+    high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
         typer.Option("--output", metavar="NODE:DIR", help="What moves; the input by default."),
@@ -221,20 +252,24 @@ def frf(
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
+    preload: Preload = None,
     json: Json = False,
 ) -> None:
     """Compute a frequency response, and the exact least dynamic stiffness in its band."""
     from reports.cli import frf as work
 
+    if (low is None) != (high is None):
+        raise typer.BadParameter("give both --from and --to, or neither for an automatic band.")
     work.run(
         target,
         given,
         output,
-        (low, high),
+        None if low is None or high is None else (low, high),
         lines,
         out,
         modal_ratio=modal_ratio,
         loss_factor=loss_factor,
+        preload=preload,
         json=json,
     )
 
@@ -250,12 +285,27 @@ def compare(
     doublet: Annotated[
         float, typer.Option(help="Neighbours within this share are one span.")
     ] = 0.01,
+    unit: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="LABEL=UNIT",
+            help='Unit of an axis label that is not known, as in --unit "EU=mm/s^2". Repeatable.',
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Compare computed modes and responses with measured ones."""
     from reports.cli import compare as work
 
-    work.run(computed, measured, window=window, least=least, doublet=doublet, json=json)
+    work.run(
+        computed,
+        measured,
+        window=window,
+        least=least,
+        doublet=doublet,
+        units=unit or (),
+        json=json,
+    )
 
 
 @app.command()

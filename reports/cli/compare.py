@@ -2,27 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from fea.compare_files import compare_files
 from fea.comparison import Comparison
 from fea.uff_read import read_universal
 from reports.cli.output import console, print_json, table
+from reports.cli.progress import shown
+from strutwork.errors import ModelError
 
 
 def run(
-    computed: str, measured: str, *, window: float, least: float, doublet: float, json: bool
+    computed: str,
+    measured: str,
+    *,
+    window: float,
+    least: float,
+    doublet: float,
+    units: Sequence[str],
+    json: bool,
 ) -> None:
-    """Compare two universal files and print what they have in common."""
-    found = compare_files(
-        read_universal(computed),
-        read_universal(measured),
-        window=window,
-        least=least,
-        doublet=doublet,
-    )
+    """Compare two universal files and print what they have in common, and what was left out."""
+    given = dict(_unit(text) for text in units)
+    files = read_universal(computed, given), read_universal(measured, given)
+    with shown("responses") as started:
+        found = compare_files(
+            *files, window=window, least=least, doublet=doublet, progress=started("compare")
+        )
     if json:
         print_json(found.to_dict())
     else:
         _print(found)
+
+
+def _unit(text: str) -> tuple[str, str]:
+    label, mark, unit = text.partition("=")
+    if not (mark and label.strip() and unit.strip()):
+        raise ModelError(
+            f"--unit {text}", "is no LABEL=UNIT.", 'Write it as in --unit "EU=mm/s^2".'
+        )
+    return label.strip(), unit.strip()
 
 
 def _print(found: Comparison) -> None:
@@ -55,7 +74,7 @@ def _print(found: Comparison) -> None:
         lines = [
             (
                 f.output,
-                f.input,
+                f"{f.input} {f.run}".rstrip(),
                 f"{f.found.frac:.3f}",
                 f"{f.found.scale:.4f}" + (" (end of search)" if f.found.at_limit else ""),
                 f"{f.found.scaled_frac:.3f}",
@@ -64,6 +83,8 @@ def _print(found: Comparison) -> None:
         ]
         columns = ["output", "input", "FRAC", "best frequency scale", "FRAC at it"]
         out.print(table("Responses", columns, lines, names=2))
+    for note in found.notes:
+        out.print(f"Note: {note}.", markup=False)
 
 
 def _percent(ratio: float | None) -> str:

@@ -7,24 +7,33 @@ from pathlib import Path
 
 from fea import Port
 from reports.cli.output import console, print_json, table
-from reports.vibration import TargetResponse, target_response, vibration_target
+from reports.covering_band import covering_band
+from reports.vibration import APART, TargetResponse, target_response, vibration_target
+from strutwork.errors import ModelError
 
 
 def run(
     name: str,
     given: str,
     output: str | None,
-    band: tuple[float, float],
+    band: tuple[float, float] | None,
     lines: int,
     out: str | None,
     *,
     modal_ratio: float | None,
     loss_factor: float | None,
+    preload: str | None = None,
     json: bool,
 ) -> None:
-    """Compute the response and print what it says."""
-    target = vibration_target(name, modal_ratio, loss_factor)
+    """Compute the response and print what it says; without a band, over one that covers."""
+    target = vibration_target(name, modal_ratio, loss_factor, preload)
     ports = (target.port(given), target.port(given if output is None else output))
+    if band is None:
+        band, stop = covering_band(target.placed, list(dict.fromkeys(ports)))
+        if band is None:
+            raise ModelError("frequency band", "has no elastic mode to cover.", "Give a band.")
+        if stop:
+            sys.stderr.write(f"Note: {stop}\n")
     found = target_response(target, *ports, band, lines)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if out is not None and found.is_relative:
@@ -43,6 +52,9 @@ def _print(found: TargetResponse, band: tuple[float, float]) -> None:
     out, least = console(), found.least
     out.print(found.target.title, markup=False, style="bold")
     out.print(f"Damping: {found.target.damping}", markup=False)
+    if least.uncoupled:
+        out.print(f"{least.input} and {least.output}: {APART}", markup=False, soft_wrap=True)
+        return
     scale, unit = _unit(least.output, least.input)
     static = "infinite" if least.static is None else least.static * scale
     rows: list[tuple[str, object, str]] = [

@@ -20,10 +20,11 @@ def run(
     *,
     modal_ratio: float | None,
     loss_factor: float | None,
+    preload: str | None = None,
     json: bool,
 ) -> None:
     """Find the lowest modes and print them."""
-    found = target_modes(vibration_target(name, modal_ratio, loss_factor), count)
+    found = target_modes(vibration_target(name, modal_ratio, loss_factor, preload), count)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if found.modes.note:
         sys.stderr.write(f"Note: {found.modes.note}\n")
@@ -36,25 +37,33 @@ def run(
 
 
 def _print(found: TargetModes) -> None:
+    rigid, found = int(found.modes.rigid_body_modes), found.elastic
     out, modes = console(), found.modes
     out.print(found.target.title, markup=False, style="bold")
     if found.target.damping is not None:
         out.print(f"Damping: {found.target.damping}", markup=False)
+    if rigid:
+        out.print(found.rigid_line, markup=False, soft_wrap=True)
     rows = []
     for m, frequency in enumerate(modes.frequencies.tolist()):
         moved = modes.effective_mass[m] / np.where(modes.total_mass > 0, modes.total_mass, 1.0)
         shares = modes.energy_shares[m]
-        bends = "rigid body" if frequency == 0 else modes.energy_parts[int(shares.argmax())]
-        if frequency:
-            bends += f" {100 * float(shares.max()):.0f} %"
+        bends = f"{modes.energy_parts[int(shares.argmax())]} {100 * float(shares.max()):.0f} %"
         rows.append(
             (
                 m + 1,
                 float(frequency),
-                "" if found.ratios is None else f"{100 * float(found.ratios[m]):.4g}",
+                _ratio(found, m),
                 *(f"{100 * share:.1f}" for share in moved),
                 bends,
             )
         )
     columns = ["mode", "Hz", "ζ, %", *(f"{d}, %" for d in _DIRECTIONS), "stores most energy"]
     out.print(table("Modes; share of the mass that moves along and about each axis", columns, rows))
+
+
+def _ratio(found: TargetModes, mode: int) -> str:
+    if found.ratios is None:
+        return ""
+    ratio = float(found.ratios[mode])
+    return f"{100 * ratio:.4g}" if np.isfinite(ratio) else "withheld"

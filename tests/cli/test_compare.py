@@ -53,7 +53,7 @@ def files(strutwork: Program, tmp_path: Path) -> tuple[Path, Path]:
 
 def test_compare(strutwork: Program, files: tuple[Path, Path]) -> None:
     found = strutwork("compare", *files, "--json").result
-    assert set(found) == {"modes", "functions", "only_computed", "only_measured"}
+    assert set(found) == {"modes", "functions", "only_computed", "only_measured", "notes"}
     assert [(p["computed"], p["measured"]) for p in found["modes"]] == [(i, i) for i in range(6)]
     assert [p["group"] for p in found["modes"]] == [2, 2, 1, 1, 2, 2]
     # 1 % of noise leaves far more than 0.99 of the shapes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from machines.catalogue import CATALOGUE
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, Edit, drop, put, sample
 
+ROOT = Path(__file__).parents[2]
 EXAMPLE = {path.stem: path for path in EXAMPLES}
 Write = Callable[[Content], Path]
 
@@ -94,6 +96,7 @@ def test_dashpots_add_to_the_damping_of_the_file(strutwork: Program, write: Writ
     assert bare["damping_ratios"] == [None]
 
 
+@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
 def test_materials_damp_where_the_file_names_no_damping(strutwork: Program, write: Write) -> None:
     lossy = put("materials.steel.loss_factor", 0.004)
     one = {"nodes": {"A": [0, 0, 0], "TCP": [0.3, 0, 0]}, "supports": SAMPLE["supports"][:1]}
@@ -107,8 +110,10 @@ def test_materials_damp_where_the_file_names_no_damping(strutwork: Program, writ
     wanted = np.sin(np.arctan(0.004) / 2)
     assert found["damping_ratios"] == pytest.approx([wanted] * 3, rel=1e-9)
     named = {**beam, "damping": {"modal_ratio": 0.01}}
-    found = strutwork("modes", write(named), "-n", "3", "--json").result
-    assert found["damping_ratios"] == pytest.approx([0.01] * 3)
+    run = strutwork("modes", write(named), "-n", "3", "--json")
+    assert run.result["damping_ratios"] == pytest.approx([0.01] * 3)
+    assert "Warning: material steel: the loss factor is not used" in run.err
+    assert run.err.count("Warning") == 1
 
 
 def test_more_modes_than_there_are(strutwork: Program, write: Write) -> None:
@@ -123,11 +128,13 @@ def test_rigid_body_modes_come_first(strutwork: Program, write: Write) -> None:
         "nodes": {"A": [0, 0, 0], "B": ["300 mm", 0, 0]},
         "beams": SAMPLE["beams"][:1],
     }
-    found = strutwork("modes", write(content), "-n", "8", "--json").result
+    found = strutwork("modes", write(content), "-n", "2", "--json").result
     assert found["rigid_body_modes"] == 6
     assert found["frequencies"][:6] == [0.0] * 6
     assert found["frequencies"][6] > 100.0
+    # the number asked for is that of elastic modes
     assert found["damping_ratios"] == [None] * 8
+    assert "idle_motions" not in found
 
 
 def test_modes_for_people(strutwork: Program) -> None:
@@ -321,3 +328,55 @@ def test_everything_held(strutwork: Program, write: Write) -> None:
 def test_wrong_usage(strutwork: Program, arguments: tuple[str, ...]) -> None:
     run = strutwork(*arguments)
     assert (run.status, run.out) == (2, "")
+
+
+WIRE = ROOT / "tests" / "cases" / "models" / "f7_preload_ignored.toml"
+
+
+@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+def test_a_load_that_would_stiffen_is_named(strutwork: Program) -> None:
+    run = strutwork("modes", WIRE, "-n", "1", "--json")
+    assert run.result["frequencies"] == pytest.approx([4.604], abs=1e-3)
+    assert "load case load: its forces would change the first frequency from 4.604" in run.err
+    assert '--preload "load"' in run.err
+
+
+def test_modes_and_response_under_a_named_preload(strutwork: Program, write: Write) -> None:
+    run = strutwork("modes", WIRE, "-n", "2", "--json", "--preload", "load")
+    # the string's 63.7 Hz, and 2 % for its clamped ends
+    assert run.result["frequencies"] == pytest.approx([65.18] * 2, abs=0.01)
+    assert run.result["rigid_body_modes"] == 0
+    assert run.err == ""
+    in_file = write(tomllib.loads(WIRE.read_text()) | {"preload": "load"})
+    assert strutwork("modes", in_file, "-n", "2", "--json").result == run.result
+    ports = ("--input", "w/10:y", "--from", "1", "--to", "100", "--modal-ratio", "0.01", "--json")
+    response = strutwork("frf", in_file, *ports).result
+    assert response["minimum_dynamic_stiffness"]["frequency"] == pytest.approx(65.18, abs=0.02)
+    assert strutwork("frf", WIRE, *ports, "--preload", "load").result == response
+
+
+@pytest.mark.parametrize(
+    ("force", "expected"),
+    [
+        (-100.0, ["buckles under its preload", "critical load is 0.00"]),
+        (0.0, []),
+    ],
+)
+def test_a_preload_beyond_buckling(
+    strutwork: Program, write: Write, force: float, expected: list[str]
+) -> None:
+    content = tomllib.loads(WIRE.read_text()) | {"preload": "load"}
+    content["loads"][0]["force"] = [force, 0, 0]
+    run = strutwork("modes", write(content), "-n", "1", "--json")
+    assert run.status == bool(expected)
+    assert [part for part in expected if part not in run.err] == []
+
+
+def test_an_unknown_preload(strutwork: Program, write: Write) -> None:
+    run = strutwork("modes", WIRE, "--preload", "wind")
+    assert run.status == 1
+    assert 'preload: names the unknown load case "wind".\nCases: load.' in run.err
+    content = tomllib.loads(WIRE.read_text()) | {"preload": "gravity"}
+    assert "unknown load case" in strutwork("check", write(content)).err
+    machine = strutwork("modes", "proposed-3pprs", "--preload", "gravity")
+    assert "has no load cases" in machine.err

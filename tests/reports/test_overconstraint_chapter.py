@@ -136,9 +136,9 @@ def test_histograms_hold_every_sample(assembled: tuple[WrittenReport, str]) -> N
 def test_shares_add_to_one(assembled: tuple[WrittenReport, str]) -> None:
     report, key = assembled
     for row in rows_of(report.report.parent / f"{key}-shares.csv"):
-        shares = [float(v) for name, v in row.items() if name != "quantity"]
-        # nothing moves a quantity at all, or everything together does
-        assert sum(shares) == pytest.approx(1.0, abs=1e-9) or not any(shares)
+        cells = [v for name, v in row.items() if name != "quantity"]
+        # nothing moves a quantity at all, and then it has no parts, or everything together does
+        assert not any(cells) or sum(map(float, cells)) == pytest.approx(1.0, abs=1e-9)
     for bar in specs(report.report)[f"shares-{key}"]["data"]:
         assert all(0 <= v <= 100 for v in bar["x"])
 

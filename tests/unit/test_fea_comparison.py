@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fea.assurance import frac, frac_with_scale, in_span, mac, subspace_mac
+from fea.assurance import frac, in_span, mac, subspace_mac
 from fea.compare_files import compare_files
+from fea.frac_scale import frac_with_scale
 from fea.pairing import ModeSet, groups_of, pair_modes
 from fea.uff import FrfRecord, ModeRecord, UniversalFile
 from strutwork.errors import ModelError

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fea import axial_forces, modes
-from fea.geometric import geometric_stiffness, local_geometric_stiffness
+from fea.geometric import geometric_stiffness, local_geometric_stiffness, pulled
 from msa import rigid_map, rod, solve, system_of
 from strutwork.errors import ModelError
 from tests.structures import Model, cantilever, wrench
@@ -62,9 +62,9 @@ def test_offset_ends_carry_the_force_where_the_beam_is() -> None:
     moved.nodes(root=(0, -0.1, 0), tip=(0.6, -0.1, 0))
     moved.beam("beam", "root", "tip", rod(0.02), elements=2, offsets=(shift, shift))
     moved.support("root")
-    axial = np.array([[500.0, 500.0]])
-    one = geometric_stiffness(system_of(straight.place()), axial)
-    other = geometric_stiffness(system_of(moved.place()), axial)
+    axial = np.array([500.0, 500.0])
+    one = geometric_stiffness(system_of(pulled(straight.place(), axial)))
+    other = geometric_stiffness(system_of(pulled(moved.place(), axial)))
     assert np.any(one)
     carry = np.eye(18)
     for i, arm in enumerate((shift, shift, (0.0, 0.0, 0.0))):

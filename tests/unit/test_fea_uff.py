@@ -207,13 +207,44 @@ def test_foreign_function_in_millimetres_with_a_negative_direction(tmp_path: Pat
         (("g", "N"), 9.80665),
         (("mm/s^2", "kN"), 1e-6),
         (("m/s^2", "N"), 1.0),
-        (("strange", "NONE"), 1.0),
+        (("NONE", "NONE"), 1.0),
+        (("G", "N"), 9.80665),
+        (("MM/SEC2", "n"), 1e-3),
+        (("g/lbf", "NONE"), 9.80665 / 4.4482216152605),
+        (("(m/s²)/N", "NONE"), 1.0),
+        (("1/kg", "NONE"), 1.0),
+        (("in/sec^2", "mN"), 25.4),
+        (("m/s/s", "MN"), 1e-6),
     ],
 )
 def test_labels_name_units(tmp_path: Path, labels: tuple[str, str], factor: float) -> None:
     changes = {"ordinate_axis_units_lab": labels[0], "orddenom_axis_units_lab": labels[1]}
     (function,) = read_universal(foreign(tmp_path / "x.unv", **changes)).functions
     assert function.values == pytest.approx(-factor * (np.arange(8) + 1j), rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("labels", "words"),
+    [
+        (("strange", "N"), '"strange", an unknown unit of acceleration'),
+        (("mm", "N"), '"mm", which is no unit of acceleration'),
+        (("m/s^2", "EU"), '"EU", an unknown unit of force'),
+        (("m/s^2", "mn"), '"mn", which is no unit of force'),
+        (("g/N", "kN"), "per force and beside it"),
+    ],
+)
+def test_unknown_labels_are_never_taken_as_si(
+    tmp_path: Path, labels: tuple[str, str], words: str
+) -> None:
+    changes = {"ordinate_axis_units_lab": labels[0], "orddenom_axis_units_lab": labels[1]}
+    with pytest.raises(ModelError, match=words):
+        read_universal(foreign(tmp_path / "x.unv", **changes))
+
+
+def test_a_unit_is_given_for_an_unknown_label(tmp_path: Path) -> None:
+    file = foreign(tmp_path / "x.unv", ordinate_axis_units_lab="EU")
+    (function,) = read_universal(file, {"EU": "mm/s^2"}).functions
+    assert function.values == pytest.approx(-1e-3 * (np.arange(8) + 1j), rel=1e-11)
 
 
 def test_moments_and_turns_have_their_units(tmp_path: Path) -> None:
@@ -232,7 +263,7 @@ def test_what_is_no_response_is_ignored_and_said(tmp_path: Path) -> None:
     found = read_universal(file)
     assert len(found.functions) == 1
     assert found.ignored == (
-        "function of type 6",
+        "coherence (function of type 6)",
         "function that is no motion per force in a direction",
     )
 
@@ -307,7 +338,7 @@ def spoiled(tmp_path: Path, name: str) -> Path:
         ("lines missing", "says 8 lines and has 6"),
         ("header missing", r"data set 1 \(type 58\).*cannot be read"),
         ("only units", "no function and no mode, only nodes and units"),
-        ("time response", "no function and no mode, only function of type 1"),
+        ("time response", r"no function and no mode, only time response \(function of type 1"),
         ("other sets", "only data set 9999"),
         ("no motion", "does not tell displacement"),
         ("NaN in a function", "not finite"),

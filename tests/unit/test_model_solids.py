@@ -33,7 +33,7 @@ from meshes.surfaces import write_surface
 from msa import Material, tool_compliance
 from msa.mass import mass_properties
 from reports.model_check import check_model
-from reports.vibration import model_damping
+from reports.model_damping import model_damping
 from strutwork.errors import ModelError
 from strutwork.units import LENGTH, quantity
 from tests.model_files import Content, drop, put, toml

@@ -102,18 +102,18 @@ def test_shear_coefficients_are_cowpers(section: Section, nu: float, kappa: floa
 
 def test_shear_of_a_flat_box_is_carried_by_its_webs() -> None:
     # 0.2 wide along y, 0.1 high along z: along y the long walls are the webs
-    along_y, along_z = shear_coefficient(box(0.2, 0.1, 1e-3), 0.3)
+    along_y, along_z = shear_coefficient(box(0.2, 0.1, 1e-5), 0.3)
     assert along_y > 0.5 > along_z
     # Cowper's formula at ν = 0.3, m = n = b/h = 0.1/0.2 for shear along y
-    m = n = 0.099 / 0.199
+    m = n = 0.09999 / 0.19999
     below = (
         12 + 72 * m + 150 * m**2 + 90 * m**3
         + 0.3 * (11 + 66 * m + 135 * m**2 + 90 * m**3)
         + 10 * n**2 * (3.3 * m + 3 * m**2)
     )  # fmt: skip
-    assert along_y == pytest.approx(13 * (1 + 3 * m) ** 2 / below, rel=1e-12)
-    turned = shear_coefficient(box(0.1, 0.2, 1e-3), 0.3)
-    assert turned == pytest.approx((along_z, along_y), rel=1e-12)
+    assert along_y == pytest.approx(13 * (1 + 3 * m) ** 2 / below, rel=1e-4)
+    turned = shear_coefficient(box(0.1, 0.2, 1e-5), 0.3)
+    assert turned == pytest.approx((along_z, along_y), rel=1e-9)
 
 
 def test_box() -> None:
@@ -123,9 +123,12 @@ def test_box() -> None:
     iz = (0.1 * 0.06**3 - 0.092 * 0.052**3) / 12
     assert section.second_moment_y == pytest.approx(iy, rel=1e-13)
     assert section.second_moment_z == pytest.approx(iz, rel=1e-13)
-    # Bredt: J = 4 A² t / s on the middle line
+    # Bredt: J = 4 A² t / s on the middle line; the walls turn by themselves too, t³ s / 3 in all
     bredt = 4 * (0.056 * 0.096) ** 2 * 0.004 / (2 * (0.056 + 0.096))
-    assert section.torsion_constant == pytest.approx(bredt, rel=1e-13)
+    walls = 0.004**3 * 2 * (0.056 + 0.096) / 3
+    # what the corners add is of the order of t⁴
+    assert section.torsion_constant == pytest.approx(bredt + walls, rel=0.03)
+    assert section.torsion_constant > bredt + walls
 
 
 def test_section_from_a_table_shears_only_with_shear_areas() -> None:

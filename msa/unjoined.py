@@ -1,0 +1,94 @@
+"""Nodes that stand at one place and that nothing joins."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from msa.structure import PlacedStructure
+
+#: Nodes nearer to one another than this share of the structure's size stand at one place.
+NEAR = 1e-6
+
+
+def unjoined_nodes(placed: PlacedStructure) -> tuple[tuple[str, ...], ...]:
+    """Groups of nodes at one place that hang together by nothing there.
+
+    Two parts of a drawing that meet under two names of a node are the usual cause of a mechanism.
+    Joints and springs of any kind join, and so does the ground: two supports at one place do.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        At one pose, no batch axes.
+
+    Returns
+    -------
+    tuple of tuple of str
+        One node of each piece that meets the others there, in the order of the linkage.
+    """
+    structure, linkage = placed.structure, placed.structure.linkage
+    points = placed.placement.positions.real
+    size = float(np.ptp(points, axis=0).max(initial=0.0)) if len(points) else 0.0
+    if size == 0.0 and len(points) < 2:
+        return ()
+    pairs = cKDTree(points).query_pairs(NEAR * size, output_type="ndarray")
+    if not len(pairs):
+        return ()
+    ground = len(points)
+    index, vertex = linkage.node_index, structure.vertex_of_node
+    place = _labels(ground, pairs.tolist())
+    ties = [tuple(index[n] for n in joint.between) for joint in linkage.joints]
+    ties += [
+        (index[s.nodes[0]], index[s.nodes[-1]] if len(s.nodes) == 2 else ground)
+        for s in structure.springs
+    ]
+    ties += [(n, ground) for n in range(len(points)) if vertex[n] < 0]
+    first: dict[int, int] = {}
+    for n in {int(i) for i in pairs.ravel()}:
+        # nodes of a rigid body are one, and so are those of an element of another kind
+        ties.append((first.setdefault(int(vertex[n]), n), n))
+    for element in structure.elements:
+        ties += [(index[element.nodes[0]], index[n]) for n in element.nodes[1:]]
+    found = []
+    for label in sorted(set(place[pairs[:, 0]].tolist())):
+        here = np.flatnonzero(place == label).tolist()
+        near = {*here, ground}
+        piece = _labels(ground + 1, [t for t in ties if near.issuperset(t)])
+        pieces = {int(piece[n]): n for n in reversed(here)}
+        if len(pieces) > 1:
+            found.append(tuple(linkage.nodes[n] for n in sorted(pieces.values())))
+    return tuple(found)
+
+
+def in_words(placed: PlacedStructure, nodes: Sequence[str]) -> str:
+    """What a group of `unjoined_nodes` is, with the parts that end there."""
+    structure = placed.structure
+    named = []
+    for node in nodes:
+        parts = [f"beam {b.name}" for b in structure.beams if node in b.nodes]
+        parts += [
+            f"body {b.name}"
+            for b in (*structure.linkage.bodies, *structure.rigid)
+            if node in b.nodes and len(b.nodes) > 1 and not parts
+        ]
+        named.append(f"{node} of {parts[0]}" if parts else node)
+    listed = f"{', '.join(named[:-1])} and {named[-1]}"
+    return f"nodes {listed} stand at one place, and nothing joins them"
+
+
+def _labels(count: int, edges: Sequence[Sequence[int]]) -> np.ndarray:
+    """Number of the connected part that each of `count` items is in."""
+    parent = list(range(count))
+
+    def root(i: int) -> int:
+        while parent[i] != i:
+            parent[i] = parent[parent[i]]
+            i = parent[i]
+        return i
+
+    for a, b in edges:
+        parent[root(b)] = root(a)
+    return np.array([root(i) for i in range(count)])

@@ -1,0 +1,81 @@
+"""A frequency band wide enough that the modes inside it explain the static compliance."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fea import ModalRatio, Port, modal_model
+from fea.modal import STATIC_SHARE
+from msa import PlacedStructure
+from reports.numbers import share, significant
+from studies.dynamic import MODES
+
+#: How many times as high as it starts out the end of a band may come.
+FARTHEST = 10.0
+
+#: The band starts at this part of the first frequency.
+BELOW = 20.0
+
+#: The band ends this much above the last mode that it needs.
+ROOM = 1.1
+
+
+def covering_band(
+    placed: PlacedStructure, ports: Sequence[Port], count: int = MODES
+) -> tuple[tuple[float, float] | None, str]:
+    """A band from well below the first elastic mode to twice the last of `count`, or higher.
+
+    It is extended until the modes inside carry 99 % of each port's static compliance. What motions
+    without mass give way has no resonance and is not counted. The band ends at `FARTHEST` times its
+    first end at the latest.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        One pose.
+    ports : sequence of Port
+    count : int
+
+    Returns
+    -------
+    band : (float, float) or None
+        Hz; None where no mode has a frequency.
+    stop : str
+        Empty, or how much of which port's compliance the modes inside carry.
+
+    Raises
+    ------
+    ModelError
+        No mass, or a port that cannot move.
+    """
+    model = modal_model(placed, ports, ModalRatio(0.0))
+    massive = model.square[0] > 0
+    natural = 1.0 / np.sqrt(model.square[0][massive]) / (2.0 * np.pi)
+    if not len(natural):
+        return None, ""
+    order = np.argsort(natural)
+    natural, compliance = natural[order], (model.residues[0] ** 2)[:, massive][:, order]
+    band = (float(natural[0]) / BELOW, 2.0 * float(natural[:count][-1]))
+    whole = compliance.sum(axis=1, keepdims=True)
+    carried = np.cumsum(compliance, axis=1) / np.where(whole > 0, whole, 1.0)
+    needed = [
+        float(natural[np.argmax(part >= STATIC_SHARE)])
+        for part, all_ in zip(carried, whole[:, 0], strict=True)
+        if all_ > 0
+    ]
+    limit = FARTHEST * band[1]
+    end = max([band[1], *(ROOM * f for f in needed)])
+    if end <= limit:
+        return (band[0], end), ""
+    inside = natural <= limit
+    short = [
+        f"{port} {share(float(part[inside].max(initial=0.0)))}"
+        for port, part, all_ in zip(ports, carried, whole[:, 0], strict=True)
+        if all_ > 0 and part[inside].max(initial=0.0) < STATIC_SHARE
+    ]
+    return (band[0], limit), (
+        f"The band stops at {significant(limit)} Hz, where the modes inside it carry of the static "
+        f"compliance: {', '.join(short)}. The rest belongs to modes beyond."
+    )
