@@ -95,7 +95,7 @@ class FileMesh:
         patches = {name: _patch(same) for name, same in self.faces.items()}
         sets = {
             n: np.unique(cells)
-            for n, cells in {**self.helpers, **self.cell_sets, **self.sections}.items()
+            for n, cells in {**self.sections, **self.helpers, **self.cell_sets}.items()
         }
         kept = {
             n: number[cells]

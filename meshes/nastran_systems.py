@@ -138,10 +138,8 @@ class Systems:
                     self._place(system, *args)
             points = found[at]
         else:
-            if given.reference:
-                shape = self._of(given.reference, given.where).shape
-            else:
-                shape = "R"
+            reference = given.reference
+            shape = self._of(reference, given.where).shape if reference else "R"
             origin, axes = self._frame(given.reference, *args)
             points = origin + _rectangular(shape, given.points) @ axes.T
         z = points[1] - points[0]
