@@ -16,6 +16,7 @@ from kinematics.linkage import GROUND, Body, Linkage
 from kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
 from kinematics.mechanism import Mechanism, Poses, drive_values
 from kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
+from kinematics.near_mechanism import NearMechanism, near_motions
 from kinematics.placement import Placement, check_coincidence
 from kinematics.rows import (
     ConstraintRows,
@@ -38,6 +39,7 @@ __all__ = [
     "Linkage",
     "Mechanism",
     "Mobility",
+    "NearMechanism",
     "Placement",
     "Poses",
     "SelfStress",
@@ -55,6 +57,7 @@ __all__ = [
     "forward_kinematics",
     "jacobians",
     "mobility",
+    "near_motions",
     "rotation_x",
     "rotation_y",
     "rotation_z",

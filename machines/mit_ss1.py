@@ -71,7 +71,8 @@ class MitSS1:
         pin's shaft and a strut share (section 8.2).
     radial_stiffness : float or None
         Of one bearing, N/m; None: rigid. Calibrated: with the strut between them two pairs make
-        255 N/µm (eq. 51), and 1/Cxx at the tool reaches the 150 N/µm of Fig. 29.
+        255 N/µm (eq. 51), and 1/Cxx at the tool reaches 150 N/µm, the highest
+        tick of Fig. 29-(a).
     axial_stiffness : float or None
         Of one bearing, N/m; None: rigid. Calibrated: two in series make the 9.55 N/µm of the
         reconstructed Table 2, see `machines.StrutAssembly`.

@@ -158,11 +158,24 @@ def _check_spread(field: str, stiffness: Array) -> None:
 
 
 def _materials(table: SolidTable, tables: ModelTable, mesh: Mesh) -> dict[str, Material]:
-    named = table.materials or dict.fromkeys(mesh.regions, str(table.material))
+    named = _by_region(table.materials or dict.fromkeys(mesh.regions, str(table.material)), mesh)
     with warnings.catch_warnings():
         # the beams' reader says it of every material once
         warnings.simplefilter("ignore", ModelWarning)
         return {region: material_of(name, tables.materials[name]) for region, name in named.items()}
+
+
+def _by_region(named: Mapping[str, str], mesh: Mesh) -> dict[str, str]:
+    """The material of each region: its own, or that of the smallest group of the file around it.
+
+    Names that are neither region nor group stay, for the error that lists what there is.
+    """
+    found = {name: material for name, material in named.items() if name not in mesh.cell_sets}
+    for region in mesh.regions:
+        holders = [holder for holder in mesh.holders(region) if holder in named]
+        if holders:
+            found[region] = named[holders[0]]
+    return found
 
 
 def _loss_factor(field: str, materials: Mapping[str, Material]) -> float | None:

@@ -9,9 +9,10 @@ from difflib import get_close_matches
 from pathlib import Path
 
 from meshes import limits
-from meshes.abaqus_scope import Elements, Piece, Scope, Surface
+from meshes.abaqus_rows import CellRows, OtherRows, counted, not_read
+from meshes.abaqus_scope import NamedSet, Piece, Scope, Surface
 from meshes.abaqus_system import System
-from meshes.abaqus_types import NODE_ORDER, kind_of
+from meshes.abaqus_types import kind_of
 from meshes.cells import CELL_TYPES
 from meshes.deck_lines import DeckLines
 from meshes.file_mesh import remedy_for, unusable
@@ -60,7 +61,8 @@ class Deck:
         self._system = System()
         self._row: Row | None = None
         self._end: Callable[[], None] | None = None
-        self._nodes = self._cells = 0
+        self._nodes = 0
+        self._count = counted(self.lines)
         self._started = False
         #: The first line, which may count what follows.
         self.first_line = ""
@@ -150,7 +152,9 @@ class Deck:
                 numbers.append(int(fields[0]))
                 places.extend([real(f) for f in (*fields[1:4], "", "", "")[:3]])
             except (ValueError, OverflowError):
-                raise self._not_read(text, "a node: its number and three coordinates") from None
+                raise not_read(
+                    self.lines, text, "a node: its number and three coordinates"
+                ) from None
             self._nodes += 1
             if self._nodes > limits.MOST_POINTS:
                 limits.check_counts(self.lines.path, self._nodes)
@@ -176,81 +180,17 @@ class Deck:
             )
         if self.instances and scope is not self.assembly:
             self.instances[-1].has_mesh = True
-        if kind:
-            numbers = self._cell_rows(scope, type_, kind)
-        else:
-            numbers = self._other_rows(scope)
-        row, found, finish = numbers
+        rows: CellRows | OtherRows = (
+            CellRows(self.lines, scope, type_, kind, self._count) if kind else OtherRows(scope)
+        )
 
         def end() -> None:
-            finish()
-            if options.get("ELSET") and len(found()):
-                piece = Piece(where, scope, found(), from_elements=True)
+            rows.finish()
+            if options.get("ELSET") and len(rows.numbers()):
+                piece = Piece(where, scope, rows.numbers(), from_elements=True)
                 scope.piece(scope.element_sets, options["ELSET"], piece, internal=False)
 
-        self._begin(row, end, options)
-
-    def _cell_rows(
-        self, scope: Scope, type_: str, kind: str
-    ) -> tuple[Row, Callable[[], object], Callable[[], None]]:
-        """Rows of cells, which go on until all nodes are there."""
-        size = CELL_TYPES[kind].size
-        block = Elements(type_, kind, size, self.lines.where)
-        rows, width = block.rows, size + 1
-        pending: list[int] = []
-        scope.elements.append(block)
-
-        def row(text: str) -> None:
-            try:
-                values = list(map(int, text.rstrip(", \t").split(",")))
-            except ValueError:
-                raise self._not_read(text, "an element: whole numbers") from None
-            if pending or len(values) != width:
-                pending.extend(values)
-                if len(pending) < width:
-                    return
-                values = list(pending)
-                pending.clear()
-                if len(values) != width:
-                    raise self.lines.error(
-                        f"ends element {values[0]} with {len(values) - 1} nodes; {type_} has {size}",
-                        "Check the element, or export the mesh again.",
-                    )
-            try:
-                rows.extend(values)
-            except OverflowError:
-                raise self._not_read(text, "an element: whole numbers") from None
-            self._cells += 1
-            if self._cells > limits.MOST_CELLS:
-                limits.check_counts(self.lines.path, 0, self._cells)
-
-        def finish() -> None:
-            if pending:
-                raise self.fail(
-                    block.where,
-                    f"begins elements of which the last, {pending[0]}, has "
-                    f"{len(pending) - 1} of {size} nodes",
-                    "The file is cut short: export it again.",
-                )
-            if kind in NODE_ORDER:
-                table = block.table.copy()
-                table[:, 1:] = table[:, 1:][:, list(NODE_ORDER[kind])]
-                block.rows = type(rows)("q", table.tobytes())
-
-        return row, lambda: rows[::width], finish
-
-    def _other_rows(self, scope: Scope) -> tuple[Row, Callable[[], object], Callable[[], None]]:
-        """Rows of points and lines: their numbers alone are kept."""
-        first, others = len(scope.others), scope.others
-        state = {"goes on": False}
-
-        def row(text: str) -> None:
-            head = text.split(",", 1)[0].strip()
-            if not state["goes on"] and re.fullmatch(r"\d{1,18}", head):
-                others.append(int(head))
-            state["goes on"] = text.endswith(",")
-
-        return row, lambda: others[first:], lambda: None
+        self._begin(rows.row, end, options)
 
     def _on_nset(self, options: dict[str, str]) -> None:
         self._set(options, "NSET", self._scope.node_sets)
@@ -258,13 +198,13 @@ class Deck:
     def _on_elset(self, options: dict[str, str]) -> None:
         self._set(options, "ELSET", self._scope.element_sets)
 
-    def _set(self, options: dict[str, str], key: str, sets: dict[str, object]) -> None:
+    def _set(self, options: dict[str, str], key: str, sets: dict[str, NamedSet]) -> None:
         name = options.get(key, "")
         if not name:
             raise self.lines.error(f"begins a set without {key}=NAME", "Name the set.")
         scope = self._scope
         piece = Piece(self.lines.where, self._placed(options.get("INSTANCE", "")))
-        scope.piece(sets, name, piece, internal="INTERNAL" in options)  # type: ignore[arg-type]
+        scope.piece(sets, name, piece, internal="INTERNAL" in options)
         if key == "NSET" and options.get("ELSET"):
             piece.of_elements = True
             piece.names.append(options["ELSET"])
@@ -288,9 +228,9 @@ class Deck:
             values = [int(f) for f in fields if f]
             first, last, step = (*values, 1) if len(values) == 2 else values
         except ValueError:
-            raise self._not_read(text, "first, last and step of a range") from None
+            raise not_read(self.lines, text, "first, last and step of a range") from None
         if step < 1 or last < first:
-            raise self._not_read(text, "an ascending range")
+            raise not_read(self.lines, text, "an ascending range")
         return first, last, step
 
     def _on_surface(self, options: dict[str, str]) -> None:
@@ -350,7 +290,7 @@ class Deck:
             try:
                 instance.rows.append([real(f) for f in text.split(",") if f.strip()])
             except ValueError:
-                raise self._not_read(text, "a translation or a rotation") from None
+                raise not_read(self.lines, text, "a translation or a rotation") from None
 
         self._begin(row, None, options)
 
@@ -376,7 +316,7 @@ class Deck:
             try:
                 rows.append([real(f) for f in text.split(",")])
             except ValueError:
-                raise self._not_read(text, "points of a coordinate system") from None
+                raise not_read(self.lines, text, "points of a coordinate system") from None
 
         where = self.lines.where
 
@@ -396,12 +336,6 @@ class Deck:
         self._row, self._end = row, end
         if options.get("INPUT"):
             self.lines.include(options["INPUT"])
-
-    def _not_read(self, text: str, wanted: str) -> ModelError:
-        return self.lines.error(
-            f"holds {text[:60]!r}; it should be {wanted}",
-            "Check the line; where the file is cut short or damaged, export it again.",
-        )
 
 
 def real(text: str) -> float:

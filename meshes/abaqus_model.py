@@ -55,7 +55,9 @@ class DeckModel:
     def file_mesh(self) -> FileMesh:
         """Everything that the deck holds."""
         scopes = (self.main.scope, self.deck.assembly)
-        sections, sets, helpers = {}, {}, {}
+        sections: dict[str, Ints] = {}
+        sets: dict[str, Ints] = {}
+        helpers: dict[str, Ints] = {}
         faces: dict[str, list[Block]] = {}
         used = {
             row[0].upper()
@@ -99,8 +101,8 @@ class DeckModel:
         for piece in found.pieces:
             index = self._index(piece)
             parts.append(index.cells(piece) if index is self.main else np.zeros(0, np.int64))
-            for name in piece.names:
-                parts.append(self._entry(piece, scope, name, (*open_, found.name), "element"))
+            inner = (*open_, found.name)
+            parts += [self._entry(piece, scope, name, inner, "element") for name in piece.names]
         return np.unique(np.concatenate(parts))
 
     def nodes(self, scope: Scope, found: NamedSet, open_: tuple[str, ...]) -> Ints:
@@ -112,8 +114,8 @@ class DeckModel:
                 parts.append(self._nodes_of(cells))
                 continue
             parts.append(self._index(piece).nodes_of(piece))
-            for name in piece.names:
-                parts.append(self._entry(piece, scope, name, (*open_, found.name), "node"))
+            inner = (*open_, found.name)
+            parts += [self._entry(piece, scope, name, inner, "node") for name in piece.names]
         return np.unique(np.concatenate(parts))
 
     def _entry(

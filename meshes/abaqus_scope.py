@@ -91,7 +91,7 @@ class Scope:
         """Whether it holds no element."""
         return not self.elements
 
-    def piece(self, sets: dict[str, NamedSet], name: str, piece: Piece, internal: bool) -> None:
+    def piece(self, sets: dict[str, NamedSet], name: str, piece: Piece, *, internal: bool) -> None:
         """Add a block to the set of that name."""
         found = sets.setdefault(name.upper(), NamedSet(name))
         found.internal |= internal

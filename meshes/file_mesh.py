@@ -20,6 +20,8 @@ Array = NDArray[Any]
 Ints = NDArray[np.int64]
 #: Nodes of some cells of one kind.
 Block = tuple[str, Ints]
+#: Coordinates beyond this are no machine's, m.
+FARTHEST = 1e9
 #: Solids that other programs write and that cannot be analysed here.
 UNUSABLE = {
     "wedge": "a wedge (pentahedron)",
@@ -70,7 +72,7 @@ class FileMesh:
         Raises
         ------
         ModelError
-            No solid cells.
+            No solid cells; coordinates out of all proportion.
         """
         solids = [(kind, nodes) for kind, nodes in self.solids if len(nodes)]
         if not solids:
@@ -93,7 +95,7 @@ class FileMesh:
         patches = {name: _patch(same) for name, same in self.faces.items()}
         sets = {
             n: np.unique(cells)
-            for n, cells in {**self.helpers, **self.cell_sets, **self.sections}.items()
+            for n, cells in {**self.sections, **self.helpers, **self.cell_sets}.items()
         }
         kept = {
             n: number[cells]
@@ -103,7 +105,15 @@ class FileMesh:
         }
         points = np.asarray(self.points, dtype=float) * scale
         mesh = Mesh(points, made, names, self.node_sets, patches, name, kept)
-        return without_orphans(_outwards(mesh))
+        used = without_orphans(_outwards(mesh))
+        farthest = float(np.abs(used.points).max())
+        if farthest > FARTHEST:
+            raise ModelError(
+                f"mesh {name}",
+                f"has a point at {farthest:.4g} m.",
+                "Check the coordinates, and the unit.",
+            )
+        return used
 
 
 def unusable(kind: str) -> str:

@@ -81,7 +81,10 @@ def _lines(values: list[int], end: str) -> Iterator[str]:
 
 
 def _labels(mesh: Mesh, groups: list[Group]) -> dict[tuple[int, str], str]:
-    """Names without spaces and commas, cell sets as dimension 4; ModelError where two become one."""
+    """Names without spaces and commas, those of cell sets under 4.
+
+    ModelError where two become one.
+    """
     names = [*((g.dimension, g.name) for g in groups), *((4, name) for name in mesh.cell_sets)]
     labels = {(kind, name): re.sub(r"[\s,=*]+", "_", name) for kind, name in names}
     for dimension in (0, 2, 3, 4):

@@ -35,7 +35,8 @@ def read(path: Path) -> FileMesh:
         if kind not in CELL_TYPES:
             raise ModelError(
                 str(path),
-                f"holds {len(nodes)} cells of which each is {unusable(kind)}, which cannot be used.",
+                f"holds {len(nodes)} cells of which each is {unusable(kind)}, which cannot be "
+                "used.",
                 remedy_for(kind),
             )
         dimension = CELL_TYPES[kind].dimension

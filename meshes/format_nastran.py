@@ -99,12 +99,8 @@ def sixteen(value: float) -> str:
     plain = repr(value)
     if len(plain) <= 16:
         return plain.replace("e", "E") if "." in plain else plain.replace("e", ".E")
-    for digits in range(14, 8, -1):
-        mantissa, exponent = f"{value:.{digits}E}".split("E")
-        short = f"{mantissa}{int(exponent):+d}"
-        if len(short) <= 16:
-            return short
-    return short
+    tries = (f"{value:.{digits}E}".split("E") for digits in range(14, 7, -1))
+    return next(s for m, e in tries if len(s := f"{m}{int(e):+d}") <= 16)
 
 
 def _check_counts(path: Path, bulk: BulkData, elements: int) -> None:

@@ -224,7 +224,7 @@ def _nodes(found: GmshFile, values: Values, version: float, size: str) -> None:
             points.append(rows["x"][:, :3].astype(float))
         else:
             table = values.take(count * (1 + width), "d").reshape(count, 1 + width)
-            numbers.append(table[:, 0].astype(np.int64))
+            numbers.append(values.whole(table[:, 0]))
             points.append(table[:, 1:4])
     found.numbers = np.concatenate([*numbers, np.zeros(0, np.int64)])
     found.points = np.concatenate([*points, np.zeros((0, 3))])
@@ -244,7 +244,7 @@ def _nodes_2(found: GmshFile, values: Values) -> None:
     if len(left) != 4 * count:
         raise _miscounted(found, "nodes", count, len(left) / 4)
     table = left.reshape(count, 4)
-    found.numbers, found.points = table[:, 0].astype(np.int64), table[:, 1:]
+    found.numbers, found.points = values.whole(table[:, 0]), table[:, 1:]
 
 
 def _parametric_2(found: GmshFile, values: Values, version: float, size: str) -> None:
@@ -304,7 +304,11 @@ def _binary_2(found: GmshFile, values: Values, count: int) -> None:
             raise values.cut()
         table = values.take(rows * (1 + tags + width)).reshape(rows, 1 + tags + width)
         physical = table[:, 1] if tags else np.zeros(rows, np.int64)
-        found.cells.append(Cells(kind, table[:, 0], table[:, 1 + tags :], physical=abs(physical)))
+        found.cells.append(
+            Cells(
+                kind, table[:, 0], table[:, 1 + tags :], physical=np.abs(physical).astype(np.int64)
+            )
+        )
         read += rows
 
 
@@ -314,7 +318,7 @@ def _text_2(found: GmshFile, values: Values, count: int) -> None:
     while read < count:
         if at + 3 > len(flat):
             raise values.cut()
-        type_, tags = int(flat[at + 1]), int(flat[at + 2])
+        type_, tags = values.whole(flat[at + 1 : at + 3]).tolist()
         kind, nodes = _type(found, type_)
         width = 3 + tags + nodes
         if tags < 0 or at + width > len(flat):
@@ -333,9 +337,13 @@ def _text_2(found: GmshFile, values: Values, count: int) -> None:
             if same < more:
                 break
             chunk *= 4
-        table = flat[at : at + rows * width].reshape(rows, width).astype(np.int64)
+        table = values.whole(flat[at : at + rows * width].reshape(rows, width))
         physical = table[:, 3] if tags else np.zeros(rows, np.int64)
-        found.cells.append(Cells(kind, table[:, 0], table[:, 3 + tags :], physical=abs(physical)))
+        found.cells.append(
+            Cells(
+                kind, table[:, 0], table[:, 3 + tags :], physical=np.abs(physical).astype(np.int64)
+            )
+        )
         at += rows * width
         read += rows
     if at != len(flat):

@@ -68,10 +68,8 @@ class Values:
             if len(found) < count:
                 raise self.cut()
             self._at += count
-            return found if kind == "d" else found.astype(np.int64)
-        type_ = np.dtype({"i": "i4", "d": "f8", "u": "u8", "U": "u4"}[kind]).newbyteorder(
-            self.order
-        )
+            return found if kind == "d" else self.whole(found)
+        type_ = np.dtype(self.order + {"i": "i4", "d": "f8", "u": "u8", "U": "u4"}[kind])
         return self.records(np.dtype([("x", type_)]), count)["x"].astype(
             float if kind == "d" else np.int64
         )
@@ -84,6 +82,18 @@ class Values:
         found = np.frombuffer(self.content, type_, count, self.position)
         self.position += size
         return found
+
+    def whole(self, values: Array) -> Array:
+        """Numbers of a text as whole ones; ModelError where they are none."""
+        # beyond 2**53 a float is no exact number; NaN fails the comparison too
+        fits = (np.abs(values) < 2.0**53) & (values == np.round(values))
+        if not fits.all():
+            raise ModelError(
+                str(self.path),
+                f"${self.section} holds {values[~fits].flat[0]:g} where a whole number belongs.",
+                "The file is cut short or damaged: export it again.",
+            )
+        return values.astype(np.int64)
 
     def left(self) -> Array:
         """All numbers of a text section that are left."""

@@ -24,7 +24,8 @@ KINDS = {
     "QU9": ("quad9", 9), "TE4": ("tetra", 4), "T10": ("tetra10", 10), "HE8": ("hexahedron", 8),
     "H20": ("hexahedron20", 20), "PE6": ("wedge", 6), "P15": ("wedge15", 15),
     "P18": ("wedge18", 18), "PY5": ("pyramid", 5), "P13": ("pyramid13", 13),
-    "H27": ("hexahedron27 of MED", 27), "TR7": ("triangle7", 7), "OG2": ("prism with six sides", 12),
+    "H27": ("hexahedron27 of MED", 27), "TR7": ("triangle7", 7),
+    "OG2": ("prism with six sides", 12),
 }  # fmt: skip
 #: Polygons and polyhedra, which have no fixed number of nodes.
 FACES_ALONE = {"POG", "PO2"}

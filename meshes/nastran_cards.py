@@ -42,7 +42,8 @@ def cards(lines: DeckLines, comments: list[str]) -> Iterator[Card]:
     ModelError
         A continuation without its card, a line of more than ten fields, data of superelements.
     """
-    name, fields, where, label = "", [], "", ""
+    name = where = label = ""
+    fields: list[str] = []
     begun = not has_begin(lines)
     for line in _included(lines):
         if line.startswith("$"):
@@ -59,33 +60,45 @@ def cards(lines: DeckLines, comments: list[str]) -> Iterator[Card]:
             continue
         head, found, next_label, large = _fields(lines, text)
         if head[:1] in {"+", "*", ""}:
-            if not name:
-                raise lines.error("goes on with no card before it", "Check the line above it.")
-            own = head[1:].strip()
-            if own and label and own != label:
-                raise lines.error(
-                    f"goes on with {head!r}, which is not the card before it",
-                    "Put each continuation after its card.",
-                )
+            _check_follows(lines, name, head, label)
         else:
             if name:
                 yield Card(name, fields, where)
             if head == "ENDDATA":
                 return
             name, fields, where = head, [], lines.where
-            if not re.match(r"[A-Z][A-Z0-9]*$", name):
-                if CONTROL.match(text.strip()):
-                    name = ""
-                    continue
-                raise lines.error(
-                    f"holds {text[:60]!r}, which is no card", "Check the line, or export it again."
-                )
+            if not _is_card(lines, name, text):
+                name = ""
+                continue
         fields += found
         # a short line ends with blank fields where another goes on
         fields += [""] * (-len(fields) % (4 if large else 8))
         label = next_label
     if name:
         yield Card(name, fields, where)
+
+
+def _is_card(lines: DeckLines, name: str, text: str) -> bool:
+    """Whether a line begins a card; ModelError where it is no statement before the cards."""
+    if re.match(r"[A-Z][A-Z0-9]*$", name):
+        return True
+    if CONTROL.match(text.strip()):
+        return False
+    raise lines.error(
+        f"holds {text[:60]!r}, which is no card", "Check the line, or export it again."
+    )
+
+
+def _check_follows(lines: DeckLines, name: str, head: str, label: str) -> None:
+    """ModelError where a continuation has no card before it, or another one."""
+    if not name:
+        raise lines.error("goes on with no card before it", "Check the line above it.")
+    own = head[1:].strip()
+    if own and label and own != label:
+        raise lines.error(
+            f"goes on with {head!r}, which is not the card before it",
+            "Put each continuation after its card.",
+        )
 
 
 def has_begin(lines: DeckLines) -> bool:

@@ -124,7 +124,7 @@ class BulkData:
             )
 
     def _element(self, card: Card) -> None:
-        plain, full, order = ELEMENTS[card.name]
+        plain, _, order = ELEMENTS[card.name]
         fields = card.fields
         count = len(order)
         nodes = [whole(f) for f in fields[2 : 2 + count]]

@@ -72,6 +72,7 @@ class Systems:
         done = systems == 0
         for system in np.unique(systems).tolist():
             if system:
+                self._of(system, f"grid point {numbers.numbers[systems == system][0]}")
                 self._place(system, numbers, systems, places, found, done, ())
         return found
 
@@ -99,7 +100,7 @@ class Systems:
             raise self.lines.error(
                 f"names the coordinate system {number}, which the file does not give",
                 "Add its CORD card, or export the mesh in the basic system.",
-                where or "a GRID card",
+                where,
             )
         return self.given[number]
 
@@ -138,10 +139,8 @@ class Systems:
                     self._place(system, *args)
             points = found[at]
         else:
-            if given.reference:
-                shape = self._of(given.reference, given.where).shape
-            else:
-                shape = "R"
+            reference = given.reference
+            shape = self._of(reference, given.where).shape if reference else "R"
             origin, axes = self._frame(given.reference, *args)
             points = origin + _rectangular(shape, given.points) @ axes.T
         z = points[1] - points[0]

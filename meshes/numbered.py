@@ -47,4 +47,4 @@ class Numbered:
         low, high = np.searchsorted(self._sorted, [first, last + 1])
         inside = slice(int(low), max(int(low), int(high)))
         own = (self._sorted[inside] - first) % step == 0
-        return self._order[inside][own]
+        return np.asarray(self._order[inside][own], dtype=np.int64)

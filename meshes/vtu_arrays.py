@@ -176,7 +176,7 @@ def _piece(source: bytes, start: int, size: int, *, raw: bool) -> bytes:
 def _unpacked(data: bytes, size: int, compressor: str) -> bytes:
     """A block unpacked; never more than it says."""
     unpacker = zlib.decompressobj() if "ZLib" in compressor else lzma.LZMADecompressor()
-    found = unpacker.decompress(data, size + 1)  # type: ignore[attr-defined]
+    found = unpacker.decompress(data, size + 1)
     if len(found) != size:
         raise ValueError(f"a block of {size} bytes unpacks to others")
     return bytes(found)

@@ -69,3 +69,7 @@ class ValidityWarning(ModelWarning):
 
 class ProportionWarning(ModelWarning):
     """Dimensions out of all proportion to one another: probably a length that is not in metres."""
+
+
+class PoseWarning(UserWarning):
+    """Some poses of a batch have no answer; the message counts them by reason."""

@@ -53,6 +53,7 @@ def test_keys_of_the_json(strutwork: Program) -> None:
         "mechanisms",
         "driven_motions",
         "self_stress_states",
+        "near_mechanisms",
         "mass",
         "solids",
     }

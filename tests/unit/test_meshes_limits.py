@@ -76,7 +76,7 @@ def test_includes_share_one_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     path = tmp_path / "part.inp"
     path.write_text("*INCLUDE, INPUT=b.inc\n" * 10)
     monkeypatch.setattr(limits, "LARGEST_FILE", 2000)
-    with pytest.raises(ModelError, match="line 4 includes 'b.inc': the file has .* is the limit"):
+    with pytest.raises(ModelError, match=r"line 4 includes 'b.inc': the file has .* is the limit"):
         read_mesh(path)
     monkeypatch.setattr(limits, "LARGEST_FILE", 10**6)
     monkeypatch.setattr("meshes.deck_lines.MOST_INCLUDES", 5)

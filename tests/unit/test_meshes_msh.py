@@ -110,7 +110,7 @@ def test_each_version_gives_its_cells_and_groups(version: str, how: str, tmp_pat
 
 @pytest.mark.parametrize("version", ["4", "4.1"])
 @pytest.mark.parametrize("binary", [False, True])
-def test_parameters_of_nodes_are_passed_over(version: str, binary: bool, tmp_path: Path) -> None:  # noqa: FBT001
+def test_parameters_of_nodes_are_passed_over(version: str, binary: bool, tmp_path: Path) -> None:
     mesh = read(tmp_path, msh(version, binary=binary, parametric=True))
     assert cell_volumes(mesh) == pytest.approx(np.ones(2))
 
@@ -131,7 +131,7 @@ def test_what_is_cut_short_is_refused(
     version: str,
     binary: bool,
     share: float,
-    tmp_path: Path,  # noqa: FBT001
+    tmp_path: Path,
 ) -> None:
     content = msh(version, binary=binary)
     content = content[: content.rindex(b"$EndElements")]

@@ -117,8 +117,13 @@ def test_what_is_not_understood_is_named(old: str, new: str, words: str, tmp_pat
         read_mesh(path)
 
 
-@pytest.mark.parametrize(("number", "words"), [(11, "voxel"), (13, "wedge"), (14, "pyramid"), (42, "poly"),
-                                               (72, "higher order"), (99, "VTK type 99")])  # fmt: skip
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [
+        *((11, "voxel"), (13, "wedge"), (14, "pyramid"), (42, "polyhedron")),
+        *((72, "higher order"), (99, "VTK type 99")),
+    ],
+)
 def test_solids_that_cannot_be_used_are_named(number: int, words: str, tmp_path: Path) -> None:
     text = ascii_text(tmp_path)
     start = text.index('Name="types"')
@@ -137,7 +142,7 @@ def test_what_unpacks_to_more_than_the_limit_is_refused_before(
         *(two_regions(), tmp_path / "part.vtu", f"SetCompressorTypeTo{compressor}"), block=32768
     )
     monkeypatch.setattr(limits, "LARGEST_CONTENT", 1500)
-    with pytest.raises(ModelError, match="unpacks to .* MB; 0.0015 MB is the limit"):
+    with pytest.raises(ModelError, match=r"unpacks to .* MB; 0.0015 MB is the limit"):
         read_mesh(path)
 
 

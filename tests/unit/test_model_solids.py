@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import importlib.util
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -219,6 +220,13 @@ def test_each_region_has_its_material(tmp_path: Path) -> None:
     assert model.solids[0].weighed[0] == pytest.approx(expected, rel=1e-9)
     with pytest.raises(ModelError, match=r"(?s)solids\.column.*'cap' has no material"):
         model_of(*edits, put("solids.0.materials", {"stone": "granite"}), folder=tmp_path)
+    # a group around several regions stands for those that have no material of their own
+    whole_mesh = joined(low, high)
+    groups = {"everything": np.arange(whole_mesh.cell_count)}
+    write_mesh(replace(whole_mesh, cell_sets=groups), tmp_path / "part.msh")
+    by_group = {"everything": "granite", "cap": "steel"}
+    model = model_of(*edits, put("solids.0.materials", by_group), folder=tmp_path)
+    assert model.solids[0].weighed[0] == pytest.approx(expected, rel=1e-9)
     lossy = put("materials.steel.loss_factor", 0.02)
     with pytest.warns(ModelWarning, match="the least of them, 0"):
         model_of(*edits, both, lossy, folder=tmp_path)
