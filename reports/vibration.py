@@ -139,7 +139,8 @@ def vibration_target(
     Raises
     ------
     ModelError
-        No such machine, variant or file, a variant for statics, a wrong model, both kinds of damping, an unknown load case.
+        No such machine, variant or file, a variant for statics, a wrong model, both kinds of
+        damping, an unknown load case.
     """
     from machines.catalogue import CATALOGUE
     from machines.model_file import read_model
