@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
@@ -19,6 +19,7 @@ from msa.assembly import System, system_of
 from msa.mass import mass_matrix, sparse_mass
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.outcome import Outcome, solve_poses
 
 Array = NDArray[Any]
 Method = Literal["dense", "sparse"]
@@ -56,6 +57,9 @@ class Modes:
         Empty, or that fewer modes exist than were asked for.
     solver : str
         Which eigenvalue solver ran, with its factorisation.
+    outcome : Outcome
+        Which poses were solved, and why others were not; the numbers of those are NaN and they
+        have no rigid-body modes.
     """
 
     placed: PlacedStructure
@@ -68,6 +72,7 @@ class Modes:
     energy_shares: Array
     note: str = ""
     solver: str = "dense"
+    outcome: Outcome = field(default_factory=lambda: Outcome.good(()))
 
     def __repr__(self) -> str:
         first = self.frequencies.reshape(-1, self.frequencies.shape[-1])[0][:4]
@@ -125,7 +130,8 @@ def modes(
     NumericalError
         A preload under which the structure buckles or falls; names the critical share of it.
     MechanismError
-        The stiffness is not positive beside the rigid-body modes.
+        The stiffness is not positive beside the rigid-body modes. As the one before, at the
+        single pose or at all of a batch; else `outcome` marks the poses.
     """
     if count < 1:
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
@@ -134,18 +140,34 @@ def modes(
     if preload is not None:
         placed = pulled(placed, np.asarray(preload, dtype=float))
     system = system_of(placed)
-    found, solver = _solve(system, count, method)
-    frequencies, shapes, effective, total, shares, rigid = found
+    every: list[Array] = []
+    solvers: list[str] = []
+
+    def run(part: NDArray[np.intp]) -> None:
+        some = system_of(system.placed[part])
+        some.placed.check()
+        found, solver = _solve(some, count, method)
+        if not every:
+            every.extend(_missing(array, system.poses) for array in found)
+        for whole, array in zip(every, found, strict=True):
+            whole[part] = array
+        solvers.append(solver)
+
+    outcome = solve_poses(run, system.poses).require_some()
+    frequencies, shapes, effective, total, shares, rigid = every
+    solver = solvers[0]
     exist = int(np.isfinite(frequencies).sum(axis=-1).max())
     note = ""
     if exist < count:
         note = f"{count} modes were asked for and {exist} exist: these are all there are."
         frequencies, shapes = frequencies[:, :exist], shapes[:, :exist]
         effective, shares = effective[:, :exist], shares[:, :exist]
-    if not np.all(np.isfinite(shapes)):
+    if not np.all(np.isfinite(shapes[outcome.solved])):
         raise NumericalError("mode shapes", "are not finite.", "Check masses and stiffnesses.")
     batch = placed.batch
-    names = tuple(dict.fromkeys(name for name, _, _ in system_of(placed).contributions()))
+    # parts have the same names at every pose; at one without an answer they may have no numbers
+    one = system_of(system.placed[np.flatnonzero(outcome.solved)[:1]])
+    names = tuple(dict.fromkeys(name for name, _, _ in one.contributions()))
     if placed.stiffening is not None:
         names = (*names, PRELOAD)
 
@@ -163,7 +185,14 @@ def modes(
         shaped(shares),
         note,
         solver,
+        outcome.reshaped(batch),
     )
+
+
+def _missing(array: Array, poses: int) -> Array:
+    """An array for all poses that says nothing yet."""
+    empty = np.nan if array.dtype.kind == "f" else 0
+    return np.full((poses, *array.shape[1:]), empty, dtype=array.dtype)
 
 
 def _solve(system: System, count: int, method: Method | None) -> tuple[list[Array], str]:

@@ -1,5 +1,6 @@
 """Kinematics: joints, linkages, placements, their constraint rows and what follows from them."""
 
+from kinematics.forward import FoundPoses, forward_kinematics
 from kinematics.frames import (
     angle,
     axes_frame,
@@ -13,8 +14,9 @@ from kinematics.jacobians import Jacobians, jacobians
 from kinematics.joint import DIRECTIONS, JOINT_TYPES, Joint, State
 from kinematics.linkage import GROUND, Body, Linkage
 from kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
-from kinematics.mechanism import Mechanism, Poses, drive_values, forward_kinematics
+from kinematics.mechanism import Mechanism, Poses, drive_values
 from kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
+from kinematics.near_mechanism import NearMechanism, near_motions
 from kinematics.placement import Placement, check_coincidence
 from kinematics.rows import (
     ConstraintRows,
@@ -30,12 +32,14 @@ __all__ = [
     "JOINT_TYPES",
     "Body",
     "ConstraintRows",
+    "FoundPoses",
     "FreeMotion",
     "Jacobians",
     "Joint",
     "Linkage",
     "Mechanism",
     "Mobility",
+    "NearMechanism",
     "Placement",
     "Poses",
     "SelfStress",
@@ -53,6 +57,7 @@ __all__ = [
     "forward_kinematics",
     "jacobians",
     "mobility",
+    "near_motions",
     "rotation_x",
     "rotation_y",
     "rotation_z",

@@ -57,7 +57,8 @@ class Joint:
         Viscous damping, N·s/m or N·m·s/rad.
     driven : tuple of directions
         Actuated directions: free for kinematics; held in statics, or elastic where
-        `stiffness` names them.
+        `stiffness` names them. Each is free by the joint's type, or elastic: a direction that
+        the type or `locks` holds cannot move, whatever drives it.
     limits : mapping of direction to (low, high)
         Range of the joint coordinate, m or rad.
     matrix : (6, 6) nested tuples or None
@@ -68,7 +69,8 @@ class Joint:
     Raises
     ------
     ModelError
-        An unknown type or direction, a negative stiffness, an asymmetric matrix.
+        An unknown type or direction, a negative stiffness, an asymmetric matrix, a drive in a
+        locked direction.
     """
 
     name: str
@@ -133,6 +135,24 @@ class Joint:
                 "a bushing without matrix or stiffness or damping.",
                 "Give it a matrix or a stiffness; damping alone makes it a dashpot.",
             )
+        self._check_driven(part)
+
+    def _check_driven(self, part: str) -> None:
+        held = {*JOINT_TYPES[self.type], *self.locks} - set(self.stiffness)
+        wrong = [d for d in DIRECTIONS if d in self.driven and d in held]
+        if not wrong:
+            return
+        free = [d for d in DIRECTIONS if d not in held]
+        kinds = [kind for kind, locked in JOINT_TYPES.items() if locked and wrong[0] not in locked]
+        remedy = (
+            f"Of this joint {', '.join(free)} can be driven; " if free else "It has no free one; "
+        ) + (f"{wrong[0]} is free in {', '.join(kinds)} joints. " if kinds else "")
+        raise ModelError(
+            part,
+            f"drives {', '.join(wrong)}, which a {self.type} joint locks"
+            f"{'' if set(wrong) <= set(JOINT_TYPES[self.type]) else ' or its locks hold'}.",
+            remedy + "Directions are those of the joint's own axes, whose z is its axis.",
+        )
 
     @property
     def states(self) -> tuple[State, ...]:

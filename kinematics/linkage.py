@@ -116,6 +116,19 @@ class Linkage:
         return np.asarray(self._grouping[1], dtype=np.intp)
 
     @property
+    def tool_body(self) -> int:
+        """Index into `body_names` of the tool's body, -1 for ground.
+
+        Raises
+        ------
+        ModelError
+            The linkage has no tool.
+        """
+        if self.tool is None:
+            raise ModelError("linkage", "has no tool.", "Name the tool centre point's node.")
+        return int(self.body_of_node[self.node_index[self.tool]])
+
+    @property
     def driven(self) -> tuple[tuple[str, str], ...]:
         """Driven directions as (joint name, direction), in joint order."""
         return tuple(

@@ -12,6 +12,9 @@ from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
+#: A singular value below this share of the largest is rounding: the drives do not hold the tool.
+FLAT = 1e-14
+
 
 @dataclass(frozen=True)
 class VelocityEllipsoid:
@@ -21,7 +24,7 @@ class VelocityEllipsoid:
     ----------
     semi_axes : (..., k)
         Largest first, in tool velocity per drive rate; infinite where the drives cannot hold
-        the tool.
+        the tool, zero where they cannot move it: at a parallel and at a serial singularity.
     directions : (..., k, k)
         Unit vectors of the semi-axes as columns.
     """
@@ -35,8 +38,10 @@ class VelocityEllipsoid:
 
     @property
     def condition(self) -> Array:
-        """Largest over smallest semi-axis, (...)."""
-        return np.asarray(self.semi_axes[..., 0] / self.semi_axes[..., -1])
+        """Largest over smallest semi-axis, (...); infinite at every singularity."""
+        first, last = self.semi_axes[..., 0], self.semi_axes[..., -1]
+        endless = np.isinf(first) | (last == 0.0)
+        return np.where(endless, np.inf, np.where(endless, 1.0, first) / np.where(endless, 1, last))
 
     @property
     def smallest(self) -> Array:
@@ -45,8 +50,12 @@ class VelocityEllipsoid:
 
     @property
     def volume(self) -> Array:
-        """Product of the semi-axes, (...): the volume in units of a unit ball's."""
-        return np.asarray(self.semi_axes.prod(axis=-1))
+        """Product of the semi-axes, (...): the volume in units of a unit ball's.
+
+        Zero where an axis is, whatever the others.
+        """
+        flat = (self.semi_axes == 0.0).any(axis=-1)
+        return np.where(flat, 0.0, np.where(flat[..., None], 1.0, self.semi_axes).prod(axis=-1))
 
 
 def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
@@ -58,7 +67,8 @@ def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
     Parameters
     ----------
     inverse : (..., a, k)
-        C, the columns of the inverse Jacobian of k freedoms of one unit; a ≥ k.
+        C, the columns of the inverse Jacobian of k freedoms of one unit; a ≥ k. A freedom with an
+        infinite rate is one in which the drives cannot move the tool.
 
     Returns
     -------
@@ -67,7 +77,7 @@ def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
     Raises
     ------
     ModelError
-        Less drives than freedoms, or a matrix that is not finite.
+        Less drives than freedoms, or an entry that is not a number.
     """
     matrix = np.asarray(inverse, dtype=float)
     if matrix.ndim < 2 or matrix.shape[-2] < matrix.shape[-1]:
@@ -76,13 +86,24 @@ def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
             f"got an inverse Jacobian of shape {matrix.shape}.",
             "Give one row a drive and one column a freedom, with at least as many rows.",
         )
-    if not np.all(np.isfinite(matrix)):
+    if np.any(np.isnan(matrix)):
         raise ModelError(
             "velocity ellipsoid",
-            "got an inverse Jacobian that is not finite: a serial singularity.",
-            "Leave such poses out.",
+            "got an inverse Jacobian with entries that are not numbers.",
+            "Leave out poses that the machine cannot take.",
         )
-    _, values, right = np.linalg.svd(matrix, full_matrices=False)
+    freedoms = matrix.shape[-1]
+    stuck = np.isinf(matrix).any(axis=-2)
+    safe = np.where(stuck[..., None, :], 0.0, matrix)
+    # a stuck freedom gets a drive of its own, faster than all others: its singular value is the
+    # largest, and its direction its own
+    largest = 1.0 + 2.0 * np.linalg.norm(safe, axis=(-2, -1))[..., None, None]
+    own = np.eye(freedoms) * stuck[..., None, :] * largest
+    _, values, right = np.linalg.svd(np.concatenate([safe, own], axis=-2), full_matrices=False)
+    count = stuck.sum(axis=-1)[..., None]
+    order = np.arange(freedoms)
+    true = np.take_along_axis(values, np.minimum(count, freedoms - 1), axis=-1)
+    values = np.where(values <= FLAT * true, 0.0, values)
     with np.errstate(divide="ignore"):
-        axes = 1.0 / values[..., ::-1]
+        axes = np.where(order < count, 0.0, 1.0 / values)[..., ::-1]
     return VelocityEllipsoid(axes, np.swapaxes(right, -1, -2)[..., ::-1])

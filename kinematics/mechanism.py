@@ -9,10 +9,9 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics.jacobians import jacobians
 from kinematics.linkage import Linkage
 from kinematics.placement import Placement
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
@@ -111,71 +110,3 @@ def drive_values(mechanism: Mechanism, placement: Placement) -> Array:
     """Coordinates of the driven directions, (..., a), m or rad, in the linkage's order."""
     names = list(placement.names)
     return placement.values[..., [names.index(d) for d in mechanism.linkage.driven]]
-
-
-def forward_kinematics(
-    mechanism: Mechanism,
-    values: ArrayLike,
-    start: Poses,
-    tolerance: float = 1e-12,
-    iterations: int = 50,
-) -> Poses:
-    """Poses at which the drives have the given coordinates, by Newton's method.
-
-    Each step solves the inverse kinematics and the inverse Jacobian of the constraint rows; a
-    step longer than a tenth of the machine is shortened. The solution found is the one of
-    the assembly mode that `start` belongs to.
-
-    Parameters
-    ----------
-    mechanism : Mechanism
-    values : (..., a)
-        Coordinates of the driven directions, m or rad.
-    start : Poses
-        First guess, broadcast against the batch of `values`.
-    tolerance : float
-        Largest residual of a drive coordinate, m or rad.
-    iterations : int
-        Most Newton steps.
-
-    Returns
-    -------
-    Poses
-
-    Raises
-    ------
-    NumericalError
-        No convergence: states the number of poses, the residual and what to try.
-    """
-    target = np.asarray(values, dtype=float)
-    rotary = np.array([d.startswith("r") for _, d in mechanism.linkage.driven])
-    batch = np.broadcast_shapes(target.shape[:-1], start.batch)
-    poses = Poses(
-        np.broadcast_to(start.position, (*batch, 3)).copy(),
-        np.broadcast_to(start.rotation, (*batch, 3, 3)).copy(),
-    )
-    worst: Array = np.full(batch, np.inf)
-    for _ in range(iterations):
-        placement = mechanism.place(poses)
-        residual = target - drive_values(mechanism, placement)
-        # angles are compared on the circle
-        residual = np.where(rotary, np.angle(np.exp(1j * residual)), residual)
-        worst = np.abs(residual).max(axis=-1)
-        if np.all(worst <= tolerance):
-            return poses
-        rates = jacobians(mechanism.linkage, placement).forward
-        twist = np.einsum("...ij,...j->...i", rates, residual)
-        limit = np.array([0.1, 1.0]) * np.abs(placement.positions.real).max(initial=1e-6)
-        size = np.maximum(
-            np.linalg.norm(twist[..., :3], axis=-1) / limit[0],
-            np.linalg.norm(twist[..., 3:], axis=-1) / 0.3,
-        )
-        twist = np.nan_to_num(twist) / np.maximum(1.0, np.nan_to_num(size))[..., None]
-        poses = poses.moved(twist)
-    bad = int(np.count_nonzero(~(worst <= tolerance)))
-    raise NumericalError(
-        "forward kinematics",
-        f"{bad} of {worst.size} poses did not converge in {iterations} steps (largest residual "
-        f"{np.nanmax(worst):.2g}).",
-        "Start closer to the pose, or check that the drive coordinates can be reached.",
-    )

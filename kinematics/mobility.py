@@ -11,18 +11,24 @@ from numpy.typing import NDArray
 from kinematics.joint import DIRECTIONS, State
 from kinematics.linkage import Linkage
 from kinematics.placement import Placement, check_coincidence
+from kinematics.rigid_graph import decompose
+from kinematics.rigid_spaces import rigid_graph, stress_states
 from kinematics.rows import (
     ConstraintRows,
     body_references,
     characteristic_length,
     constraint_rows,
 )
+from kinematics.sparse_basis import sparse_basis
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
 
 #: Singular values below this share of the largest count as zero.
 RANK_TOLERANCE = 1e-8
+
+#: Bodies or joints above which rank and null spaces are found block by block of the graph.
+LARGE = 40
 
 
 @dataclass(frozen=True)
@@ -141,21 +147,51 @@ def mobility(linkage: Linkage, placement: Placement) -> Mobility:
     held = constraint_rows(linkage, placement, resists)
     free = constraint_rows(linkage, placement, resists & ~driven)
     columns = 6 * len(linkage.body_names)
-    held_rows, held_size = _scaled(held, length)
-    rank_held, null_held, left = _spaces(held_rows)
-    rank_free, null_free, _ = _spaces(_scaled(free, length)[0])
-    states = linkage.states()
+    large = max(len(linkage.body_names), len(linkage.joints)) > LARGE
+    spaces = _large_spaces if large else _small_spaces
+    rank_held, null_held, states = spaces(held, length, True)
+    rank_free, null_free = rank_held, null_held
+    if len(free) < len(held):
+        rank_free, null_free, _ = spaces(free, length, False)
+    loose = linkage.states() == State.FREE
     return Mobility(
         mobility=columns - rank_free,
         mobility_locked=columns - rank_held,
         redundant=len(held) - rank_held,
         gruebler=columns - len(free),
-        motions=free_motions(linkage, placement, null_held, length, states == State.FREE),
-        driven_motions=free_motions(
-            linkage, placement, null_free, length, (states == State.FREE) | driven
-        ),
-        self_stress=_self_stress(held, left, held_size, length),
+        motions=free_motions(linkage, placement, null_held, length, loose),
+        driven_motions=free_motions(linkage, placement, null_free, length, loose | driven),
+        self_stress=tuple(_stress(held, rows, values, length) for rows, values in states),
     )
+
+
+#: A state of self-stress: indices of rows, and their multipliers.
+_State = tuple[NDArray[np.intp], Array]
+
+
+def _small_spaces(
+    rows: ConstraintRows, length: float, stressed: bool
+) -> tuple[int, Array, list[_State]]:
+    """Rank, motions (6 b, k) with rotations scaled, and states of self-stress."""
+    matrix, size = _scaled(rows, length)
+    rank, null, left = _spaces(matrix)
+    if not stressed:
+        return rank, sparse_basis(null), []
+    columns = sparse_basis(left).T / size
+    return rank, sparse_basis(null), [(np.flatnonzero(c), c[c != 0]) for c in columns]
+
+
+def _large_spaces(
+    rows: ConstraintRows, length: float, stressed: bool
+) -> tuple[int, Array, list[_State]]:
+    """The same for a large linkage, block by block."""
+    blocks = decompose(rigid_graph(rows, length))
+    null = blocks.null(RANK_TOLERANCE)
+    null[:, 3:] *= length
+    null = null.reshape(-1, null.shape[-1]) if null.size else np.zeros((null.size, 0))
+    null = null / np.abs(null).max(axis=0, initial=1e-300)
+    found = stress_states(blocks, RANK_TOLERANCE) if stressed else []
+    return blocks.rank(RANK_TOLERANCE), null, found
 
 
 def free_motions(
@@ -165,41 +201,21 @@ def free_motions(
     length: float,
     moves: NDArray[np.bool_],
 ) -> tuple[FreeMotion, ...]:
-    """Name the motions spanned by `null`, (6 b, k), whose rotations are scaled by `length`."""
-    basis = sparse_basis(null)
-    return tuple(
-        _motion(linkage, placement, basis[:, k].reshape(-1, 6), length, moves)
-        for k in range(basis.shape[1])
-    )
+    """Name the motions in the columns of `null`, (6 b, k), rotations scaled by `length`."""
+    rows = constraint_rows(linkage, placement, moves)
+    return tuple(_motion(rows, null[:, k].reshape(-1, 6), length) for k in range(null.shape[1]))
 
 
 def node_motion(linkage: Linkage, placement: Placement, twists: Array) -> Array:
     """Displacement and rotation of every node when the bodies move by `twists`, (n, 6)."""
-    references = body_references(linkage, placement)
+    owner = linkage.body_of_node
+    moves = owner >= 0
     result = np.zeros((len(linkage.nodes), 6))
-    for i, body in enumerate(linkage.body_of_node):
-        if body >= 0:
-            arm = placement.positions[i] - references[body]
-            result[i, :3] = twists[body, :3] + np.cross(twists[body, 3:], arm)
-            result[i, 3:] = twists[body, 3:]
+    own = twists[owner[moves]]
+    arms = placement.positions[moves] - body_references(linkage, placement)[owner[moves]]
+    result[moves, :3] = own[:, :3] + np.cross(own[:, 3:], arms)
+    result[moves, 3:] = own[:, 3:]
     return result
-
-
-def sparse_basis(vectors: Array) -> Array:
-    """Another basis of the columns' span with many zeros, so that parts can be told apart.
-
-    Gauss-Jordan elimination with complete pivoting; each vector's largest entry is one.
-    """
-    rows = np.array(vectors.T, dtype=float)
-    for k in range(len(rows)):
-        pivot, j = divmod(int(np.abs(rows[k:]).argmax()), rows.shape[1])
-        rows[[k, k + pivot]] = rows[[k + pivot, k]]
-        rows[k] /= rows[k, j]
-        others = np.arange(len(rows)) != k
-        rows[others] -= np.outer(rows[others, j], rows[k])
-    rows[np.abs(rows) < 1e-7] = 0.0
-    largest = np.abs(rows).max(axis=1, initial=0.0)
-    return np.asarray((rows / np.where(largest == 0, 1.0, largest)[:, None]).T)
 
 
 def _single(placement: Placement) -> Placement:
@@ -230,24 +246,22 @@ def _spaces(matrix: Array) -> tuple[int, Array, Array]:
     return rank, right[rank:].T, left[:, rank:]
 
 
-def _motion(
-    linkage: Linkage,
-    placement: Placement,
-    scaled: Array,
-    length: float,
-    moves: NDArray[np.bool_],
-) -> FreeMotion:
+def _motion(rows: ConstraintRows, scaled: Array, length: float) -> FreeMotion:
+    """Name one motion by the rows that it moves."""
+    linkage = rows.linkage
     twists = scaled.copy()
     twists[:, 3:] /= length
-    rows = constraint_rows(linkage, placement, moves)
-    rates = rows.on_bodies() @ twists.ravel()
+    nodes = node_motion(linkage, rows.placement, twists)
+    pairs = rows.nodes
+    rates = (rows.axes * (nodes[pairs[:, 1]] - nodes[pairs[:, 0]])).sum(axis=-1)
+    owner = linkage.body_of_node[pairs]
+    rates[owner[:, 0] == owner[:, 1]] = 0.0
     size = np.where(rows.direction < 3, 1.0, length) * np.abs(rates)
     moving = size > 1e-6 * max(size.max(initial=0.0), 1e-30)
     named = tuple(
         (linkage.joints[j].name, DIRECTIONS[d])
         for j, d in zip(rows.joint[moving], rows.direction[moving], strict=True)
     )
-    nodes = node_motion(linkage, placement, twists)
     bodies = [name for name, twist in zip(linkage.body_names, scaled, strict=True) if np.any(twist)]
     if named:
         listed = ", ".join(f"{joint} in {direction}" for joint, direction in named)
@@ -257,24 +271,16 @@ def _motion(
     return FreeMotion(twists, nodes, named, text)
 
 
-def _self_stress(
-    rows: ConstraintRows, left: Array, size: Array, length: float
-) -> tuple[SelfStress, ...]:
-    """States of self-stress from the left null space of rows divided by their sizes."""
-    basis = sparse_basis(left)
+def _stress(
+    rows: ConstraintRows, index: NDArray[np.intp], values: Array, length: float
+) -> SelfStress:
+    """A state of self-stress by its joints; the largest force or moment over `length` is one."""
+    joint, direction = rows.joint[index], rows.direction[index]
+    # moments are compared with forces at the arm `length`
+    size = np.where(direction < 3, np.abs(values), np.abs(values) / length).max(initial=1e-300)
     joints = rows.linkage.joints
-    result = []
-    for k in range(basis.shape[1]):
-        column = basis[:, k] / size
-        # moments are compared with forces at the arm `length`
-        column = (
-            column / np.where(rows.direction < 3, np.abs(column), np.abs(column) / length).max()
-        )
-        forces = {
-            (joints[j].name, DIRECTIONS[d]): float(value)
-            for value, j, d in zip(column, rows.joint, rows.direction, strict=True)
-            if value
-        }
-        names = tuple(dict.fromkeys(joint for joint, _ in forces))
-        result.append(SelfStress(forces, names))
-    return tuple(result)
+    forces = {
+        (joints[j].name, DIRECTIONS[d]): float(value / size)
+        for value, j, d in zip(values, joint, direction, strict=True)
+    }
+    return SelfStress(forces, tuple(dict.fromkeys(name for name, _ in forces)))

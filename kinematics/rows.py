@@ -7,7 +7,8 @@ and its multipliers, all read the rows made here.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,9 @@ from kinematics.linkage import Linkage
 from kinematics.placement import Placement
 
 Array = NDArray[Any]
+
+#: Nodes this many times further away than the median node are marks, not parts of the machine.
+FAR = 1e3
 
 
 @dataclass(frozen=True)
@@ -48,6 +52,10 @@ class ConstraintRows:
     def __len__(self) -> int:
         return len(self.joint)
 
+    def __getitem__(self, index: Any) -> ConstraintRows:
+        """The same rows at the poses selected by `index` on the batch axes."""
+        return replace(self, placement=self.placement[index], axes=self.axes[index])
+
     @property
     def labels(self) -> tuple[str, ...]:
         """Name of each row, `joint:direction`."""
@@ -56,7 +64,7 @@ class ConstraintRows:
             for j, d in zip(self.joint, self.direction, strict=True)
         )
 
-    @property
+    @cached_property
     def nodes(self) -> NDArray[np.intp]:
         """Indices of the first and second node of each row, (r, 2)."""
         index = self.linkage.node_index
@@ -153,5 +161,33 @@ def characteristic_length(placement: Placement) -> float:
 def characteristic_lengths(placement: Placement) -> Array:
     """`characteristic_length` of every pose by itself, (...), m: no pose sees its neighbours."""
     points = placement.positions.real
-    reach = np.linalg.norm(points - points.mean(axis=-2, keepdims=True), axis=-1).max(axis=-1)
+    reach = _reach(points)
+    far = _marks(points)
+    if np.any(far):
+        inner = far.any(axis=-1)
+        # a mark far from the machine is no part of it: its place counts as the machine's centre
+        kept = np.where(far, 0.0, 1.0)[inner]
+        centre = (points[inner] * kept[..., None]).sum(axis=-2) / kept.sum(axis=-1)[..., None]
+        placed = np.where(far[inner][..., None], centre[..., None, :], points[inner])
+        reach[inner] = _reach(placed)
     return np.asarray(np.where(reach > 0, reach, 1.0))
+
+
+def _reach(points: Array) -> Array:
+    apart = np.linalg.norm(points - points.mean(axis=-2, keepdims=True), axis=-1)
+    return np.asarray(apart.max(axis=-1, initial=0.0))
+
+
+def _marks(points: Array) -> NDArray[np.bool_]:
+    """Nodes further than `FAR` times the usual distance between nodes, (..., n)."""
+    best: Array = np.full(points.shape[:-2], np.inf)
+    far = np.zeros(points.shape[:-1], dtype=bool)
+    count = points.shape[-2]
+    # from three nodes, of which one at least is no mark
+    for i in sorted({0, count // 2, count - 1}) if count else ():
+        apart = np.linalg.norm(points - points[..., i : i + 1, :], axis=-1)
+        usual = np.median(apart, axis=-1)
+        better = (usual > 0) & (usual < best)
+        best = np.where(better, usual, best)
+        far = np.where(better[..., None], apart > FAR * usual[..., None], far)
+    return far

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, rotation_x
+from machines.dimensions import check_proportions
 from machines.legs import square_root
 from machines.limits import Limit, joint_limits
 from machines.pose_grid import PoseGrid
@@ -85,12 +86,14 @@ class HexelHexapod:
     leg_stiffness: float | None = 255e6
 
     def __post_init__(self) -> None:
-        for name in ("long_side", "short_side", "joint_height", "joint_radius", "base_height"):
+        lengths = ("long_side", "short_side", "joint_height", "joint_radius", "base_height")
+        for name in lengths:
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
                 raise ModelError(
                     f"HexelHexapod.{name}", f"is {value!r}.", "Give a positive length, m."
                 )
+        check_proportions("HexelHexapod", {name: getattr(self, name) for name in lengths})
         k = self.leg_stiffness
         if k is not None and not (np.isfinite(k) and k > 0):
             raise ModelError(

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinematics import Linkage, Placement, Poses, angle, rotation_y
 from machines import mit_ss1_parts as parts
+from machines.dimensions import check_proportions
 from machines.legs import square_root
 from machines.limits import Limit, joint_limits
 from machines.pose_grid import PoseGrid
@@ -70,7 +71,8 @@ class MitSS1:
         pin's shaft and a strut share (section 8.2).
     radial_stiffness : float or None
         Of one bearing, N/m; None: rigid. Calibrated: with the strut between them two pairs make
-        255 N/µm (eq. 51), and 1/Cxx at the tool reaches the 150 N/µm of Fig. 29.
+        255 N/µm (eq. 51), and 1/Cxx at the tool reaches 150 N/µm, the highest
+        tick of Fig. 29-(a).
     axial_stiffness : float or None
         Of one bearing, N/m; None: rigid. Calibrated: two in series make the 9.55 N/µm of the
         reconstructed Table 2, see `machines.StrutAssembly`.
@@ -143,6 +145,13 @@ class MitSS1:
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
                 raise ModelError(f"MitSS1.{name}", f"is {value!r}.", "Give a positive length, m.")
+        sizes = {
+            f"{name}[{k}]": value
+            for name in ("guide_distances", "strut_lengths")
+            for k, value in enumerate(getattr(self, name))
+        }
+        single = ("joint_height", "joint_radius", "joint_rise", "pin_width")
+        check_proportions("MitSS1", sizes | {name: getattr(self, name) for name in single})
         for name in (
             *("radial_stiffness", "axial_stiffness", "block_radial_stiffness"),
             *("block_axial_stiffness", "drive_stiffness", "guide_stiffness"),

@@ -54,6 +54,11 @@ class Proposed3PPRS(ThreeLegs):
         return (*super().lengths, "link_length", "stroke", "shortest_first_link", *constant)
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Sizes of the machine; the shortest beam is one of the model."""
+        return tuple(name for name in self.lengths if name != "shortest_first_link")
+
+    @property
     def leg(self) -> Leg:
         """Template of a leg."""
         drive = {} if self.drive_stiffness is None else {"z": self.drive_stiffness}

@@ -132,6 +132,11 @@ class Prototype3PPPRS(ThreeLegs):
         )
 
     @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Sizes of the machine; the range of the guide is an angle."""
+        return tuple(name for name in self.lengths if name != "guide_range")
+
+    @property
     def hinge_height(self) -> float:
         """Height of the hinges above the guide, m."""
         return 2.0 * self.stage_height

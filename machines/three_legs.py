@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, axes_frame
+from machines.dimensions import check_proportions
 from machines.legs import CENTRE, SEAT, Leg, LegPlacement, full, seat
 from machines.limits import Limit, joint_limits
 from machines.radial import Radial
@@ -107,6 +108,9 @@ class ThreeLegs(ABC):
                 raise ModelError(
                     f"{type(self).__name__}.{name}", f"is {value!r}.", "Give a positive length, m."
                 )
+        check_proportions(
+            type(self).__name__, {name: getattr(self, name) for name in self.dimensions}
+        )
         for name, words in (
             ("platform_joint", ("spherical", "clamped")),
             ("guide_drive", ("turning", "sliding")),
@@ -138,6 +142,11 @@ class ThreeLegs(ABC):
     def lengths(self) -> tuple[str, ...]:
         """Fields that must be positive."""
         return ("base_radius", "platform_radius", "pole_height")
+
+    @property
+    def dimensions(self) -> tuple[str, ...]:
+        """Those of `lengths` that are sizes of the machine and in proportion to one another."""
+        return self.lengths
 
     @property
     @abstractmethod

@@ -3,20 +3,23 @@
 from msa.assembly import System, system_of
 from msa.beam import Beam
 from msa.budget import ComplianceBudget, compliance_budget
+from msa.element import Element
 from msa.loads import LineLoad, LoadCase
 from msa.materials import Material
+from msa.movable import MovableDirections, movable_directions
 from msa.sections import Section, box, rectangle, rod, tube
 from msa.solve import METHODS, StaticSolution, solve
 from msa.springs import PointMass, Spring
-from msa.structure import Element, PlacedStructure, Structure, rigid_map
-from msa.tool import (
+from msa.stiffness import (
     StiffnessEllipsoid,
     axis_stiffness_blocked,
     axis_stiffness_free,
+    movable_rank,
     stiffness_ellipsoid,
-    tool_compliance,
     tool_stiffness,
 )
+from msa.structure import PlacedStructure, Structure, rigid_map
+from msa.tool import compliance_and_outcome, tool_compliance
 from msa.topology import Topology
 
 __all__ = [
@@ -27,6 +30,7 @@ __all__ = [
     "LineLoad",
     "LoadCase",
     "Material",
+    "MovableDirections",
     "PlacedStructure",
     "PointMass",
     "Section",
@@ -39,7 +43,10 @@ __all__ = [
     "axis_stiffness_blocked",
     "axis_stiffness_free",
     "box",
+    "compliance_and_outcome",
     "compliance_budget",
+    "movable_directions",
+    "movable_rank",
     "rectangle",
     "rigid_map",
     "rod",

@@ -15,11 +15,18 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, State, constraint_rows
+from kinematics import (
+    DIRECTIONS,
+    ConstraintRows,
+    State,
+    characteristic_lengths,
+    constraint_rows,
+)
 from msa.beam import fixed_end_loads
 from msa.loads import LoadCase
 from msa.structure import PlacedStructure, rigid_map
 from msa.topology import Topology
+from msa.triplets import Triplets
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -45,10 +52,10 @@ class System:
         pairs = [[index[n] for n in j.between] for j in self.placed.structure.linkage.joints]
         return np.asarray(pairs, dtype=np.intp).reshape(-1, 2)
 
-    def contributions(self) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
+    def contributions(self, beams: bool = True) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
         """Parts that store energy: name, mesh nodes (k,), stiffness (p, 6k, 6k)."""
         placed, structure = self.placed, self.placed.structure
-        if structure.beams:
+        if structure.beams and beams:
             stiffness = placed.segment_stiffness
             for s, (beam, a, b) in enumerate(structure.segments):
                 yield f"beam {structure.beams[beam].name}", np.array([a, b]), stiffness[:, s]
@@ -83,6 +90,11 @@ class System:
         result[..., :3, :3] = frames
         result[..., 3:, 3:] = frames
         return result
+
+    @cached_property
+    def turn_scale(self) -> Array:
+        """One over the length that makes rotations comparable with translations, (p,), 1/m."""
+        return np.asarray(1.0 / characteristic_lengths(self.placed.placement))
 
     @property
     def poses(self) -> int:
@@ -135,19 +147,11 @@ class System:
 
     def sparse_sum(self, parts: Iterable[tuple[str, NDArray[np.intp], Array]]) -> sp.csc_array:
         """Sum of parts' matrices at mesh nodes on the unknowns, sparse, for a batch of one."""
-        rows, columns, values = [], [], []
+        found = Triplets()
         for _, nodes, part in parts:
             dofs, moves = self.dofs(nodes)
-            block = self.carried(nodes, part)[0][moves][:, moves]
-            dofs = dofs[moves]
-            rows.append(np.repeat(dofs, len(dofs)))
-            columns.append(np.tile(dofs, len(dofs)))
-            values.append(block.ravel())
-        n = self.topology.size
-        if not rows:
-            return sp.csc_array((n, n))
-        triplets = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-        return sp.coo_array(triplets, shape=(n, n)).tocsc()
+            found.add(dofs[moves], dofs[moves], self.carried(nodes, part)[0][moves][:, moves])
+        return sp.csc_array(found.matrix((self.topology.size, self.topology.size)))
 
     @cached_property
     def row_owner(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -156,12 +160,16 @@ class System:
         return joint, direction
 
     @cached_property
+    def locked_rows(self) -> ConstraintRows:
+        """The constraint rows at their nodes."""
+        placed = self.placed
+        return constraint_rows(placed.structure.linkage, placed.placement, self.topology.locked)
+
+    @cached_property
     def row_blocks(self) -> tuple[NDArray[np.intp], Array]:
         """Constraint rows in blocks: cluster (r, 2), −1 for ground, and values (p, r, 2, 6)."""
-        structure = self.placed.structure
-        rows = constraint_rows(structure.linkage, self.placed.placement, self.topology.locked)
-        nodes = rows.nodes
-        vertex = structure.vertex_of_node[nodes]
+        rows, nodes = self.locked_rows, self.locked_rows.nodes
+        vertex = self.placed.structure.vertex_of_node[nodes]
         maps = rigid_map(self.placed.arms[:, nodes])
         values = np.einsum("pri,prkij->prkj", rows.axes, maps)
         values[:, :, 0] *= -1.0
@@ -189,23 +197,29 @@ class System:
         )
 
     def expand(self, unknowns: Array) -> Array:
-        """Displacements of the mesh nodes (p, n, 6, m) from the unknowns (p, 6v, m)."""
-        vertex = self.placed.structure.vertex_of_node
-        shape = (self.poses, self.placed.structure.vertex_count, 6, unknowns.shape[-1])
-        blocks = unknowns.reshape(shape)
+        """Displacements of the mesh nodes (p, n, 6, m) from the unknowns (p, 6v, m).
+
+        Extended precision is kept, here as in `gather`.
+        """
+        structure = self.placed.structure
+        blocks = unknowns.reshape(self.poses, structure.vertex_count, 6, unknowns.shape[-1])
         # one row of zeros at the end, which the ground's index −1 finds
-        ground = np.zeros((self.poses, 1, 6, unknowns.shape[-1]))
+        ground = np.zeros((self.poses, 1, 6, unknowns.shape[-1]), dtype=unknowns.dtype)
         padded = np.concatenate([blocks, ground], axis=1)
-        return np.asarray(rigid_map(self.placed.arms) @ padded[:, vertex])
+        return np.asarray(self._carry(unknowns) @ padded[:, structure.vertex_of_node])
 
     def gather(self, nodal: Array) -> Array:
         """Loads on the unknowns (p, 6v, m) from loads at the mesh nodes (p, n, 6, m)."""
-        vertex = self.placed.structure.vertex_of_node
-        moved = np.swapaxes(rigid_map(self.placed.arms), -1, -2) @ nodal
-        result = np.zeros((self.poses, self.placed.structure.vertex_count + 1, *nodal.shape[2:]))
-        for node, v in enumerate(vertex):
-            result[:, v] += moved[:, node]
+        structure = self.placed.structure
+        moved = np.swapaxes(self._carry(nodal), -1, -2) @ nodal
+        result = np.zeros((self.poses, structure.vertex_count + 1, *nodal.shape[2:]), nodal.dtype)
+        at: Any = (slice(None), structure.vertex_of_node)
+        np.add.at(result, at, moved)
         return result[:, :-1].reshape(self.poses, self.topology.size, nodal.shape[-1])
+
+    def _carry(self, like: Array) -> Array:
+        extended = like.dtype == np.longdouble
+        return rigid_map(self.placed.extended_arms if extended else self.placed.arms)
 
     def tool_load(self) -> Array:
         """Six unit wrenches at the tool on the unknowns, (p, n, 6).

@@ -165,8 +165,9 @@ def local_stiffness(length: Array, properties: Sequence[Any] | Array) -> Array:
         Ends in order, x y z rx ry rz each.
     """
     ea, gj, eiy, eiz, shear_y, shear_z = properties
-    length = np.asarray(length, dtype=float)
-    k = np.zeros((*length.shape, 12, 12))
+    # extended precision in, extended precision out
+    length = np.asarray(length, dtype=np.result_type(length, float))
+    k = np.zeros((*length.shape, 12, 12), dtype=length.dtype)
     for i, value in ((0, ea / length), (3, gj / length)):
         k[..., i, i] = k[..., i + 6, i + 6] = value
         k[..., i, i + 6] = k[..., i + 6, i] = -value

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from kinematics import DIRECTIONS
 from msa.assembly import system_of
+from msa.movable import movable_directions
 from msa.solve import METHODS, Method, default_method
 from msa.structure import PlacedStructure
 from strutwork.errors import NumericalError
@@ -76,7 +77,9 @@ def compliance_budget(
     """
     system = system_of(placed)
     w = np.asarray(wrench, dtype=float)
-    load = system.tool_load() @ w[:, None]
+    # what rigid joints take alone does no work: left in, it would be all rounding
+    working = movable_directions(system).working_part(w)
+    load = system.tool_load() @ working[..., None]
     gaps = np.zeros((system.poses, len(system.row_labels), 1))
     solver = METHODS[method or default_method(system)]
     unknowns = solver(system, load, gaps)
@@ -107,7 +110,7 @@ def compliance_budget(
         raise NumericalError(
             "compliance budget",
             "the parts' energies do not add to the work of the wrench.",
-            "The structure is badly conditioned, or the wrench does no work.",
+            "The structure is badly conditioned: look for stiffnesses that differ too much.",
         )
     # a wrench that rigid joints take alone stores nothing: no part has a share
     shares = np.divide(

@@ -7,13 +7,14 @@ those are solved together.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
-from msa.assembly import System
+from msa.assembly import System, system_of
 from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
 from msa.diagnosis import check_held, mechanism_error
 from msa.null_space import (
@@ -23,7 +24,7 @@ from msa.null_space import (
     multipliers,
     symmetric_product,
 )
-from msa.saddle_point import Unknowns, checked
+from msa.trust import Unknowns, solve_trusted
 
 Array = NDArray[Any]
 
@@ -48,37 +49,59 @@ def solve_condensed(system: System, load: Array, gaps: Array) -> Unknowns:
     free = free_unknowns(system)
     check_held(system, free, load)
     d = scales(system)[..., None]
-    basis, particular = joint_coordinates(system, gaps)
+    basis, _ = joint_coordinates(system, gaps[..., :0])
     closing = closing_rows(system)
     a = system.rows[:, closing]
-    held = np.swapaxes(free / d, -1, -2)
-    extra = np.concatenate([a @ basis, held @ basis], axis=1)
-    target = np.concatenate([gaps[:, closing] - a @ particular, -held @ particular], axis=1)
+    still = np.swapaxes(free / d, -1, -2)
+    extra = np.concatenate([a @ basis, still @ basis], axis=1)
     stiffness = symmetric_product(basis, system.stiffness)
-    force = np.swapaxes(basis, -1, -2) @ (load - system.stiffness @ particular)
     kept = np.any(extra != 0, axis=(0, 1)) | _at_tool(system, basis)
     legs = legs_of(stiffness, kept)
-    reduced, reduced_force = stiffness[:, kept][:, :, kept], force[:, kept]
-    solved = []
-    for leg in legs:
-        coupling = stiffness[:, leg][:, :, kept]
-        right = np.concatenate([coupling, force[:, leg]], axis=-1)
-        inner = _scaled_solve(system, stiffness[:, leg[:, None], leg], right)
-        split = coupling.shape[-1]
-        solved.append((inner[..., :split], inner[..., split:]))
-        reduced = reduced - np.swapaxes(coupling, -1, -2) @ inner[..., :split]
-        reduced_force = reduced_force - np.swapaxes(coupling, -1, -2) @ inner[..., split:]
-    coordinates = np.zeros_like(force)
-    if kept.any():
-        reduced = (reduced + np.swapaxes(reduced, -1, -2)) / 2.0
-        coordinates[:, kept] = constrained_minimum(
-            system, reduced, extra[:, :, kept], reduced_force, target
-        )
-    for leg, (coupled, alone) in zip(legs, solved, strict=True):
-        coordinates[:, leg] = alone - coupled @ coordinates[:, kept]
-    displacements = particular + basis @ coordinates
-    forces = multipliers(system, displacements, load)
-    return checked(system, displacements, forces, load, gaps)
+
+    def inverse(force: Array, gap: Array, poses: Any) -> tuple[Array, Array]:
+        part = system if isinstance(poses, slice) else system_of(system.placed[poses])
+        moved = joint_coordinates(part, gap)[1]
+        target = np.concatenate([gap[:, closing] - a[poses] @ moved, -still[poses] @ moved], axis=1)
+        turned = np.swapaxes(basis[poses], -1, -2) @ (force - part.stiffness @ moved)
+        condensed = _Condensed(part, stiffness[poses], extra[poses], kept, legs)
+        displacements = moved + basis[poses] @ condensed.coordinates(turned, target)
+        return displacements, multipliers(part, displacements, force)
+
+    return solve_trusted(system, inverse, load, gaps)
+
+
+@dataclass(frozen=True)
+class _Condensed:
+    """Joint coordinates of a system in legs."""
+
+    system: System
+    stiffness: Array
+    extra: Array
+    kept: NDArray[np.bool_]
+    legs: list[NDArray[np.intp]]
+
+    def coordinates(self, force: Array, target: Array) -> Array:
+        """Condense every leg to the kept coordinates, solve those, and go back."""
+        stiffness, kept = self.stiffness, self.kept
+        reduced, reduced_force = stiffness[:, kept][:, :, kept], force[:, kept]
+        solved = []
+        for leg in self.legs:
+            coupling = stiffness[:, leg][:, :, kept]
+            right = np.concatenate([coupling, force[:, leg]], axis=-1)
+            inner = _scaled_solve(self.system, stiffness[:, leg[:, None], leg], right)
+            split = coupling.shape[-1]
+            solved.append((inner[..., :split], inner[..., split:]))
+            reduced = reduced - np.swapaxes(coupling, -1, -2) @ inner[..., :split]
+            reduced_force = reduced_force - np.swapaxes(coupling, -1, -2) @ inner[..., split:]
+        found = np.zeros_like(force)
+        if kept.any():
+            reduced = (reduced + np.swapaxes(reduced, -1, -2)) / 2.0
+            found[:, kept] = constrained_minimum(
+                self.system, reduced, self.extra[:, :, kept], reduced_force, target
+            )
+        for leg, (coupled, alone) in zip(self.legs, solved, strict=True):
+            found[:, leg] = alone - coupled @ found[:, kept]
+        return found
 
 
 def _at_tool(system: System, basis: Array) -> NDArray[np.bool_]:

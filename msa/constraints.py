@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import body_references, characteristic_lengths, constraint_rows
-from kinematics.mobility import RANK_TOLERANCE
+from kinematics.mobility import LARGE, RANK_TOLERANCE
+from kinematics.rigid_graph import decompose
+from kinematics.rigid_spaces import rigid_graph
 from msa.assembly import System
 from msa.structure import rigid_map
 from strutwork.errors import InconsistentConstraintsError
@@ -44,6 +46,11 @@ class Rows:
     left: Array
     size: Array
     rank: NDArray[np.intp]
+
+    def __getitem__(self, poses: Any) -> Rows:
+        """The rows of the poses of an index."""
+        parts = (self.basis, self.values, self.left, self.size, self.rank)
+        return Rows(*(part[poses] for part in parts))
 
     def right_side(self, gaps: Array) -> Array:
         """Right-hand side of the orthonormal rows, (p, r, m), from misfits (p, r, m)."""
@@ -162,20 +169,14 @@ def free_unknowns(system: System) -> Array:
     bodies = len(linkage.body_names)
     if bodies == 0:
         return np.zeros((system.poses, 0, 0))
-    length = characteristic_lengths(system.placed.placement)[:, None, None, None]
     references = body_references(linkage, system.placed.placement)
-    matrix = rigid_rows(system)
-    if matrix.shape[1] < matrix.shape[2]:
-        gap = matrix.shape[2] - matrix.shape[1]
-        matrix = np.concatenate([matrix, np.zeros((system.poses, gap, matrix.shape[2]))], axis=1)
-    _, values, right = np.linalg.svd(matrix, full_matrices=False)
-    free = values <= RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
-    k = int(free.sum(axis=-1).max(initial=0))
+    if system.poses == 1 and max(bodies, len(linkage.joints)) > LARGE:
+        twists = _large_free_twists(system)
+    else:
+        twists = _free_twists(system)
+    k = twists.shape[-1]
     if k == 0:
         return np.zeros((system.poses, system.topology.size, 0))
-    twists = np.swapaxes(right[:, -k:] * free[:, -k:, None], -1, -2)
-    twists = twists.reshape(system.poses, bodies, 6, k).copy()
-    twists[:, :, 3:] /= length
     result = np.zeros((system.poses, structure.vertex_count, 6, k))
     mesh_owner = _mesh_owner(system)
     for v, node in enumerate(structure.reference_nodes):
@@ -187,6 +188,41 @@ def free_unknowns(system: System) -> Array:
     scaled = result.reshape(system.poses, -1, k) / scales(system)[..., None]
     left, sizes, _ = np.linalg.svd(scaled, full_matrices=False)
     return np.asarray(left * (sizes > 1e-12 * np.maximum(sizes[:, :1], 1e-30))[:, None, :])
+
+
+def _free_twists(system: System) -> Array:
+    """Free motions as twists of the bodies about their references, (p, b, 6, k)."""
+    length = characteristic_lengths(system.placed.placement)[:, None, None, None]
+    matrix = rigid_rows(system)
+    if matrix.shape[1] < matrix.shape[2]:
+        gap = matrix.shape[2] - matrix.shape[1]
+        matrix = np.concatenate([matrix, np.zeros((system.poses, gap, matrix.shape[2]))], axis=1)
+    _, values, right = np.linalg.svd(matrix, full_matrices=False)
+    free = values <= RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
+    k = int(free.sum(axis=-1).max(initial=0))
+    first = matrix.shape[-1] - k
+    twists = np.swapaxes(right[:, first:] * free[:, first:, None], -1, -2)
+    twists = twists.reshape(system.poses, matrix.shape[-1] // 6, 6, k).copy()
+    twists[:, :, 3:] /= length
+    return np.asarray(twists)
+
+
+def _large_free_twists(system: System) -> Array:
+    """The same for a large linkage at one pose, block by block of its graph."""
+    placed = system.placed
+    linkage, placement = placed.structure.linkage, placed.placement[0]
+    graph = rigid_graph(constraint_rows(linkage, placement), float(1.0 / system.turn_scale[0]))
+    owner, index = linkage.body_of_node, linkage.node_index
+    parts = [(graph.axes, graph.points, np.stack([graph.first, graph.second], axis=1))]
+    for spring in placed.structure.springs:
+        nodes = [index[n] for n in spring.nodes]
+        axes = np.eye(6)[spring.diagonal > 0]
+        pair = np.array([owner[nodes[0]] if len(nodes) == 2 else -1, owner[nodes[-1]]])
+        ones = np.ones((len(axes), 1))
+        parts.append((axes, ones * placement.positions[nodes[-1]], (ones * pair).astype(np.intp)))
+    axes, points, ends = (np.concatenate(part) for part in zip(*parts, strict=True))
+    whole = replace(graph, axes=axes, points=points, first=ends[:, 0], second=ends[:, 1])
+    return decompose(whole).null(RANK_TOLERANCE)[None]
 
 
 def _mesh_owner(system: System) -> NDArray[np.intp]:

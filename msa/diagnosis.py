@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import mobility
-from msa.assembly import System
-from msa.constraints import scales
+from msa.assembly import System, system_of
+from msa.constraints import free_unknowns, scales
 from msa.unjoined import in_words, unjoined_nodes
 from strutwork.errors import MechanismError, NumericalError, StrutworkError
 
@@ -17,6 +18,9 @@ Array = NDArray[Any]
 
 #: A load excites a free motion when its work exceeds this share of its size.
 WORK_TOLERANCE = 1e-9
+
+#: Poses whose free motions are found at once.
+PIECE = 128
 
 
 def check_held(system: System, free: Array, load: Array) -> None:
@@ -42,6 +46,37 @@ def check_held(system: System, free: Array, load: Array) -> None:
     excited = work > WORK_TOLERANCE * np.maximum(size, 1e-300)
     if np.any(excited):
         raise mechanism_error(system, int(np.argwhere(excited.any(axis=(1, 2)))[0][0]))
+
+
+def mechanisms_under(
+    system: System, load_of: Callable[[System], Array]
+) -> tuple[NDArray[np.bool_], StrutworkError]:
+    """Poses at which a load does work in a motion that nothing resists, found by rank.
+
+    Parameters
+    ----------
+    system : System
+    load_of : callable
+        Gives (p, n, m) of a system.
+
+    Returns
+    -------
+    moves : (p,)
+    error : MechanismError
+        That of the first of them.
+    """
+    moves = np.zeros(system.poses, dtype=bool)
+    for start in range(0, system.poses, PIECE):
+        part = system_of(system.placed[start : start + PIECE])
+        scale = scales(part)[..., None]
+        load = load_of(part) * scale
+        work = np.abs(np.swapaxes(free_unknowns(part), -1, -2) @ load)
+        size = np.linalg.norm(load, axis=1)[:, None, :]
+        moves[start : start + PIECE] = (work > WORK_TOLERANCE * np.maximum(size, 1e-300)).any(
+            axis=(1, 2)
+        )
+    first = int(moves.argmax()) if moves.size else 0
+    return moves, mechanism_error(system, first)
 
 
 def mechanism_error(system: System, pose: int) -> StrutworkError:

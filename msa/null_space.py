@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from kinematics import State
 from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System
+from msa.assembly import System, system_of
 from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
 from msa.diagnosis import check_held, mechanism_error
-from msa.saddle_point import Unknowns, checked
 from msa.structure import rigid_map
+from msa.trust import Unknowns, solve_trusted
 
 Array = NDArray[Any]
 
@@ -89,20 +89,24 @@ def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
     free = free_unknowns(system)
     check_held(system, free, load)
     d = scales(system)[..., None]
-    basis, particular = joint_coordinates(system, gaps)
+    basis, _ = joint_coordinates(system, gaps[..., :0])
     closing = closing_rows(system)
     stiffness = system.stiffness
     a = system.rows[:, closing]
     reduced = symmetric_product(basis, stiffness)
-    extra = np.concatenate([a @ basis, np.swapaxes(free / d, -1, -2) @ basis], axis=1)
-    target = np.concatenate(
-        [gaps[:, closing] - a @ particular, -np.swapaxes(free / d, -1, -2) @ particular], axis=1
-    )
-    force = np.swapaxes(basis, -1, -2) @ (load - stiffness @ particular)
-    coordinates = constrained_minimum(system, reduced, extra, force, target)
-    displacements = particular + basis @ coordinates
-    forces = multipliers(system, displacements, load)
-    return checked(system, displacements, forces, load, gaps)
+    still = np.swapaxes(free / d, -1, -2)
+    extra = np.concatenate([a @ basis, still @ basis], axis=1)
+
+    def inverse(force: Array, gap: Array, poses: Any) -> tuple[Array, Array]:
+        part = system if isinstance(poses, slice) else system_of(system.placed[poses])
+        moved = joint_coordinates(part, gap)[1]
+        target = np.concatenate([gap[:, closing] - a[poses] @ moved, -still[poses] @ moved], axis=1)
+        turned = np.swapaxes(basis[poses], -1, -2) @ (force - stiffness[poses] @ moved)
+        found = constrained_minimum(part, reduced[poses], extra[poses], turned, target)
+        displacements = moved + basis[poses] @ found
+        return displacements, multipliers(part, displacements, force)
+
+    return solve_trusted(system, inverse, load, gaps)
 
 
 def symmetric_product(basis: Array, matrix: Array) -> Array:

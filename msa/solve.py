@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -11,14 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msa.assembly import System, system_of
-from msa.beam import local_stiffness
 from msa.condensed import solve_condensed
+from msa.diagnosis import mechanisms_under
 from msa.loads import LoadCase
+from msa.nodal import beam_end_forces
 from msa.null_space import solve_null_space
-from msa.saddle_point import Unknowns, solve_saddle_point
+from msa.saddle_point import solve_saddle_point
 from msa.sparse import SPARSE_FROM, solve_sparse
-from msa.structure import PlacedStructure, rigid_map
+from msa.structure import PlacedStructure
+from msa.trust import Unknowns
 from strutwork.errors import ModelError, NumericalError
+from strutwork.outcome import Outcome, solve_poses
 
 Array = NDArray[Any]
 Method = Literal["saddle_point", "null_space", "condensed", "sparse"]
@@ -56,6 +59,8 @@ class StaticSolution:
         Largest residual of the equilibrium as a share of the load.
     method : str
         Which solver ran.
+    outcome : Outcome
+        Which poses were solved, and why others were not; the numbers of those are NaN.
     """
 
     placed: PlacedStructure
@@ -66,11 +71,13 @@ class StaticSolution:
     strain_energy: Array
     residual: Array
     method: str
+    outcome: Outcome
 
     def __repr__(self) -> str:
         return (
             f"<StaticSolution: {len(self.cases)} cases, batch {self.placed.batch}, "
-            f"method {self.method}, residual {np.max(self.residual, initial=0.0):.1g}>"
+            f"method {self.method}, {self.outcome!r}, "
+            f"residual {np.max(self.residual[self.outcome.solved], initial=0.0):.1g}>"
         )
 
     def displacement(self, node: str, case: str) -> Array:
@@ -137,57 +144,68 @@ def solve(
     Returns
     -------
     StaticSolution
+        In a batch, NaN at poses without an answer; `outcome` says which and why.
 
     Raises
     ------
     MechanismError
-        A load does work in a motion that nothing resists; names the joints.
+        A load does work in a motion that nothing resists; names the joints. As the next two, at
+        the single pose or where no pose of the batch has an answer.
     InconsistentConstraintsError
         Misfits that no displacement can meet.
-    ModelError
-        A case that names an unknown part, or an unknown method.
     NumericalError
         The residual is not small.
+    ModelError
+        A case that names an unknown part, or an unknown method.
     """
     system = system_of(placed)
-    system.placed.check()
     chosen = method or default_method(system)
     if chosen not in METHODS:
         raise ModelError("solve", f'unknown method "{chosen}".', "One of: " + ", ".join(METHODS))
-    nodal = system.nodal_loads(cases)
+    every: dict[str, Array] = {}
+
+    def run(part: NDArray[np.intp]) -> None:
+        found = _solved(system_of(system.placed[part]), cases, chosen)
+        for name, array in found.items():
+            if name not in every:
+                every[name] = np.full((system.poses, *array.shape[1:]), np.nan)
+            every[name][part] = array
+
+    outcome = solve_poses(
+        run, system.poses, lambda: mechanisms_under(system, lambda part: _load(part, cases))
+    ).require_some()
+    batch = placed.batch
+    return StaticSolution(
+        placed,
+        tuple(case.name for case in cases),
+        **{name: array.reshape((*batch, *array.shape[1:])) for name, array in every.items()},
+        method=chosen,
+        outcome=outcome.reshaped(batch),
+    )
+
+
+def _load(system: System, cases: Sequence[LoadCase]) -> Array:
+    _, elastic = system.gaps(cases)
+    return system.gather(system.nodal_loads(cases) + system.elastic_gap_loads(elastic))
+
+
+def _solved(system: System, cases: Sequence[LoadCase], method: str) -> dict[str, Array]:
+    """The arrays of a `StaticSolution` at every pose of a system; any pose may raise for all."""
+    system.placed.check()
     on_rows, elastic = system.gaps(cases)
-    load = system.gather(nodal + system.elastic_gap_loads(elastic))
-    unknowns = METHODS[chosen](system, load, on_rows)
+    unknowns = METHODS[method](system, _load(system, cases), on_rows)
     displacements = system.expand(unknowns.displacements)
     if not np.all(np.isfinite(displacements)):
         raise NumericalError("static solution", "is not finite.", "Check the model's numbers.")
     beam_forces, beam_energy = _beams(system, displacements, cases)
     joint_forces, joint_energy = _joints(system, displacements, unknowns, elastic)
-    energy = beam_energy + joint_energy + _others(system, displacements)
-    flat = StaticSolution(
-        placed,
-        tuple(case.name for case in cases),
-        displacements,
-        joint_forces,
-        beam_forces,
-        energy,
-        unknowns.residual,
-        chosen,
-    )
-    batch = placed.batch
-    return replace(
-        flat,
-        **{
-            name: getattr(flat, name).reshape((*batch, *getattr(flat, name).shape[1:]))
-            for name in (
-                "displacements",
-                "joint_forces",
-                "beam_forces",
-                "strain_energy",
-                "residual",
-            )
-        },
-    )
+    return {
+        "displacements": displacements,
+        "joint_forces": joint_forces,
+        "beam_forces": beam_forces,
+        "strain_energy": beam_energy + joint_energy + _others(system, displacements),
+        "residual": unknowns.residual,
+    }
 
 
 def default_method(system: System) -> str:
@@ -200,20 +218,7 @@ def _beams(system: System, displacements: Array, cases: Sequence[LoadCase]) -> t
     structure, m = system.placed.structure, len(cases)
     if not structure.beams:
         return np.zeros((system.poses, 0, 2, 6, m)), np.zeros((system.poses, m))
-    segments = structure.segments
-    length, axes = system.placed.beam_geometry
-    pieces = np.array([b.elements for b in structure.beams], dtype=float)
-    properties = np.array([b.properties for b in structure.beams]).T[:, segments[:, 0]]
-    piece_length = (length / pieces)[:, segments[:, 0]]
-    at_nodes = displacements[:, segments[:, 1:]]
-    at_ends = rigid_map(system.placed.segment_offsets) @ at_nodes
-    turned = np.einsum(
-        "psij,psekjm->psekim",
-        axes[:, segments[:, 0]],
-        at_ends.reshape(*at_ends.shape[:3], 2, 3, m),
-    )
-    local = turned.reshape(system.poses, len(segments), 12, m)
-    forces = local_stiffness(piece_length, properties) @ local
+    local, forces = beam_end_forces(system, displacements)
     energy = 0.5 * np.einsum("psim,psim->pm", local, forces)
     for c, case in enumerate(cases):
         loads = system.line_loads(case)
@@ -276,10 +281,10 @@ def _joints(
     """Joint forces (p, j, 6, m) on the second nodes in joint axes, and energy (p, m)."""
     linkage = system.placed.structure.linkage
     m = displacements.shape[-1]
-    forces = np.zeros((system.poses, len(linkage.joints), 6, m))
+    forces = np.zeros((system.poses, len(linkage.joints), 6, m), dtype=displacements.dtype)
     joint, direction = system.row_owner
     forces[:, joint, direction] = -unknowns.multipliers
-    energy = np.zeros((system.poses, m))
+    energy = np.zeros((system.poses, m), dtype=displacements.dtype)
     index = linkage.node_index
     for j in system.topology.elastic_joints:
         first, second = (index[n] for n in linkage.joints[j].between)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,8 +15,9 @@ from scipy.sparse.linalg import splu
 from kinematics.mobility import RANK_TOLERANCE
 from msa.assembly import System
 from msa.constraints import CONSISTENCY, free_unknowns, scales
-from msa.diagnosis import check_held, check_residual, mechanism_error
-from msa.saddle_point import CANCELLED, Unknowns
+from msa.diagnosis import check_held, mechanism_error
+from msa.triplets import Triplets
+from msa.trust import Unknowns, solve_trusted
 from strutwork.errors import InconsistentConstraintsError, ModelError
 
 Array = NDArray[Any]
@@ -38,30 +41,24 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
     d = scales(system)[0]
     k = sp.diags_array(d) @ system.sparse_stiffness @ sp.diags_array(d)
     size = abs(k).max() if k.nnz else 1.0
-    basis, weights, target = _orthonormal_blocks(system, gaps[0], d)
-    n = system.topology.size
-    extra = sp.vstack([basis, sp.csr_array(free[0].T)], format="csr")
+    rows = _orthonormal_blocks(system, gaps[0], d)
+    n, r = system.topology.size, rows.basis.shape[0]
+    extra = sp.vstack([rows.basis, sp.csr_array(free[0].T)], format="csr")
     matrix = sp.block_array([[k / size, extra.T], [extra, None]], format="csc")
-    right = np.zeros((matrix.shape[0], load.shape[-1]))
-    right[:n] = load[0] * d[:, None] / size
-    right[n : n + len(target)] = target
     try:
         factor = splu(matrix)
-        solution = factor.solve(right)
-        solution += factor.solve(right - matrix @ solution)
     except RuntimeError as error:
         raise mechanism_error(system, 0) from error
-    u = solution[:n] * d[:, None]
-    multipliers = weights @ (solution[n : n + basis.shape[0]] * size)
-    _, values = system.row_blocks
-    held = sparse_rows(system, values[0]).T @ multipliers
-    inner = system.sparse_stiffness @ u
-    terms = CANCELLED * abs(system.sparse_stiffness) @ np.abs(u * np.any(gaps[0], axis=0))
-    scaled = [np.abs(x * d[:, None]).max(initial=0.0) for x in (inner, held, load[0], terms)]
-    residual = np.abs((inner + held - load[0]) * d[:, None]).max(initial=0.0)
-    check_residual(np.array([residual]), np.array([max(scaled)]), "static solution")
-    share = residual / (max(scaled) or 1.0)
-    return Unknowns(u[None], multipliers[None], np.array([share]))
+
+    def inverse(force: Array, gap: Array, _: Any) -> tuple[Array, Array]:
+        right = np.zeros((matrix.shape[0], force.shape[-1]))
+        right[:n] = force[0] * d[:, None] / size
+        right[n : n + r] = rows.lift.T @ gap[0]
+        solution = factor.solve(right)
+        held = rows.lift @ (solution[n : n + r] * size)
+        return (solution[:n] * d[:, None])[None], held[None]
+
+    return solve_trusted(system, inverse, load, gaps)
 
 
 def sparse_rows(system: System, values: Array) -> sp.csr_array:
@@ -76,49 +73,74 @@ def sparse_rows(system: System, values: Array) -> sp.csr_array:
     )
 
 
-def _orthonormal_blocks(
-    system: System, gaps: Array, d: Array
-) -> tuple[sp.csr_array, sp.csr_array, Array]:
-    """Orthonormal rows, the map to multipliers of A, and right-hand side, by cluster group."""
+@dataclass(frozen=True)
+class Blocks:
+    """Independent rows in place of the constraint rows.
+
+    Parameters
+    ----------
+    basis : (k, n) sparse
+        Orthonormal, in scaled unknowns.
+    lift : (r, k) sparse
+        Multipliers of A from those of `basis`; its transpose brings gaps to them.
+    """
+
+    basis: sp.csr_array
+    lift: sp.csr_array
+
+
+def _orthonormal_blocks(system: System, gaps: Array, d: Array) -> Blocks:
+    """Orthonormal rows by groups of rows that share a cluster, and the map back to those of A."""
+    a, size = unit_rows(system, d)
+    count = a.shape[0]
+    bases, lifts = Triplets(), Triplets()
+    found = 0
+    for rows, block, columns in row_groups(a):
+        left, singular, right = np.linalg.svd(block, full_matrices=False)
+        rank = int(np.count_nonzero(singular > RANK_TOLERANCE * singular.max(initial=0.0)))
+        if np.any(gaps[rows]):
+            scaled = gaps[rows] / size[rows, None]
+            met = left[:, :rank] @ (left[:, :rank].T @ scaled)
+            if np.abs(met - scaled).max(initial=0.0) > CONSISTENCY * np.abs(gaps).max():
+                names = dict.fromkeys(system.row_labels[r].split(":")[0] for r in rows)
+                raise InconsistentConstraintsError(
+                    f"joints {', '.join(names)}",
+                    "their misfits cannot all be met: these joints close a rigid loop.",
+                    "Give one of them its real stiffness, or drop the misfit.",
+                )
+        kept = np.arange(found, found + rank)
+        bases.add(kept, columns, right[:rank])
+        lifts.add(rows, kept, left[:, :rank] / singular[:rank] / size[rows, None])
+        found += rank
+    return Blocks(bases.matrix((found, a.shape[1])), lifts.matrix((count, found)))
+
+
+def unit_rows(system: System, d: Array) -> tuple[sp.csr_array, Array]:
+    """Constraint rows on unknowns scaled by `d`, of unit size, and their sizes."""
     _, values = system.row_blocks
     a = sparse_rows(system, values[0]) @ sp.diags_array(d)
-    count = a.shape[0]
-    if count == 0:
-        return a, sp.csr_array((0, 0)), np.zeros((0, gaps.shape[-1]))
     size = np.sqrt(np.asarray(a.multiply(a).sum(axis=1)).ravel())
     size[size == 0] = 1.0
-    a = (sp.diags_array(1.0 / size) @ a).tocsr()
-    # rows of two joints that share a moving cluster belong together
+    return sp.csr_array(sp.diags_array(1.0 / size) @ a), size
+
+
+def row_groups(a: sp.csr_array) -> Iterator[tuple[NDArray[np.intp], Array, NDArray[np.intp]]]:
+    """Rows that share an unknown with one another: their indices, dense block and columns."""
     touched = abs(a).sign()
-    _, label = connected_components(touched @ touched.T, directed=False)
-    bases, maps, targets = [], [], []
-    for group in np.unique(label):
-        rows = np.flatnonzero(label == group)
-        block = a[rows]
-        columns = np.unique(block.indices)
-        left, singular, right = np.linalg.svd(block[:, columns].toarray(), full_matrices=False)
-        rank = int(np.count_nonzero(singular > RANK_TOLERANCE * singular.max(initial=0.0)))
-        scaled = gaps[rows] / size[rows, None]
-        met = left[:, :rank] @ (left[:, :rank].T @ scaled)
-        if np.abs(met - scaled).max(initial=0.0) > CONSISTENCY * max(
-            np.abs(gaps).max(initial=0.0), 1e-300
-        ):
-            names = dict.fromkeys(system.row_labels[r].split(":")[0] for r in rows)
-            raise InconsistentConstraintsError(
-                f"joints {', '.join(names)}",
-                "their misfits cannot all be met: these joints close a rigid loop.",
-                "Give one of them its real stiffness, or drop the misfit.",
-            )
-        inverse = 1.0 / singular[:rank]
-        basis = sp.csr_array((rank, a.shape[1])).tolil()
-        basis[:, columns] = right[:rank]
-        bases.append(basis.tocsr())
-        lift = sp.csr_array((count, rank)).tolil()
-        lift[rows] = (left[:, :rank] * inverse) / size[rows, None]
-        maps.append(lift.tocsr())
-        targets.append(inverse[:, None] * (left[:, :rank].T @ scaled))
-    return (
-        sp.vstack(bases, format="csr"),
-        sp.hstack(maps, format="csr"),
-        np.concatenate(targets),
-    )
+    if a.shape[0] == 0:
+        return
+    # rows and unknowns are the two sides of one graph: no product of rows by rows is made
+    graph = sp.block_array([[None, touched], [touched.T, None]], format="csr")
+    _, label = connected_components(graph, directed=False)
+    label = label[: a.shape[0]]
+    entries = a.tocoo()
+    # entries and rows in the order of their groups: slicing a sparse matrix is slow
+    by_group = np.argsort(label[entries.row], kind="stable")
+    order = np.argsort(label, kind="stable")
+    names, starts = np.unique(label[order], return_index=True)
+    cuts = np.searchsorted(label[entries.row][by_group], names)
+    for rows, own in zip(np.split(order, starts[1:]), np.split(by_group, cuts[1:]), strict=True):
+        columns, column = np.unique(entries.col[own], return_inverse=True)
+        block = np.zeros((len(rows), len(columns)))
+        block[np.searchsorted(rows, entries.row[own]), column] = entries.data[own]
+        yield rows, block, columns.astype(np.intp)

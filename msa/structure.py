@@ -5,39 +5,20 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import GROUND, Body, Linkage, Placement, check_coincidence
 from msa.beam import Beam, beam_axes, local_stiffness, to_global
+from msa.element import Element
+from msa.proportions import warn_of_proportions
 from msa.springs import PointMass, Spring
 from msa.stiffening import Stiffening
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
-
-#: Batches up to this size have their beams' geometry checked as soon as they are placed.
-CHECKED_AT_ONCE = 256
-
-
-class Element(Protocol):
-    """Anything that stands in a structure: nodes and a stiffness between them.
-
-    Only a rigid motion of its nodes may cost no energy.
-    """
-
-    @property
-    def name(self) -> str:
-        """Unique among the parts."""
-
-    @property
-    def nodes(self) -> tuple[str, ...]:
-        """The k nodes it connects; all on one body of the linkage."""
-
-    def stiffness(self, at: PlacedStructure) -> Array:
-        """Stiffness in global axes at a batch of poses, (..., 6 k, 6 k)."""
 
 
 @dataclass(frozen=True)
@@ -236,16 +217,22 @@ class Structure:
         ------
         ModelError
             Joint nodes that do not coincide; a beam of zero length, an orientation along its
-            beam, a spring that resists rigid rotation (in a large batch these come when the
-            poses are solved).
+            beam, a spring that resists rigid rotation (in a batch these come when the poses are
+            solved, and mark the poses at fault).
         UnreachableError
             A pose that cannot be taken.
+
+        Warns
+        -----
+        ProportionWarning
+            Beams and sections whose dimensions do not fit one another; once.
         """
         placement.require_reachable()
         check_coincidence(self.linkage, placement)
         placed = PlacedStructure(self, placement)
-        if np.prod(placement.batch, dtype=int) <= CHECKED_AT_ONCE:
+        if np.prod(placement.batch, dtype=int) == 1:
             placed.check()
+        warn_of_proportions(placed)
         return placed
 
 
@@ -276,9 +263,11 @@ class PlacedStructure:
     @cached_property
     def beam_ends(self) -> tuple[Array, Array]:
         """Ends of the whole beams, offsets included, (..., b, 3) each, m."""
+        return self._ends(self.placement.positions)
+
+    def _ends(self, positions: Array) -> tuple[Array, Array]:
         s = self.structure
         index = s.linkage.node_index
-        positions = self.placement.positions
         ends = []
         for k in (0, 1):
             rows = [index[b.nodes[k]] for b in s.beams]
@@ -289,8 +278,20 @@ class PlacedStructure:
     @cached_property
     def beam_geometry(self) -> tuple[Array, Array]:
         """Length (..., b) in m and local axes as rows (..., b, 3, 3) of the whole beams."""
+        return self._geometry(*self.beam_ends)
+
+    @cached_property
+    def extended_geometry(self) -> tuple[Array, Array]:
+        """`beam_geometry` in extended precision: axes orthogonal to more digits than a double."""
+        return self._geometry(*self._ends(self.placement.positions.astype(np.longdouble)))
+
+    @cached_property
+    def extended_arms(self) -> Array:
+        """`arms` in extended precision."""
+        return self._arms(self.positions.astype(np.longdouble))
+
+    def _geometry(self, start: Array, end: Array) -> tuple[Array, Array]:
         s = self.structure
-        start, end = self.beam_ends
         up = np.full(start.shape, np.nan)
         for i, beam in enumerate(s.beams):
             if isinstance(beam.orientation, str):
@@ -322,11 +323,14 @@ class PlacedStructure:
     @cached_property
     def arms(self) -> Array:
         """From each cluster's reference node to its nodes, (..., n, 3), m; zero for ground."""
+        return self._arms(self.positions)
+
+    def _arms(self, positions: Array) -> Array:
         s = self.structure
         vertex = s.vertex_of_node
         reference, moves = np.arange(len(vertex)), vertex >= 0
         reference[moves] = s.reference_nodes[vertex[moves]]
-        return self.positions - self.positions[..., reference, :]
+        return np.asarray(positions - positions[..., reference, :])
 
     @cached_property
     def segment_stiffness(self) -> Array:
@@ -351,10 +355,11 @@ class PlacedStructure:
         """From the mesh nodes of each beam element to its ends, (s, 2, 3), m."""
         s = self.structure
         result = np.zeros((len(s.segments), 2, 3))
-        for i, beam in enumerate(s.beams):
-            rows = np.flatnonzero(s.segments[:, 0] == i)
-            result[rows[0], 0] = beam.offsets[0]
-            result[rows[-1], 1] = beam.offsets[1]
+        last = -1
+        for beam in s.beams:
+            first, last = last + 1, last + beam.elements
+            result[first, 0] = beam.offsets[0]
+            result[last, 1] = beam.offsets[1]
         return result
 
     def check(self) -> None:
@@ -380,7 +385,7 @@ class PlacedStructure:
 
 def rigid_map(arm: Array) -> Array:
     """Twist at the end of a rigid arm from the twist at its start, (..., 3) to (..., 6, 6)."""
-    result = np.zeros((*arm.shape[:-1], 6, 6))
+    result = np.zeros((*arm.shape[:-1], 6, 6), dtype=np.result_type(arm, float))
     result[..., range(6), range(6)] = 1.0
     x, y, z = arm[..., 0], arm[..., 1], arm[..., 2]
     result[..., 0, 4], result[..., 0, 5] = z, -y

@@ -1,8 +1,7 @@
-"""Compliance and stiffness at the tool."""
+"""Compliance at the tool."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -10,19 +9,17 @@ from numpy.typing import NDArray
 
 from msa.assembly import System, system_of
 from msa.compiled import available, compiled_compliance, program_of
+from msa.diagnosis import mechanisms_under
+from msa.movable import always_movable, movable_directions, tool_length
 from msa.solve import METHODS, default_method
+from msa.stiffness import doubtful, scaled
 from msa.structure import PlacedStructure
-from strutwork.errors import ModelError, NumericalError, SingularPoseError
+from strutwork.errors import ModelError, NumericalError
+from strutwork.outcome import Outcome, solve_poses
 
 Array = NDArray[Any]
 
 ToolMethod = Literal["compiled", "saddle_point", "null_space", "condensed", "sparse"]
-
-#: A compliance below this share of the largest of its kind is the rounding of a rigid direction.
-RIGID = 1e-14
-
-#: A compliance below this, in m/N or rad/(N m), is rounding wherever it stands.
-NOTHING = 1e-25
 
 #: Poses from which the compiled kernel is worth loading.
 COMPILED_FROM = 256
@@ -52,16 +49,51 @@ def tool_compliance(
     Returns
     -------
     compliance : (..., 6, 6)
-        Twist per unit wrench; blocks in m/N, 1/N, 1/N, rad/(N·m). Symmetric.
+        Twist per unit wrench; blocks in m/N, 1/N, 1/N, rad/(N·m). Symmetric; exactly without
+        what rounding would add in directions that the locked joints leave no motion. In a
+        batch, NaN at poses without an answer; `compliance_and_outcome` says why.
 
     Raises
     ------
     MechanismError
-        The structure moves freely under one of the wrenches; names the joints that let it.
+        The structure moves freely under one of the wrenches, at the single pose or at all of
+        the batch; names the joints that let it.
     ModelError
         No tool, an unknown method, or a structure that the compiled kernel does not take.
     NumericalError
-        The residual is not small.
+        The residual is not small, at the single pose or at all of the batch.
+
+    Warns
+    -----
+    PoseWarning
+        Some poses of the batch have no answer: how many, and why.
+    """
+    compliance, outcome = compliance_and_outcome(placed, method, workers)
+    outcome.require_some().warn("tool compliance")
+    return compliance
+
+
+def compliance_and_outcome(
+    placed: PlacedStructure, method: ToolMethod | None = None, workers: int = 1
+) -> tuple[Array, Outcome]:
+    """Compliance at the tool centre point, and what became of every pose.
+
+    Parameters
+    ----------
+    placed, method, workers
+        As `tool_compliance`.
+
+    Returns
+    -------
+    compliance : (..., 6, 6)
+        As `tool_compliance`; NaN where a pose was not solved.
+    outcome : Outcome
+        Which poses were solved, and why others were not. Poses never raise.
+
+    Raises
+    ------
+    ModelError
+        As `tool_compliance`, and what is wrong with the model whatever the pose.
     """
     system = system_of(placed)
     if method not in (None, "compiled", *METHODS):
@@ -80,26 +112,40 @@ def tool_compliance(
                 "Leave the method out.",
             )
     if program is None:
-        result = _stacked(system, method)
+        result, outcome = _stacked(system, method)
     else:
-        result, doubtful = compiled_compliance(system, program, workers)
-        if np.any(doubtful):
-            again = system_of(system.placed[doubtful])
-            result[doubtful] = _stacked(again, "saddle_point")
-    return result.reshape(*placed.batch, 6, 6)
+        result, again = compiled_compliance(system, program, workers)
+        outcome = Outcome.good((system.poses,))
+        if np.any(again):
+            result[again], some = _stacked(system_of(system.placed[again]), "saddle_point")
+            outcome.status[again] = some.status
+            outcome = Outcome(outcome.status, some.reasons, some.errors)
+    _project(system, result, outcome.solved)
+    return result.reshape(*placed.batch, 6, 6), outcome.reshaped(placed.batch)
 
 
-def _stacked(system: System, method: ToolMethod | None) -> Array:
+def _stacked(system: System, method: ToolMethod | None) -> tuple[Array, Outcome]:
     """Compliance through the stacked dense solvers, or the sparse one, (p, 6, 6)."""
     chosen = method or default_method(system)
-    result = np.zeros((system.poses, 6, 6))
-    for start in range(0, system.poses, CHUNK):
-        part = system_of(system.placed[start : start + CHUNK])
-        part.placed.check()
-        load = part.tool_load()
-        gaps = np.zeros((part.poses, len(part.row_labels), 6))
-        unknowns = METHODS[chosen](part, load, gaps)
-        result[start : start + CHUNK] = np.swapaxes(load, -1, -2) @ unknowns.displacements
+    system.tool_load()  # a structure without a tool is no matter of poses
+    result = np.full((system.poses, 6, 6), np.nan)
+
+    def run(part: NDArray[np.intp]) -> None:
+        for start in range(0, len(part), CHUNK):
+            some = part[start : start + CHUNK]
+            result[some] = _solved(system_of(system.placed[some]), chosen)
+
+    outcome = solve_poses(run, system.poses, lambda: mechanisms_under(system, System.tool_load))
+    result[~outcome.solved] = np.nan
+    return result, outcome
+
+
+def _solved(system: System, method: str) -> Array:
+    system.placed.check()
+    load = system.tool_load()
+    gaps = np.zeros((system.poses, len(system.row_labels), 6))
+    unknowns = METHODS[method](system, load, gaps)
+    result = np.swapaxes(load, -1, -2) @ unknowns.displacements
     gap = np.abs(result - np.swapaxes(result, -1, -2)).max(axis=(1, 2), initial=0.0)
     size = np.abs(result).max(axis=(1, 2), initial=0.0)
     if not np.all(gap <= 1e-6 * size):
@@ -109,98 +155,18 @@ def _stacked(system: System, method: ToolMethod | None) -> Array:
     return np.asarray((result + np.swapaxes(result, -1, -2)) / 2.0)
 
 
-def tool_stiffness(compliance: Array) -> Array:
-    """Inverse of the compliance, (..., 6, 6), N/m, N, N, N·m/rad.
-
-    Raises
-    ------
-    SingularPoseError
-        A compliance without inverse: the tool cannot move in some direction.
-    """
-    scale = np.sqrt(np.einsum("...ii->...i", compliance))
-    if np.any(scale <= 0) or not np.all(np.isfinite(scale)):
-        raise SingularPoseError(
-            "tool",
-            "does not move at all under some wrench: its stiffness is infinite.",
-            "Give the parts between tool and ground their real stiffness.",
-        )
-    outer = scale[..., :, None] * scale[..., None, :]
-    try:
-        inverse = np.linalg.inv(compliance / outer)
-    except np.linalg.LinAlgError as error:
-        raise SingularPoseError(
-            "tool", "has a singular compliance.", "It cannot move in one direction."
-        ) from error
-    return np.asarray((inverse + np.swapaxes(inverse, -1, -2)) / 2.0 / outer)
-
-
-def axis_stiffness_free(compliance: Array) -> Array:
-    """Stiffness along each axis with the other directions free to follow, 1/C_ii, (..., 6).
-
-    Infinite where the tool cannot move in a direction at all.
-    """
-    flexible = np.einsum("...ii->...i", compliance)
-    blocks = [_inverse(flexible[..., :3]), _inverse(flexible[..., 3:])]
-    return np.concatenate(blocks, axis=-1)
-
-
-def _inverse(flexible: Array) -> Array:
-    """One over compliances of one kind; infinite for what is rounding beside the largest."""
-    largest = np.abs(flexible).max(axis=-1, keepdims=True)
-    moves = (flexible > RIGID * largest) & (flexible > NOTHING)
-    return np.asarray(np.divide(1.0, flexible, out=np.full(flexible.shape, np.inf), where=moves))
-
-
-def axis_stiffness_blocked(compliance: Array) -> Array:
-    """Stiffness along each axis with the other directions blocked, (C⁻¹)_ii, (..., 6)."""
-    return np.asarray(np.einsum("...ii->...i", tool_stiffness(compliance)))
-
-
-@dataclass(frozen=True)
-class StiffnessEllipsoid:
-    """Principal translational stiffness at the tool.
-
-    Parameters
-    ----------
-    values : (..., 3)
-        Principal stiffnesses, ascending, N/m; infinite where the tool cannot move.
-    directions : (..., 3, 3)
-        Unit vectors as columns, in the order of `values`.
-    rotation : "free" or "blocked"
-        Whether the tool may rotate while it is loaded.
-    """
-
-    values: Array
-    directions: Array
-    rotation: str
-
-    def __repr__(self) -> str:
-        return f"<StiffnessEllipsoid: rotation {self.rotation}, values in N/m>"
-
-
-def stiffness_ellipsoid(compliance: Array, rotation: str = "free") -> StiffnessEllipsoid:
-    """Principal directions of the translational stiffness.
-
-    Parameters
-    ----------
-    compliance : (..., 6, 6)
-    rotation : "free" or "blocked"
-        Free: the inverse of the translational block of C. Blocked: the translational block of
-        C⁻¹.
-
-    Returns
-    -------
-    StiffnessEllipsoid
-
-    Raises
-    ------
-    ModelError
-        Another word for `rotation`.
-    """
-    if rotation not in ("free", "blocked"):
-        raise ModelError("ellipsoid", f'rotation is "{rotation}".', 'Say "free" or "blocked".')
-    if rotation == "free":
-        values, vectors = np.linalg.eigh(compliance[..., :3, :3])
-        return StiffnessEllipsoid(_inverse(values[..., ::-1]), vectors[..., ::-1], rotation)
-    values, vectors = np.linalg.eigh(tool_stiffness(compliance)[..., :3, :3])
-    return StiffnessEllipsoid(values, vectors, rotation)
+def _project(system: System, compliance: Array, solved: NDArray[np.bool_]) -> None:
+    """Leave in each compliance (p, 6, 6) only the directions in which the tool can move."""
+    if always_movable(system):
+        return
+    poses = np.flatnonzero(solved)
+    for start in range(0, len(poses), 64 * CHUNK):
+        some = poses[start : start + 64 * CHUNK]
+        part = system_of(system.placed[some])
+        some = some[doubtful(scaled(compliance[some], tool_length(part))[0])]
+        if not some.size:
+            continue
+        found = movable_directions(system_of(system.placed[some]))
+        locked = found.rank < 6
+        some = some[locked]
+        compliance[some] = found[locked].projected(compliance[some])

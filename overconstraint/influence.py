@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -15,10 +15,12 @@ from msa.assembly import system_of
 from msa.loads import LoadCase
 from msa.solve import Method, solve
 from msa.structure import PlacedStructure
+from msa.undetermined import undetermined
 from overconstraint.rounding import without_rounding
-from overconstraint.self_stress import redundancy, undetermined
+from overconstraint.self_stress import redundancy
 from overconstraint.tool_place import MOVES, check_tool_place
 from strutwork.errors import ModelError
+from strutwork.outcome import Outcome, solve_poses
 
 Array = NDArray[Any]
 
@@ -46,6 +48,8 @@ class Influence:
         States of self-stress; where there is none the forces are exactly zero.
     residual : (...)
         Of the equilibrium, as a share of the forces.
+    outcome : Outcome
+        Which poses were solved, and why others were not; the numbers of those are NaN.
     """
 
     linkage: Linkage
@@ -54,6 +58,7 @@ class Influence:
     tool: Array
     redundant: NDArray[np.intp]
     residual: Array
+    outcome: Outcome = field(default_factory=lambda: Outcome.good(()))
 
     def __repr__(self) -> str:
         return (
@@ -69,6 +74,7 @@ class Influence:
             self.tool[index],
             np.asarray(self.redundant[index]),
             np.asarray(self.residual[index]),
+            self.outcome[index],
         )
 
 
@@ -125,13 +131,15 @@ def influence(
     Returns
     -------
     Influence
-        Entries that no state of self-stress reaches are exactly zero.
+        Entries that no state of self-stress reaches are exactly zero. In a batch, NaN at poses
+        without an answer; `outcome` says which and why.
 
     Raises
     ------
     MechanismError
         Misfits move the tool along a motion that nothing resists; names the joints. Free motions
         that no misfit drives, a shaft that spins in its bearings, change nothing.
+        As the next, at the single pose or where no pose of the batch has an answer.
     InconsistentConstraintsError
         A rigid loop that no elastic part closes: its misfit would take an infinite force.
     ModelError
@@ -154,32 +162,59 @@ def influence(
             np.zeros((*batch, 6, 0)),
             redundancy(placed).count,
             np.zeros(batch),
+            Outcome.good(batch),
         )
-    cases = [LoadCase(f"misfit {j} {d}", gaps={(j, d): 1.0}) for j, d in chosen]
+    flat = system_of(placed).placed
+    poses = flat.batch[0]
+    every: list[Array] = []
+
+    def run(part: NDArray[np.intp]) -> None:
+        found = _solved(flat[part], chosen, method)
+        if not every:
+            every.extend(
+                np.full((poses, *a.shape[1:]), np.nan if a.dtype.kind == "f" else 0, a.dtype)
+                for a in found
+            )
+        for whole, array in zip(every, found, strict=True):
+            whole[part] = array
+
+    outcome = solve_poses(run, poses).require_some()
+    forces, tool, count, residual, open_ = every
+    _warn_of_rigid_shares(linkage, forces[outcome.solved], open_[outcome.solved])
+    return Influence(
+        linkage,
+        chosen,
+        forces.reshape(*batch, *forces.shape[1:]),
+        tool.reshape(*batch, *tool.shape[1:]),
+        count.reshape(batch),
+        residual.reshape(batch),
+        outcome.reshaped(batch),
+    )
+
+
+def _solved(
+    placed: PlacedStructure, columns: tuple[tuple[str, str], ...], method: Method | None
+) -> tuple[Array, Array, Array, Array, Array]:
+    """Forces, tool, states of self-stress, residual and what is undetermined, (p, …) each."""
+    linkage = placed.structure.linkage
+    cases = [LoadCase(f"misfit {j} {d}", gaps={(j, d): 1.0}) for j, d in columns]
     solution = solve(placed, cases, method)
+    solution.outcome.require_all()
     found = redundancy(placed)
     index = linkage.joint_index
     active = np.stack(
-        [found.takes_part[..., index[j], DIRECTIONS.index(d)] for j, d in chosen], axis=-1
+        [found.takes_part[..., index[j], DIRECTIONS.index(d)] for j, d in columns], axis=-1
     )
     forces = np.where(
         found.takes_part[..., None] & active[..., None, None, :], solution.joint_forces, 0.0
     )
-    _warn_of_rigid_shares(linkage, forces, undetermined(placed))
     node = 0 if linkage.tool is None else linkage.node_index[linkage.tool]
     tool = solution.displacements[..., node, :, :]
     if linkage.tool is None:
         tool = np.zeros_like(tool)
-    forces, tool = without_rounding(placed, chosen, forces, tool)
+    forces, tool = without_rounding(placed, columns, forces, tool)
     check_tool_place(system_of(placed), tool.reshape(-1, *tool.shape[-2:]))
-    return Influence(
-        linkage,
-        chosen,
-        forces,
-        tool,
-        found.count,
-        solution.residual,
-    )
+    return forces, tool, found.count, solution.residual, undetermined(placed)
 
 
 def assembly_forces(

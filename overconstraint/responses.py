@@ -197,6 +197,13 @@ def tolerance_responses(
     ------
     StrutworkError
         As `misfit_sources` and `influence`.
+
+    Warns
+    -----
+    PoseWarning
+        Some poses of the batch have no answer and are NaN: how many, and why.
     """
     sources = misfit_sources(placed, tolerances)
-    return responses(influence(placed, sources.columns), sources, quantities)
+    found = influence(placed, sources.columns)
+    found.outcome.warn("tolerance responses")
+    return responses(found, sources, quantities)

@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 from kinematics import State
 from kinematics.mobility import RANK_TOLERANCE
 from msa.assembly import system_of
-from msa.constraints import orthonormal_rows, rigid_rows
+from msa.constraints import rigid_rows
 from msa.structure import PlacedStructure
+from msa.undetermined import SHARE, outside
 
 Array = NDArray[Any]
-
-#: A joint direction takes part when its share of the unit states of self-stress exceeds this.
-SHARE = 1e-9
 
 
 @dataclass(frozen=True)
@@ -68,29 +66,9 @@ def redundancy(placed: PlacedStructure) -> Redundancy:
         left, values, _ = np.linalg.svd(matrix, full_matrices=False)
         held = values > RANK_TOLERANCE * values[:, :1]
         rank = held.sum(axis=-1)
-        # what a unit force on a row leaves outside the rows' range
-        outside = np.eye(matrix.shape[1]) - (left * held[:, None]) @ np.swapaxes(left, -1, -2)
-        share = np.sqrt((outside**2).sum(axis=-1))
+        share = outside(left, held)
     takes_part[:, joint, direction] = share[:, : len(joint)] > SHARE
     batch = placed.batch
     return Redundancy(
         (matrix.shape[1] - rank).reshape(batch), takes_part.reshape(*batch, len(linkage.joints), 6)
     )
-
-
-def undetermined(placed: PlacedStructure) -> NDArray[np.bool_]:
-    """Locked directions that share their force with other rigid ones, (..., j, 6).
-
-    A state of self-stress of locked directions alone, with no elastic part in its path: how the
-    force divides among them is not a matter of statics, and solvers give the least one.
-    """
-    system = system_of(placed)
-    rows = orthonormal_rows(system)
-    inside = rows.left * (rows.values > 0)[:, None]
-    outside = np.eye(rows.left.shape[-1]) - inside @ np.swapaxes(rows.left, -1, -2)
-    share = np.sqrt((outside**2).sum(axis=-1))
-    linkage = placed.structure.linkage
-    result = np.zeros((system.poses, len(linkage.joints), 6), dtype=bool)
-    joint, direction = system.row_owner
-    result[:, joint, direction] = share > SHARE
-    return result.reshape(*placed.batch, len(linkage.joints), 6)

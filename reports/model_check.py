@@ -8,14 +8,23 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, FreeMotion, Mobility, SelfStress, mobility
+from kinematics import (
+    DIRECTIONS,
+    FreeMotion,
+    Mobility,
+    NearMechanism,
+    SelfStress,
+    mobility,
+    near_motions,
+)
 from kinematics.mobility import RANK_TOLERANCE
 from machines.model import Model, ModelWarning
 from msa import PlacedStructure, system_of
 from msa.constraints import scales
 from msa.mass import mass_properties, total_mass
+from msa.sparse import row_groups, unit_rows
+from reports.near_mechanisms import near_mechanisms, warn_of_near
 
 
 @dataclass(frozen=True)
@@ -48,12 +57,15 @@ class ModelCheck:
         Of the rigidified linkage.
     mass : MassProperties or None
         None where a density is missing.
+    near : tuple of NearMechanism
+        Motions that coordinates of few digits hold.
     """
 
     model: Model
     degrees_of_freedom: int
     mobility: Mobility
     mass: MassProperties | None
+    near: tuple[NearMechanism, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelCheck: {self.degrees_of_freedom} dof, {self.mobility!r}>"
@@ -72,6 +84,7 @@ class ModelCheck:
                 {"joints": list(state.joints), "forces": _by_joint(state)}
                 for state in found.self_stress
             ],
+            "near_mechanisms": near_mechanisms(self.model, self.near),
             "mass": None
             if self.mass is None
             else {"total": self.mass.total, "center": self.mass.center},
@@ -111,27 +124,29 @@ def check_model(model: Model) -> ModelCheck:
     Warns
     -----
     ModelWarning
-        A density is missing, so that there is no mass.
+        A density is missing, so that there is no mass; a motion that coordinates of few digits
+        hold.
     """
+    near = near_motions(model.structure.linkage, model.placement)
+    warn_of_near(near)
     return ModelCheck(
         model,
         degrees_of_freedom(model.placed),
         mobility(model.structure.linkage, model.placement),
         check_mass(model.placed),
+        near,
     )
 
 
 def degrees_of_freedom(placed: PlacedStructure) -> int:
     """Unknowns of the structure less the rank of its locked directions; single pose."""
     system = system_of(placed)
-    rows: NDArray[np.float64] = system.rows[0] * scales(system)
-    # only the clusters that joints touch decide the rank
-    rows = rows[:, np.any(rows, axis=0)]
-    size = np.linalg.norm(rows, axis=1, keepdims=True)
-    if rows.size == 0:
-        return system.topology.size
-    values = np.linalg.svd(rows / np.where(size == 0, 1.0, size), compute_uv=False)
-    return system.topology.size - int(np.count_nonzero(values > RANK_TOLERANCE * values[0]))
+    rows, _ = unit_rows(system, scales(system)[0])
+    rank = 0
+    for _, block, _ in row_groups(rows):
+        values = np.linalg.svd(block, compute_uv=False)
+        rank += int(np.count_nonzero(values > RANK_TOLERANCE * values.max(initial=0.0)))
+    return system.topology.size - rank
 
 
 def check_mass(placed: PlacedStructure) -> MassProperties | None:

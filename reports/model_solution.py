@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kinematics import DIRECTIONS, NearMechanism, near_motions
 from machines.model import Model, ModelWarning
 from msa import StaticSolution, solve, tool_compliance, tool_stiffness
-from strutwork.errors import MechanismError, ModelError, SingularPoseError
+from msa.undetermined import undetermined_names
+from reports.near_mechanisms import near_mechanisms, warn_of_near
+from strutwork.errors import ModelError, StrutworkError
 
 Array = NDArray[Any]
+
+#: Joints named in a warning.
+NAMED = 12
 
 
 @dataclass(frozen=True)
@@ -29,12 +36,18 @@ class ModelSolution:
         At the tool, m/N, 1/N, rad/(N·m); None without a tool, or where it moves freely.
     stiffness : (6, 6) or None
         Inverse of the compliance; None where it has none.
+    undetermined : mapping of joint name to directions
+        Forces that rigid parts alone leave open: withheld.
+    near : tuple of NearMechanism
+        Motions that coordinates of few digits hold.
     """
 
     model: Model
     statics: StaticSolution
     compliance: Array | None
     stiffness: Array | None
+    undetermined: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    near: tuple[NearMechanism, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelSolution: {self.statics!r}, tool {self.model.tool}>"
@@ -42,10 +55,19 @@ class ModelSolution:
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers in SI, by the names of the model file."""
         cases = {name: self._case(m) for m, name in enumerate(self.statics.cases)}
+        supports = {joint: node for node, joint in self.model.supports.items()}
+        joints = {j: list(d) for j, d in self.undetermined.items() if j not in supports}
+        reactions = {supports[j]: list(d) for j, d in self.undetermined.items() if j in supports}
+        beside = {
+            "undetermined_joint_forces": joints,
+            "undetermined_reactions": reactions,
+            "near_mechanisms": near_mechanisms(self.model, self.near),
+        }
         if self.compliance is None:
-            return {"cases": cases, "tcp": None}
+            return {"cases": cases, "tcp": None, **beside}
         return {
             "cases": cases,
+            **beside,
             "tcp": {
                 "compliance": self.compliance.tolist(),
                 "stiffness": None if self.stiffness is None else self.stiffness.tolist(),
@@ -55,15 +77,12 @@ class ModelSolution:
     def _case(self, m: int) -> dict[str, Any]:
         model, s = self.model, self.statics
         linkage = model.structure.linkage
-        nodes, joints = linkage.node_index, linkage.joint_index
+        nodes = linkage.node_index
         return {
             "displacements": {n: s.displacements[nodes[n], :, m].tolist() for n in model.nodes},
             # a support's joint has global axes, and its second node is the structure's
-            "reactions": {
-                node: s.joint_forces[joints[joint], :, m].tolist()
-                for node, joint in model.supports.items()
-            },
-            "joint_forces": {j: s.joint_forces[joints[j], :, m].tolist() for j in model.joints},
+            "reactions": {node: self._force(joint, m) for node, joint in model.supports.items()},
+            "joint_forces": {j: self._force(j, m) for j in model.joints},
             "spring_forces": {
                 spring.name: _spring_force(s.displacements[..., m], nodes, spring).tolist()
                 for spring in model.structure.springs
@@ -77,6 +96,16 @@ class ModelSolution:
             },
             "strain_energy": float(s.strain_energy[m]),
         }
+
+    def _force(self, joint: str, m: int) -> list[float | None]:
+        """Force of a joint, None in directions that are not determined."""
+        six = self.statics.joint_forces[self.model.structure.linkage.joint_index[joint], :, m]
+        open_ = self.undetermined.get(joint, ())
+        if open_:
+            # beside what is withheld nobody could tell rounding from a force
+            largest = np.abs(self.statics.joint_forces[..., m]).max()
+            six = np.where(np.abs(six) < 1e-12 * largest, 0.0, six)
+        return [None if d in open_ else v for d, v in zip(DIRECTIONS, six.tolist(), strict=True)]
 
 
 def solve_model(model: Model) -> ModelSolution:
@@ -101,7 +130,8 @@ def solve_model(model: Model) -> ModelSolution:
     Warns
     -----
     ModelWarning
-        The load cases can be solved, but the compliance at the tool cannot.
+        The load cases can be solved, but the compliance at the tool cannot; forces that are
+        not determined; motions that coordinates of few digits hold.
     """
     if not model.cases and model.tool is None:
         raise ModelError(
@@ -115,11 +145,31 @@ def solve_model(model: Model) -> ModelSolution:
         try:
             compliance = tool_compliance(model.placed)
             stiffness = tool_stiffness(compliance)
-        except (MechanismError, SingularPoseError) as error:
+        except StrutworkError as error:
             if not model.cases and compliance is None:
                 raise
-            warnings.warn(f"tool: {error}", ModelWarning, stacklevel=2)
-    return ModelSolution(model, statics, compliance, stiffness)
+            # an error of the tool itself says so
+            where = "" if error.part == "tool" else "tool: "
+            warnings.warn(f"{where}{error}", ModelWarning, stacklevel=2)
+    near = near_motions(model.structure.linkage, model.placement)
+    warn_of_near(near)
+    undetermined = undetermined_names(model.placed) if model.cases else {}
+    _warn_of_undetermined(undetermined)
+    return ModelSolution(model, statics, compliance, stiffness, undetermined, near)
+
+
+def _warn_of_undetermined(undetermined: Mapping[str, tuple[str, ...]]) -> None:
+    if not undetermined:
+        return
+    shown = [f"{joint} in {', '.join(d)}" for joint, d in list(undetermined.items())[:NAMED]]
+    more = len(undetermined) - len(shown)
+    named = "; ".join(shown) + (f"; and {more} more" if more else "")
+    warnings.warn(
+        f"joint forces: those of {named} are not determined and are withheld: rigid parts alone "
+        "decide how these share a force. Give one of these joints or bodies its real stiffness.",
+        ModelWarning,
+        stacklevel=3,
+    )
 
 
 def _spring_force(displacements: Array, nodes: dict[str, int], spring: Any) -> Array:

@@ -4,6 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import floor, isfinite, log10
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[Any]
+
+#: A number up to this share of the largest it stands beside is shown as 0.
+ROUNDING = 1e-9
+
+#: Rounding that cancelled products of forces and arms leave, as a share of force times length.
+CANCELLED = 1e-13
 
 NEWTON_PER_MICROMETRE = 1e6
 MINUS = "\N{MINUS SIGN}"
@@ -38,8 +50,70 @@ def fixed(value: float, decimals: int) -> str:
 
 def clean(values: Sequence[float], digits: int = 3) -> str:
     """A vector in one line; entries that are only rounding beside its largest show as 0."""
-    floor_ = 1e-9 * max(abs(v) for v in values)
-    return ", ".join(significant(0.0 if abs(v) <= floor_ else v, digits) for v in values)
+    return ", ".join(significant(float(v), digits) for v in without_rounding(values))
+
+
+def without_rounding(values: ArrayLike, scale: ArrayLike = 0.0) -> Array:
+    """Numbers of one kind, with 0 for those that are only rounding.
+
+    Parameters
+    ----------
+    values : array
+        Of one unit.
+    scale : broadcastable to values
+        What else they were made from, in the same unit; counts beside their own largest.
+
+    Returns
+    -------
+    array
+        Entries up to `ROUNDING` of the largest are 0; infinite ones stay and set no scale.
+
+    >>> without_rounding([2.6e7, -0.0065, 3e5]).tolist()
+    [26000000.0, 0.0, 300000.0]
+    """
+    numbers = np.array(values, dtype=float)
+    finite = np.abs(numbers[np.isfinite(numbers)])
+    level = ROUNDING * np.maximum(finite.max(initial=0.0), scale)
+    return np.where(np.abs(numbers) <= level, 0.0, numbers)
+
+
+def six_without_rounding(table: ArrayLike, arm: float, beside: ArrayLike | None = None) -> Array:
+    """Wrenches or twists of one table, with 0 for what is only rounding.
+
+    Parameters
+    ----------
+    table : (n, 6)
+        Forces and moments, or displacements and rotations; SI.
+    arm : float
+        Size of the second three per unit of the first: for wrenches the length of the structure,
+        m, for twists one over it. Where they cancel, each leaves its rounding in the other.
+    beside : (k, 6), optional
+        Other numbers of the kind from the same solution.
+
+    Returns
+    -------
+    (n, 6)
+    """
+    numbers = np.asarray(table, dtype=float).reshape(-1, 6)
+    every = numbers if beside is None else np.concatenate([numbers, np.reshape(beside, (-1, 6))])
+    known = np.abs(np.nan_to_num(every))  # a force that is not determined is NaN
+    first = known[:, :3].max(initial=0.0)
+    second = known[:, 3:].max(initial=0.0)
+    share = CANCELLED / ROUNDING
+    return np.concatenate(
+        [
+            without_rounding(numbers[:, :3], max(first, share * second / arm)),
+            without_rounding(numbers[:, 3:], max(second, share * first * arm)),
+        ],
+        axis=1,
+    )
+
+
+def matrix_without_rounding(matrix: ArrayLike) -> Array:
+    """A symmetric matrix of mixed units with 0 for what is rounding beside its diagonal."""
+    numbers = np.array(matrix, dtype=float)
+    scale = np.sqrt(np.abs(np.diag(numbers)))
+    return np.where(np.abs(numbers) <= ROUNDING * np.outer(scale, scale), 0.0, numbers)
 
 
 def micro(value: float, digits: int = 3) -> str:

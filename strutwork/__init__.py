@@ -8,11 +8,14 @@ from strutwork.errors import (
     MechanismError,
     ModelError,
     NumericalError,
+    PoseWarning,
+    ProportionWarning,
     SingularPoseError,
     StrutworkError,
     UnitError,
     UnreachableError,
 )
+from strutwork.outcome import Outcome
 
 __version__ = "0.1.0"
 
@@ -21,6 +24,9 @@ __all__ = [
     "MechanismError",
     "ModelError",
     "NumericalError",
+    "Outcome",
+    "PoseWarning",
+    "ProportionWarning",
     "SingularPoseError",
     "StrutworkError",
     "UnitError",

@@ -65,3 +65,11 @@ class ModelWarning(UserWarning):
 
 class ValidityWarning(ModelWarning):
     """A model is used beyond the range in which it was shown to hold."""
+
+
+class ProportionWarning(ModelWarning):
+    """Dimensions out of all proportion to one another: probably a length that is not in metres."""
+
+
+class PoseWarning(UserWarning):
+    """Some poses of a batch have no answer; the message counts them by reason."""

@@ -12,7 +12,7 @@ import xarray as xr
 from machines import Machine, Proposed3PPRS, PublishedTable, ThreeLegs, get
 from machines.published_azulay import TABLE_2, TABLE_4
 from strutwork.errors import ModelError
-from studies.azulay_notes import note_of, status_of
+from studies.azulay_notes import STATUS, note_of
 from studies.filters import AS_IN_AZULAY, Filters
 from studies.link_lengths import LINK_LENGTHS
 from studies.progress import Progress, silent
@@ -211,8 +211,8 @@ def published_rows(
                 entry.unit,
                 entry.value,
                 computed,
-                status_of(entry, model, computed),
-                note_of(entry, model, computed),
+                STATUS,
+                note_of(entry, model),
             )
         )
     return tuple(rows)

@@ -11,10 +11,8 @@ from numpy.typing import NDArray
 
 from kinematics import Placement, Poses, jacobians
 from machines import Limit, Machine, check_limits
-from msa import PlacedStructure, Structure, system_of, tool_compliance
-from msa.constraints import free_unknowns, scales
-from msa.diagnosis import WORK_TOLERANCE
-from strutwork.errors import MechanismError, NumericalError
+from msa import Structure, compliance_and_outcome
+from strutwork.errors import MechanismError
 from studies.filters import Filters, PoseStatus, moving_machine
 
 Array = NDArray[Any]
@@ -168,9 +166,6 @@ def compliance_where_possible(
 ) -> tuple[Array, NDArray[np.int8]]:
     """Tool compliance of a stack of poses, some of which may be mechanisms.
 
-    The stack is solved as a whole. Where that fails the mechanisms are found by rank and left
-    out, and what still fails is halved until the poses at fault stand alone.
-
     Parameters
     ----------
     structure : Structure
@@ -184,40 +179,6 @@ def compliance_where_possible(
     status : (p,) of int8
         `PoseStatus`: good, mechanism or unsolved.
     """
-    count = placement.batch[0]
-    compliance = np.full((count, 6, 6), np.nan)
-    status = np.zeros(count, dtype=np.int8)
-    pending = [np.arange(count)] if count else []
-    ranked = False
-    while pending:
-        part = pending.pop()
-        try:
-            compliance[part] = tool_compliance(structure.at(placement[part]))
-        except (MechanismError, NumericalError) as error:
-            if not ranked:
-                # an error names its joints at length: thousands of mechanisms would take minutes
-                ranked = True
-                loose = moves_freely(structure.at(placement))
-                status[loose] = PoseStatus.MECHANISM
-                rest = np.flatnonzero(~loose)
-                pending = [rest] if rest.size else []
-            elif part.size == 1:
-                mechanism = isinstance(error, MechanismError)
-                status[part] = PoseStatus.MECHANISM if mechanism else PoseStatus.UNSOLVED
-            else:
-                pending += [half for half in np.array_split(part, 2) if half.size]
-    return compliance, status
-
-
-def moves_freely(placed: PlacedStructure) -> NDArray[np.bool_]:
-    """Whether the tool can move without any resistance at each pose of a stack, (p,)."""
-    result = np.zeros(placed.batch, dtype=bool)
-    for start in range(0, len(result), JACOBIAN_PIECE):
-        system = system_of(placed[start : start + JACOBIAN_PIECE])
-        scale = scales(system)[..., None]
-        load = system.tool_load() * scale
-        work = np.abs(np.swapaxes(free_unknowns(system), -1, -2) @ load)
-        size = np.linalg.norm(load, axis=1, keepdims=True)
-        moving = (work > WORK_TOLERANCE * size).any(axis=(1, 2))
-        result[start : start + JACOBIAN_PIECE] = moving
-    return result
+    compliance, outcome = compliance_and_outcome(structure.at(placement))
+    failed = np.where(outcome.of_kind(MechanismError), PoseStatus.MECHANISM, PoseStatus.UNSOLVED)
+    return compliance, np.where(outcome.solved, PoseStatus.GOOD, failed).astype(np.int8)

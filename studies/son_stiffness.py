@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from machines import MitSS1
 from machines.mit_ss1 import NOMINAL_TILT
-from machines.published_son import MACHINE, STIFFNESS
+from machines.published_son import FIGURE_29_TICK
 from strutwork.errors import ModelError
 from studies.description import attributes
 from studies.planar_kinematics import strut_rows
@@ -31,7 +31,7 @@ FORMULAS: Mapping[Formula, str] = MappingProxyType(
 )
 
 #: k_i of a strut with its bearings (eq. 51), N/m. Calibrated: 1/Cxx of the corrected formula is
-#: then between 140 and 150 N/µm where Fig. 29-(a) is flat at 150 N/µm.
+#: then between 140 and 150 N/µm where Fig. 29-(a) is flat; 150 N/µm is its highest tick.
 STRUT_STIFFNESS = 255e6
 
 #: Half the range of x in Fig. 29-(a), m.
@@ -211,7 +211,7 @@ def map_figures(found: xr.Dataset) -> dict[str, float]:
     left, right = (at(corrected, *corner) for corner in CORNERS)
     return {
         "home": home,
-        "figure 29": 1e6 * STIFFNESS.value(MACHINE, "Kx, flat part of the map"),
+        "figure 29": FIGURE_29_TICK,
         "largest over smallest in the middle": float(middle.max() / middle.min()),
         "home over lower left": home / left,
         "home over upper right": home / right,

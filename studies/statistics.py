@@ -78,6 +78,8 @@ def statistics(
     Parameters
     ----------
     values : (n,)
+        Positive infinity, a direction that is locked, makes mean and variance infinite; quantiles
+        are then values of the sample.
     weights : (n,), optional
         Not negative. Without, every value counts once and quantiles are interpolated; with,
         a quantile is the first value at which the weights reach its share.
@@ -95,15 +97,17 @@ def statistics(
         variance.
     """
     x = np.asarray(values, dtype=float)
-    if x.ndim != 1 or not x.size or not np.all(np.isfinite(x)):
+    if x.ndim != 1 or not x.size or np.any(np.isnan(x) | np.isneginf(x)):
         raise ModelError(
-            "statistics", "of no values, or of values that are not finite.", "Leave out the rest."
+            "statistics", "of no values, or of values that are no number.", "Leave out the rest."
         )
+    stiff = bool(np.any(np.isinf(x)))
     if weights is None:
         if sample and x.size < 2:
             raise ModelError("statistics", "a sample of one.", "Take the population's variance.")
-        variance = float(x.var(ddof=1 if sample else 0))
-        quantiles = np.quantile(x, QUANTILES)
+        variance = np.inf if stiff else float(x.var(ddof=1 if sample else 0))
+        # between a finite value and an infinite one nothing can be interpolated
+        quantiles = np.quantile(x, QUANTILES, method="inverted_cdf" if stiff else "linear")
         mean = float(x.mean())
     else:
         w = np.asarray(weights, dtype=float)
@@ -113,8 +117,12 @@ def statistics(
                 "the weights are not one a value, negative, all zero, or go with a sample.",
                 "Give finite weights that are not negative, and the population's variance.",
             )
-        mean = float(np.average(x, weights=w))
-        variance = float(np.average((x - mean) ** 2, weights=w))
+        # what weighs nothing takes no part, however stiff
+        part, share = x[w > 0], w[w > 0]
+        mean = float(np.average(part, weights=share))
+        variance = np.inf
+        if np.isfinite(mean):
+            variance = float(np.average((part - mean) ** 2, weights=share))
         quantiles = np.quantile(x, QUANTILES, weights=w, method="inverted_cdf")
     return Statistics(
         x.size, mean, variance, variance**0.5, tuple(float(q) for q in quantiles), sample
@@ -187,8 +195,8 @@ class Summary:
         )
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain numbers and strings, SI."""
-        return asdict(self)
+        """Plain numbers and strings, SI; None stands for infinite, where the tool is locked."""
+        return {key: _plain(value) for key, value in asdict(self).items()}
 
 
 def summary(
@@ -268,6 +276,14 @@ def summary(
         int(kept.size),
         tuple(axes),
     )
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return type(value)(_plain(entry) for entry in value)
+    return None if isinstance(value, float) and np.isinf(value) else value
 
 
 def _found(dataset: xr.Dataset, kept: NDArray[np.intp], values: Array, at: int) -> PoseValue:

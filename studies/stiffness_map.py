@@ -135,8 +135,9 @@ def stiffest_roll(found: Evaluated, rolls: int) -> tuple[NDArray[np.intp], NDArr
     each[found.good] = axis_stiffness_blocked(found.compliance[found.good])[:, 0]
     stiffness = each.reshape(-1, rolls)
     best = stiffness.max(axis=1, keepdims=True)
-    with np.errstate(invalid="ignore"):
-        candidate = good & (stiffness >= best - TIE * np.abs(best))
+    # where a direction is locked the best is infinite, and only its equals are as good
+    level = np.where(np.isfinite(best), best * (1 - TIE * np.sign(best)), best)
+    candidate = good & (stiffness >= level)
     outcome = np.where(good.any(axis=1), PoseStatus.GOOD, status.max(axis=1)).astype(np.int8)
     return candidate.argmax(axis=1), outcome
 

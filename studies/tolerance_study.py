@@ -117,6 +117,8 @@ def tolerance_study(
             "Add [[force_limits]], or give --limit.",
         )
     responses = in_a_row(tolerance_responses(placed, tolerances, quantities))
+    # a worst case over poses says nothing when one of them has no answer
+    responses.influence.outcome.require_all()
     worst = worst_case(responses)
     labels = tuple(poses) if poses is not None else _labels(len(worst.value))
     governing = _governing(worst, known)
@@ -167,6 +169,7 @@ def in_a_row(responses: Responses) -> Responses:
             tool=flat(found.tool, 2),
             redundant=flat(found.redundant, 0),
             residual=flat(found.residual, 0),
+            outcome=found.outcome.reshaped((count,)),
         ),
     )
 

@@ -121,3 +121,45 @@ def gough(lower: str = "universal") -> Gough:
         return tuple((radius * float(np.cos(a)), radius * float(np.sin(a)), 0.0) for a in angles)
 
     return Gough(circle(base, 0.4), circle(plate, 0.2), lower)
+
+
+def slider_crank(
+    turn: float, crank: float = 0.1, rod: float = 0.3, rotation: ArrayLike | None = None
+) -> tuple[Linkage, Placement]:
+    """Crank (driven), connecting rod and slider with the tool; `turn` is the crank's, rad."""
+    pin = np.array([crank * np.cos(turn), crank * np.sin(turn), 0.0])
+    slider = np.array([pin[0] + np.sqrt(rod**2 - pin[1] ** 2), 0.0, 0.0])
+    zero = np.zeros(3)
+    frame = np.eye(3) if rotation is None else np.asarray(rotation, dtype=float)
+    linkage = Linkage(
+        ("o", "c0", "c1", "r0", "r1", "s", "guide", "tool"),
+        (
+            Body(GROUND, ("o", "guide")),
+            Body("crank", ("c0", "c1")),
+            Body("rod", ("r0", "r1")),
+            Body("slider", ("s", "tool")),
+        ),
+        (
+            Joint("crank", "revolute", ("o", "c0"), driven=("rz",)),
+            Joint("pin", "revolute", ("c1", "r0")),
+            Joint("wrist", "revolute", ("r1", "s")),
+            Joint("guide", "prismatic", ("guide", "tool")),
+        ),
+        "tool",
+    )
+    points = np.array([zero, zero, pin, pin, slider, slider, slider, slider])
+    frames = np.stack([np.eye(3)] * 3 + [axes_frame([1.0, 0.0, 0.0])])
+    return linkage, Placement(points @ frame.T, frame @ frames, np.zeros(0))
+
+
+def open_chain(
+    points: ArrayLike, axes: ArrayLike, kinds: Sequence[str] | None = None
+) -> tuple[Linkage, Placement]:
+    """An open chain whose joints are all driven: revolutes, or prismatic joints along the axes."""
+    linkage, placement = chain(points, axes, closed=False)
+    names = ["revolute"] * len(linkage.joints) if kinds is None else kinds
+    joints = tuple(
+        Joint(j.name, kind, j.between, driven=("rz",) if kind == "revolute" else ("z",))
+        for j, kind in zip(linkage.joints, names, strict=True)
+    )
+    return Linkage(linkage.nodes, linkage.bodies, joints, "tool"), placement

@@ -6,7 +6,7 @@ import numpy as np
 
 from machines import MitSS1, get
 from machines.mit_ss1_tolerances import AXIAL_FACTOR, HOUSING_TILT, RAIL_HEIGHT, STATIC_RATING
-from machines.published_son import DIMENSIONS, MACHINE, MANIPULABILITY, MODES, STIFFNESS
+from machines.published_son import DIMENSIONS, FIGURE_29_TICK, MACHINE, MANIPULABILITY, MODES
 from reports.chapters.mit_ss1_energies import place_shares
 from reports.chapters.mit_ss1_modes import MET
 from reports.chapters.mit_ss1_whole import whole_assumptions, whole_blocks
@@ -75,7 +75,6 @@ def _plane_facts(study: MitSS1Study) -> list[Fact]:
         for end in ("least", "most")
     ]
     plane = map_figures(study.whole.planar)
-    along_x = STIFFNESS.value(MACHINE, "Kx, flat part of the map")
     return [
         Fact(
             "Position condition number",
@@ -87,7 +86,8 @@ def _plane_facts(study: MitSS1Study) -> list[Fact]:
             "Stiffness along x at home",
             micro(plane["home"]),
             "N/µm",
-            f"published {along_x:g}, calibrated to it; at the two soft corners "
+            "none is published: k_i was chosen so that the flat part lies at "
+            f"{micro(FIGURE_29_TICK)}, the highest tick of Fig. 29-(a); at the two soft corners "
             f"{significant(plane['home over lower left'], 2)} and "
             f"{significant(plane['home over upper right'], 2)} times less",
         ),
@@ -255,7 +255,7 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
         [
             "Radial stiffness of a bearing",
             f"{micro(machine.radial_stiffness or np.inf)} N/µm",
-            "calibrated: with the strut 255 N/µm (eq. 51), the 150 N/µm of Fig. 29",
+            "calibrated: with the strut 255 N/µm (eq. 51), the highest tick of Fig. 29-(a)",
         ],
         [
             "Axial stiffness of a bearing",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from machines.model import Model
 from msa import axis_stiffness_blocked, axis_stiffness_free
 from reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
@@ -44,16 +46,14 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
         facts.append(Fact("Mass", significant(check.mass.total), "kg"))
     if solution is not None and solution.compliance is not None:
         free = axis_stiffness_free(solution.compliance)
-        blocked = (
-            None if solution.stiffness is None else axis_stiffness_blocked(solution.compliance)
-        )
+        blocked = axis_stiffness_blocked(solution.compliance)
         for i, axis in enumerate("xyz"):
-            detail = "other directions free, 1/C_ii"
-            if blocked is not None:
-                detail += f"; blocked, (C⁻¹)_ii: {significant(blocked[i] / 1e6)} N/µm"
-            facts.append(
-                Fact(f"Tool stiffness along {axis}", significant(free[i] / 1e6), "N/µm", detail)
-            )
+            held = significant(blocked[i] / 1e6) + (" N/µm" if np.isfinite(blocked[i]) else "")
+            value, unit = significant(free[i] / 1e6), "N/µm"
+            if not np.isfinite(free[i]):
+                value, unit = "does not move", ""
+            detail = f"other directions free, 1/C_ii; blocked, (C⁻¹)_ii: {held}"
+            facts.append(Fact(f"Tool stiffness along {axis}", value, unit, detail))
     return Chapter("summary", "Summary", (Text(text), Facts(tuple(facts))))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import floor, log10
+from math import floor, isnan, log10
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from reports.data_files import DataFile, csv_file, json_file
 from reports.figures.model import deformed_shape, deformed_view, model_size
 from reports.model_solution import ModelSolution
 from reports.numbers import significant
+from reports.solution_tables import FORCE_TABLES, beam_ends, shown_tables
 
 #: Rows of a table a reader is shown; the file has all.
 SHOWN = 40
@@ -21,6 +22,7 @@ SHOWN = 40
 DRAWN = 0.08
 
 _MOVED = (*((f"u{a}", "µm") for a in "xyz"), *((f"r{a}", "mrad") for a in "xyz"))
+_IN_SHOWN_UNITS = np.array([1e6] * 3 + [1e3] * 3)
 _FORCE = (*((f"F{a}", "N") for a in "xyz"), *((f"M{a}", "N·m") for a in "xyz"))
 
 
@@ -36,14 +38,11 @@ def loads_chapter(solution: ModelSolution) -> Chapter:
         blocks.append(Text(f"Case “{name}”: strain energy {energy} J."))
         if figure is not None:
             blocks.append(figure)
-        moved = {
-            n: [1e6 * v for v in u[:3]] + [1e3 * v for v in u[3:]]
-            for n, u in case["displacements"].items()
-        }
+        tables = shown_tables(solution, number)
+        moved = {n: _IN_SHOWN_UNITS * six for n, six in tables["displacements"].items()}
         blocks += _six(f"Displacements, case “{name}”", "node", _MOVED, moved)
-        blocks += _six(
-            f"Reactions on the structure, case “{name}”", "node", _FORCE, case["reactions"]
-        )
+        title, what, key = FORCE_TABLES[0]
+        blocks += _six(f"{title}, case “{name}”", what, _FORCE, tables[key])
     files = [
         json_file(
             "solution.json", "displacements, reactions and forces of every case, SI", answers
@@ -63,19 +62,12 @@ def forces_chapter(solution: ModelSolution) -> Chapter:
     answers = solution.to_dict()
     blocks: list[Block] = []
     rows: list[list[Any]] = []
-    for name, case in answers["cases"].items():
-        ends = {
-            f"{beam}, {end} its {word} end": force
-            for beam, both in case["beam_forces"].items()
-            for end, word, force in (("at", "first", both["from"]), ("at", "second", both["to"]))
-        }
-        for title, what, values in (
-            ("Joint forces on the second node, joint axes", "joint", case["joint_forces"]),
-            ("Spring forces, global axes", "spring", case["spring_forces"]),
-            ("Forces on the beams, beam axes", "beam", ends),
-        ):
-            blocks += _six(f"{title}, case “{name}”", what, _FORCE, values, "forces.csv")
-            rows += [[name, what, part, *force] for part, force in values.items()]
+    for number, (name, case) in enumerate(answers["cases"].items()):
+        shown = shown_tables(solution, number)
+        exact = case | {"beam_forces": beam_ends(case["beam_forces"])}
+        for title, what, key in FORCE_TABLES[1:]:
+            blocks += _six(f"{title}, case “{name}”", what, _FORCE, shown[key], "forces.csv")
+            rows += [[name, what, part, *force] for part, force in exact[key].items()]
     columns = ("case", "kind", "part", *(f"{f}_{u}".replace("·", "") for f, u in _FORCE))
     file: DataFile = csv_file("forces.csv", "forces in joints, springs and beams", columns, rows)
     return Chapter("forces", "Forces in joints and beams", tuple(blocks), (file,))
@@ -85,18 +77,15 @@ def _six(
     title: str,
     what: str,
     columns: Sequence[tuple[str, str]],
-    values: Mapping[str, Sequence[float]],
+    values: Mapping[str, Any],
     data: str = "solution.json",
 ) -> list[Block]:
     if not values:
         return []
-    rows = []
-    # round-off beside the table's largest entries says nothing
-    table = np.abs(np.array(list(values.values())))
-    floors = 1e-9 * np.repeat([table[:, :3].max(), table[:, 3:].max()], 3)
-    for part, six in list(values.items())[:SHOWN]:
-        shown = [0.0 if abs(v) <= low else v for v, low in zip(six, floors, strict=True)]
-        rows.append([part, *(significant(v, 4) for v in shown)])
+    rows = [
+        [part, *("not determined" if isnan(v) else significant(float(v), 4) for v in six)]
+        for part, six in list(values.items())[:SHOWN]
+    ]
     heads = (Column(what, "", False), *(Column(title, unit) for title, unit in columns))
     blocks: list[Block] = [Table(title, heads, rows, data)]
     if len(values) > SHOWN:

@@ -20,7 +20,7 @@ from reports.content import Block, Chapter, Column, Figure, Note, Table, Text
 from reports.data_files import csv_file, json_file
 from reports.figures.charts import REST, stacked_shares
 from reports.model_solution import ModelSolution
-from reports.numbers import clean, share, significant
+from reports.numbers import clean, matrix_without_rounding, share, significant
 
 Array = NDArray[Any]
 
@@ -38,12 +38,12 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         note = Note("The tool moves freely under one of its six unit wrenches: no stiffness.")
         return Chapter("tool", "Stiffness at the tool", (note,))
     free = axis_stiffness_free(compliance)
-    blocked = None if stiffness is None else axis_stiffness_blocked(compliance)
+    blocked = axis_stiffness_blocked(compliance)
     rows = []
     for i, direction in enumerate(DIRECTIONS):
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
-        held = "infinite" if blocked is None else significant(scale * float(blocked[i]), 4)
-        rows.append([direction, unit, significant(scale * float(free[i]), 4), held])
+        values = (significant(scale * float(v[i]), 4) for v in (free, blocked))
+        rows.append([direction, unit, *values])
     blocks: list[Block] = [
         Text(
             f"At node “{solution.model.tool}”, global axes, drives held. Along an axis stiffness "
@@ -56,6 +56,13 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
             "tool.json",
         ),
     ]
+    if not np.all(np.isfinite([free, blocked])):
+        blocks.append(
+            Note(
+                "Infinite: rigid joints leave the tool no such motion, alone or with the others "
+                "following."
+            )
+        )
     if stiffness is not None:
         blocks.append(
             _matrix("Stiffness matrix, N/m, N and N·m/rad (force then moment)", stiffness)
@@ -80,7 +87,7 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         "stiffness": None if stiffness is None else stiffness.tolist(),
         # null stands for a direction in which the tool cannot move: its stiffness is infinite
         "axis_stiffness_free": _finite(free),
-        "axis_stiffness_blocked": None if blocked is None else _finite(blocked),
+        "axis_stiffness_blocked": _finite(blocked),
         "principal_stiffness_rotations_free": {
             "values": _finite(ellipsoid.values),
             "directions_as_columns": ellipsoid.directions.tolist(),
@@ -143,15 +150,9 @@ def _finite(values: Array) -> list[float | None]:
 
 
 def _matrix(title: str, matrix: Array) -> Table:
-    # entries that only rounding makes differ from zero beside their row's and column's diagonal
-    scale = np.sqrt(np.abs(np.diag(matrix)))
-    small = np.abs(matrix) < 1e-9 * np.outer(scale, scale)
     rows = [
-        [
-            direction,
-            *("0" if low else significant(float(v), 4) for v, low in zip(row, lows, strict=True)),
-        ]
-        for direction, row, lows in zip(DIRECTIONS, matrix, small, strict=True)
+        [direction, *(significant(float(v), 4) for v in row)]
+        for direction, row in zip(DIRECTIONS, matrix_without_rounding(matrix), strict=True)
     ]
     return Table(
         title, (Column("", "", False), *(Column(d) for d in DIRECTIONS)), rows, "tool.json"

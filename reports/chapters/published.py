@@ -20,10 +20,10 @@ CLOSE, FAIR = 5.0, 15.0
 
 READING = (
     "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
-    "other five directions are held. This is the meaning that agrees with the paper. “Predicted” "
-    "was computed from the paper's data and our stated choices; “calibrated” has something fitted "
-    "to means of Table 4, or belongs to the model that was chosen for its fit; “not reproducible” "
-    "is a variance that no model tried meets within a factor of two. Nothing is rescaled."
+    "other five directions are held. This is the meaning that agrees with the paper. All rows "
+    "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
+    "were chosen with the means of these tables in view, and the variances follow from that. "
+    "Nothing is rescaled."
 )
 
 

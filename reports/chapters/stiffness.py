@@ -60,10 +60,15 @@ def map_figure(
         f"K{axis * 2} {value:.3f} N/µm<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f}, "
         f"z {1e3 * p[2]:.1f} mm<br>tilt {tilt(n):.0f}°, roll {r:.0f}°"
         if np.isfinite(value)
+        else f"K{axis * 2} infinite: the tool cannot move so<br>x {1e3 * p[0]:.1f}, "
+        f"y {1e3 * p[1]:.1f} mm"
+        if np.isinf(value)
         else f"no pose counts<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f} mm"
         for value, p, n, r in zip(values, position, normal, roll, strict=True)
     ]
-    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    shown = values[np.isfinite(values)]
+    low, high = (float(shown.min()), float(shown.max())) if shown.size else (np.inf, np.inf)
+    values = np.where(np.isfinite(values), values, np.nan)
     return Figure(
         key,
         f"K{axis * 2}, {label}: {significant(low)} to {significant(high)} N/µm.",
@@ -84,14 +89,15 @@ def map_files(dataset: xr.Dataset, name: str, what: str) -> tuple[DataFile, Data
 
 
 def axis_values(dataset: xr.Dataset, axis: str) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
-    """Blocked stiffness along an axis, N/µm, (n,); NaN where no pose counts."""
+    """Blocked stiffness along an axis, N/µm, (n,); NaN where no pose counts, may be infinite."""
     values = dataset["stiffness_blocked"].sel(direction=axis).to_numpy() / 1e6
     return np.where(dataset["status"].to_numpy() == PoseStatus.GOOD, values, np.nan)
 
 
 def distribution_chapter(study: MachineStudy) -> Chapter:
     """Boxes and statistics of both joint models, and both meanings of stiffness."""
-    top = max(float(np.nanmax(axis_values(d, a))) for d in study.maps.values() for a in AXES)
+    every = np.concatenate([axis_values(d, a) for d in study.maps.values() for a in AXES])
+    top = float(every[np.isfinite(every)].max(initial=0.0)) or 1.0
     figures = []
     for model, label in MODEL_NAMES.items():
         values = {f"K{a * 2}": axis_values(study.maps[model], a) for a in AXES}

@@ -6,6 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
+from math import isinf
 from typing import Any
 
 from rich.console import Console
@@ -52,6 +53,8 @@ def table(
 def show(value: object) -> str:
     """A number with four digits, anything else as it is."""
     if isinstance(value, float):
+        if isinf(value):
+            return "infinite" if value > 0 else "-infinite"
         return "0" if value == 0 else f"{value:.4g}"
     return str(value)
 

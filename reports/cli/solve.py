@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import isfinite
+from math import isnan
 
 import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
 
 from machines.model_file import read_model
-from msa import axis_stiffness_free
+from msa import axis_stiffness_blocked, axis_stiffness_free
 from reports.cli.output import console, print_json, table
 from reports.model_solution import ModelSolution, solve_model
+from reports.solution_tables import FORCE_TABLES, shown_tables
 
 _AXES = ("x", "y", "z")
 _MOVED = [*(f"{a}, mm" for a in _AXES), *(f"r{a}, mrad" for a in _AXES)]
@@ -31,20 +32,13 @@ def run(file: str, json: bool) -> None:
 def _print(found: ModelSolution) -> None:
     out, answers = console(), found.to_dict()
     out.print(found.model.title or "Model", markup=False, style="bold")
-    for name, case in answers["cases"].items():
+    for number, (name, case) in enumerate(answers["cases"].items()):
         out.print(f'\nCase "{name}", strain energy {case["strain_energy"]:.4g} J', markup=False)
-        moved = {n: [1e3 * v for v in u] for n, u in case["displacements"].items()}
+        tables = shown_tables(found, number)
+        moved = {n: 1e3 * six for n, six in tables["displacements"].items()}
         _six(out, "Displacements", "node", _MOVED, moved)
-        _six(out, "Reactions on the structure", "node", _FORCE, case["reactions"])
-        on_second = "Joint forces on the second node, joint axes"
-        _six(out, on_second, "joint", _FORCE, case["joint_forces"])
-        _six(out, "Spring forces", "spring", _FORCE, case["spring_forces"])
-        ends = {
-            f"{beam} {end}": force
-            for beam, both in case["beam_forces"].items()
-            for end, force in both.items()
-        }
-        _six(out, "Forces on the beam ends, beam axes", "beam", _FORCE, ends)
+        for title, what, key in FORCE_TABLES:
+            _six(out, title, what, _FORCE, tables[key])
     if found.compliance is not None:
         _print_tool(out, found, found.compliance)
 
@@ -54,26 +48,22 @@ def _six(
     title: str,
     what: str,
     columns: Sequence[str],
-    values: Mapping[str, Sequence[float]],
+    values: Mapping[str, NDArray[np.float64]],
 ) -> None:
     if not values:
         return
-    # round-off beside the largest force or moment is shown as zero
-    numbers = np.array(list(values.values()))
-    largest = np.abs(numbers.reshape(-1, 2, 3)).max(axis=(0, 2)).repeat(3)
-    numbers[np.abs(numbers) < 1e-10 * largest] = 0.0
-    rows = [(name, *row) for name, row in zip(values, numbers.tolist(), strict=True)]
+    rows = [
+        (name, *("not determined" if isnan(v) else v for v in six.tolist()))
+        for name, six in values.items()
+    ]
     out.print(table(title, [what, *columns], rows))
 
 
 def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float64]) -> None:
-    free = axis_stiffness_free(compliance)
-    blocked = None if found.stiffness is None else found.stiffness.diagonal()
+    free, blocked = axis_stiffness_free(compliance), axis_stiffness_blocked(compliance)
     rows: list[tuple[object, ...]] = []
     for i, axis in enumerate((*_AXES, *(f"r{a}" for a in _AXES))):
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
-        held = "infinite" if blocked is None else float(blocked[i]) * scale
-        follows = float(free[i]) * scale if isfinite(free[i]) else "infinite"
-        rows.append((axis, unit, follows, held))
+        rows.append((axis, unit, *(float(v[i]) * scale for v in (free, blocked))))
     title = f"Stiffness at the tool {found.model.tool}"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))

@@ -154,7 +154,7 @@ def _print(result: dict[str, Any]) -> None:
             s = axis["statistics"]
             numbers = [s["mean"], s["standard_deviation"], axis["worst"]["value"]]
             numbers += [s["quantiles"][2], axis["best"]["value"]]
-            rows.append((direction, *(1e-6 * v for v in numbers)))
+            rows.append((direction, *(float("inf") if v is None else 1e-6 * v for v in numbers)))
         columns = ["axis", "mean", "deviation", "worst", "median", "best"]
         out.print(table(f"Stiffness in N/µm, {words}", columns, rows))
     for path in result["data"]:

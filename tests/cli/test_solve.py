@@ -18,7 +18,8 @@ EXAMPLE = {path.stem: path for path in EXAMPLES}
 
 def test_keys_of_the_json(strutwork: Program, write: Callable[[Content], Path]) -> None:
     found = strutwork("solve", write(SAMPLE), "--json").result
-    assert set(found) == {"cases", "tcp"}
+    beside = {"undetermined_joint_forces", "undetermined_reactions", "near_mechanisms"}
+    assert set(found) == {"cases", "tcp", *beside}
     assert set(found["tcp"]) == {"compliance", "stiffness"}
     assert np.shape(found["tcp"]["compliance"]) == (6, 6)
     assert np.shape(found["tcp"]["stiffness"]) == (6, 6)

@@ -50,7 +50,12 @@ def test_manipulability_of_the_hexapod(hexapod_report: WrittenReport) -> None:
 
 def test_hexapod_says_what_was_assumed(hexapod_report: WrittenReport) -> None:
     page = text_of(hexapod_report.report)
-    for words in ("our choice: the k_i", "the drawing is missing", "nothing fitted", "6 x 3 type"):
+    for words in (
+        "our choice: the k_i",
+        "the drawing is missing",
+        "nothing else was chosen",
+        "6 x 3 type",
+    ):
         assert words in page
     content = json.loads((hexapod_report.report.parent / "report.json").read_text(encoding="utf-8"))
     assert (content["mobility"], content["redundant_constraints"]) == (6, 0)

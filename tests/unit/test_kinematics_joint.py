@@ -48,6 +48,28 @@ def test_a_driven_direction_is_held_in_statics_and_elastic_with_a_drive_stiffnes
     assert soft.states[2] == State.ELASTIC
 
 
+@pytest.mark.parametrize("kind", [k for k in JOINT_TYPES if k != "bushing"])
+@pytest.mark.parametrize("direction", DIRECTIONS)
+def test_only_a_direction_that_can_move_is_driven(kind: str, direction: str) -> None:
+    if direction in JOINT_TYPES[kind]:
+        with pytest.raises(ModelError, match=rf"joint J: drives {direction}, which a {kind}"):
+            Joint("J", kind, AB, driven=(direction,))
+    else:
+        assert Joint("J", kind, AB, driven=(direction,)).driven == (direction,)
+    # made elastic by name it is locked no longer
+    soft = Joint("J", kind, AB, {direction: 1e6}, driven=(direction,))
+    assert soft.states[DIRECTIONS.index(direction)] == State.ELASTIC
+
+
+def test_the_error_of_a_locked_drive_says_what_may_be_driven() -> None:
+    with pytest.raises(ModelError, match="Of this joint z, rz can be driven"):
+        Joint("J", "cylindrical", AB, driven=("x", "z"))
+    with pytest.raises(ModelError, match="its locks hold"):
+        Joint("J", "revolute", AB, driven=("rz",), locks=("rz",))
+    bushing = Joint("J", "bushing", AB, {"x": 1e6}, driven=("x", "y"))
+    assert bushing.states[:2] == (State.ELASTIC, State.LOCKED)
+
+
 def test_a_support_locks_what_it_names() -> None:
     states = Joint("J", "support", AB, locks=("x", "ry")).states
     assert states == (State.LOCKED, 0, 0, 0, State.LOCKED, 0)

@@ -177,5 +177,12 @@ def test_a_beam_needs_two_nodes() -> None:
 def test_one_short_beam_in_a_batch_is_found() -> None:
     model = cantilever()
     model.nodes(tip=[[0.5, 0, 0], [0.0, 0, 0]])
+    cases = [wrench("push", "tip", 0, 0, 1.0)]
+    found = solve(model.place(), cases)
+    assert found.outcome.solved.tolist() == [True, False]
+    assert "beam beam: has zero length" in found.outcome.reason(1)
+    assert np.isnan(found.displacements[1]).all()
+    alone = solve(model.place()[:1], cases).displacements
+    np.testing.assert_array_equal(found.displacements[:1], alone)
     with pytest.raises(ModelError, match="beam beam: has zero length"):
-        model.place()
+        solve(model.place()[1], cases)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from msa import LineLoad, LoadCase, solve, tool_compliance
-from strutwork.errors import MechanismError, NumericalError, StrutworkError
+from strutwork.errors import MechanismError, NumericalError
 from tests.structure_cases import four_bar, stewart, tripod_of_pinned_rods
 from tests.structures import BAR, TUBE, Model, cantilever, wrench
 
@@ -109,11 +109,22 @@ def test_the_pose_is_named_where_only_one_is_a_mechanism() -> None:
         model.joint(f"{end}0", "revolute", (end, f"{end}1"), (0, 1, 0))
         model.joint(f"{end}2", "revolute", ("hub", f"{end}3"), (0, 1, 0))
         model.rigid(f"rod {end}", f"{end}1", f"{end}3")
-    solve(model.place()[:2], [wrench("push", "hub", 0, 0, 1.0)])
-    with pytest.raises(StrutworkError) as caught:
-        solve(model.place(), [wrench("push", "hub", 0, 0, 1.0)])
+    push = [wrench("push", "hub", 0, 0, 1.0)]
+    alone = solve(model.place()[:2], push)
+    found = solve(model.place(), push)
+    assert found.outcome.solved.tolist() == [True, True, False]
+    assert found.outcome.of_kind(MechanismError).tolist() == [False, False, True]
+    assert found.outcome.counts() == {"the structure moves freely under its load": 1}
+    np.testing.assert_array_equal(found.displacements[:2], alone.displacements)
+    assert np.isnan(found.displacements[2]).all()
+    assert np.isnan(found.strain_energy[2]).all()
+    with pytest.raises(MechanismError) as caught:
+        found.outcome.require_all()
     assert "at pose 2" in caught.value.problem
     assert "a2" in caught.value.part
+    # with nothing solved there is no answer to mark
+    with pytest.raises(MechanismError):
+        solve(model.place()[2:], push)
 
 
 @methods

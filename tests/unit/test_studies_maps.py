@@ -31,8 +31,9 @@ from studies import (
     sweep,
 )
 from studies.description import study_key
-from studies.evaluation import compliance_where_possible, moves_freely
+from studies.evaluation import Evaluated, compliance_where_possible
 from studies.filters import moving_machine, tool_radius
+from studies.stiffness_map import stiffest_roll
 
 ROLLS = np.arange(6) * pi / 9
 
@@ -319,7 +320,7 @@ def test_one_mechanism_in_a_stack_spoils_no_other_pose() -> None:
         ).poses(slice(None), np.array([0.2]))
     )
     frames = placement.frames.copy()
-    assert not moves_freely(machine.structure.at(placement)).any()
+    assert not compliance_where_possible(machine.structure, placement)[1].any()
     # links on vertical hinges turn with the platform, which nothing holds about its vertical
     for leg in (1, 2, 3):
         hinge = machine.linkage.joint_index[f"leg{leg}/hinge"]
@@ -346,3 +347,18 @@ def test_area_weights_give_the_rim_its_due() -> None:
     by_point = summary(found).axis("z").statistics
     assert by_point.mean == pytest.approx(values.mean(), rel=1e-12)
     assert by_area.mean != pytest.approx(by_point.mean, rel=1e-6)
+
+
+def test_the_stiffest_roll_counts_and_may_be_infinitely_stiff() -> None:
+    compliance = np.full((6, 6, 6), np.nan)
+    status = np.full(6, PoseStatus.MECHANISM, dtype=np.int8)
+    # at the first point the second and third of three rolls count, the third is locked along x
+    compliance[1], compliance[2] = np.eye(6), np.diag([0.0, 1, 1, 1, 1, 1])
+    # at the second only the last, and it is locked
+    compliance[5] = np.diag([0.0, 1, 1, 1, 1, 1])
+    status[[1, 2, 5]] = PoseStatus.GOOD
+    none = np.zeros(6, dtype=np.int16)
+    found = Evaluated(status, none, (), np.zeros((6, 0), dtype=bool), none * np.nan, compliance)
+    chosen, outcome = stiffest_roll(found, 3)
+    assert chosen.tolist() == [2, 2]
+    assert outcome.tolist() == [PoseStatus.GOOD] * 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from math import pi
 
 import numpy as np
@@ -137,3 +138,33 @@ def test_summary_says_what_it_does_not_know(settings: dict[str, str], message: s
 def test_summary_of_nothing_is_an_error() -> None:
     with pytest.raises(ModelError, match="no pose counts"):
         summary(dataset([1.0], [int(PoseStatus.UNREACHABLE)]))
+
+
+def test_locked_points_make_the_mean_infinite_and_leave_quantiles_of_the_sample() -> None:
+    found = statistics([1.0, np.inf, 3.0, 2.0])
+    assert (found.count, found.mean, found.variance) == (4, np.inf, np.inf)
+    assert found.quantiles == (1.0, 1.0, 2.0, 3.0, np.inf)
+    weighted = statistics([1.0, np.inf, 3.0], [1.0, 0.0, 1.0])
+    assert (weighted.mean, weighted.variance) == (2.0, 1.0)
+    for bad in (np.nan, -np.inf):
+        with pytest.raises(ModelError, match="no number"):
+            statistics([1.0, bad])
+
+
+def test_a_summary_has_no_infinite_number_in_its_dictionary() -> None:
+    # a tool on a slide along x, at two points
+    compliance = np.zeros((2, 6, 6))
+    compliance[:, 0, 0] = 1e-8, 5e-9
+    status = np.zeros(2, dtype=np.int8)
+    variables = stiffness_variables("pose", compliance, status)
+    variables["position"] = xr.Variable(("pose", "axis"), np.zeros((2, 3)))
+    dataset = xr.Dataset(variables)
+    found = summary(dataset)
+    assert found.axis("x").statistics.mean == EXACT(1.5e8)
+    assert found.axis("y").worst.value == np.inf
+    axes = found.to_dict()["axes"]
+    assert axes[0]["best"]["value"] == EXACT(2e8)
+    assert axes[1]["worst"]["value"] is None
+    assert axes[1]["statistics"]["mean"] is None
+    assert set(axes[1]["statistics"]["quantiles"]) == {None}
+    json.dumps(found.to_dict(), allow_nan=False)

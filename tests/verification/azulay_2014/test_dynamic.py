@@ -165,15 +165,16 @@ def test_the_calibrated_set_is_the_documented_one(found: AzulayDynamics, name: s
 
 def test_rows_say_what_they_are_worth(found: AzulayDynamics) -> None:
     assert {row.status for row in found.rows["blind"]} == {"not reproducible"}
+    # fitted to the table, so calibrated, also where the fit misses it; the note says so then
+    assert {row.status for row in found.rows["calibrated"]} == {"calibrated"}
     missed = {
         (row.row, row.quantity)
         for row in found.rows["calibrated"]
-        if row.status == "not reproducible"
+        if "the fit misses it" in row.note
     }
     factors = found.factors("calibrated")
     assert missed == {key for key, factor in factors.items() if factor > 2.0}
     assert ("alizade-3prps", "Kzz minimum") in missed
-    assert all(row.status != "predicted" for rows in found.rows.values() for row in rows)
     assert [row.published for row in found.rows["blind"]] == [v.value for v in TABLE_5]
 
 

@@ -158,26 +158,19 @@ def test_near_singular_poses_lie_in_the_ring_of_figure_4(comparison: AzulayCompa
     assert count[r > 3.6].sum() == 0
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_status_of_variances_is_honest(comparison: AzulayComparison, model: Model) -> None:
-    # Variances are not asserted. Those that a model does not meet within a factor of two are
-    # called not reproducible by it, and no other row is.
-    for table in (TABLE_2.key, TABLE_4.key):
-        for row in comparison.rows[table, model]:
-            far = row.quantity.endswith("variance") and not (
-                0.5 <= row.computed / row.published <= 2.0
-            )
-            assert (row.status == "not reproducible") == far, (row.row, row.quantity)
-
-
-def test_only_what_nothing_was_fitted_to_is_predicted(comparison: AzulayComparison) -> None:
-    predicted = {
-        (row.row, model)
-        for (_, model), rows in comparison.rows.items()
+def test_no_row_is_called_a_prediction(comparison: AzulayComparison) -> None:
+    # heights, lengths and the model of the drives were chosen with these tables in view: a status
+    # depends on that, not on how near a number came
+    found = {row.status for rows in comparison.rows.values() for row in rows}
+    assert found == {"calibrated"}
+    variances = [
+        row
+        for rows in comparison.rows.values()
         for row in rows
-        if row.status == "predicted"
-    }
-    assert predicted == {(LENGTHS[0], "spherical"), (LENGTHS[2], "spherical")}
+        if row.quantity.endswith("variance")
+    ]
+    assert variances
+    assert all("nothing was fitted to a variance" in row.note for row in variances)
 
 
 def test_rows_hold_both_models_of_every_published_number(comparison: AzulayComparison) -> None:

@@ -9,7 +9,7 @@
 
 Section 6.6 and Table 2, page 85; the printed forces are read from `machines.published_son`. The
 structure is reconstructed, since figures 40 and 42 are not at hand, and its two stiffnesses are
-calibrated: agreement with the print is a fit. Cases II and III are predicted where the stiffnesses
+calibrated: agreement with the print is a fit. Cases II and III test it where the stiffnesses
 were fitted to Case I alone, and then only as far as the structure is right.
 """
 
@@ -83,10 +83,10 @@ def test_rows_of_the_table() -> None:
     assert {row.status for row in rows} == {"calibrated"}
     assert all("reconstructed" in row.note for row in rows)
     fitted = table_2_rows("case I")
-    assert {r.status for r in fitted if " I " in r.row} == {"calibrated"}
+    # layout and ratios were chosen with every case in view, so no case is predicted
+    assert {r.status for r in fitted} == {"calibrated"}
     others = [r for r in fitted if " I " not in r.row]
-    assert {r.status for r in others} == {"predicted"}
-    assert all("from a calibrated model" in r.note for r in others)
+    assert all("with this case in view too" in r.note for r in others)
     # fitted to Case I alone, the rest within 5 %: the reconstruction's own transfer is 4.1 %
     assert max(abs(r.difference_percent) for r in others) < 5.0
     assert len(others) == 24

@@ -1,0 +1,185 @@
+"""Velocity Jacobians per second: leg by leg in compiled code beside all rows of the linkage.
+
+Run `python -m benchmarks.kinematics_speed`; with `--write` its table goes to
+docs/performance-kinematics.md. It stops with an error where the two disagree, or where the legs
+are not faster by `LEAST`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from benchmarks.static_speed import machine_line
+from kinematics import Placement, Poses, jacobians
+from machines import (
+    Alizade3PRPS,
+    Eclipse3PPRS,
+    Glozman3PRRS,
+    HexelHexapod,
+    Machine,
+    Proposed3PPRS,
+    Prototype3PPPRS,
+    check_limits,
+)
+
+Array = NDArray[Any]
+
+DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "performance-kinematics.md"
+
+MACHINES: dict[str, Callable[[], Machine]] = {
+    "proposed-3pprs": Proposed3PPRS,
+    "eclipse-3pprs": Eclipse3PPRS,
+    "alizade-3prps": Alizade3PRPS,
+    "glozman-3prrs": Glozman3PRRS,
+    "prototype-3ppprs, stages locked": lambda: Prototype3PPPRS().locked(),
+    "hexel-hexapod": HexelHexapod,
+}
+
+#: Rows of both agree to this share of each drive's largest rate, conditions to this share.
+AGREEMENT = 1e-10
+#: How many times the rate of all rows the legs must reach; some ten to twenty are usual.
+LEAST = 3.0
+#: Length that makes angles comparable, m, and poses that are solved by all rows.
+LENGTH, FEW = 0.1, 256
+
+
+@dataclass(frozen=True)
+class Rates:
+    """Poses per second of processor time, and how far the two ways are apart."""
+
+    poses: float
+    placements: float
+    rows: float
+    gap: float
+
+
+def poses_around(machine: Machine, count: int) -> Poses:
+    """Poses near home that the machine can take."""
+    random = np.random.default_rng(7)
+    reach = 0.05 if isinstance(machine, HexelHexapod) else 0.004
+    home = machine.home()
+    poses = Poses.of(np.tile(home.position, (2 * count, 1)), home.rotation).moved(
+        np.concatenate(
+            [
+                random.uniform(-reach, reach, (2 * count, 3)),
+                random.uniform(-0.4, 0.4, (2 * count, 3)),
+            ],
+            axis=-1,
+        )
+    )
+    good = poses[machine.place(poses).reachable]
+    return good[:count]
+
+
+def rate(task: Callable[[], object], poses: int, rounds: int = 5) -> float:
+    """Median poses per second of processor time over some rounds, after one that does not count."""
+    task()
+    seconds = []
+    for _ in range(rounds):
+        start = time.process_time()
+        task()
+        seconds.append(time.process_time() - start)
+    return poses / max(statistics.median(seconds), 1e-9)
+
+
+def measured(machine: Machine, count: int) -> Rates:
+    """Rates of one machine: Jacobian, joint ranges and singularity margin of every pose.
+
+    Raises
+    ------
+    RuntimeError
+        The two ways disagree.
+    """
+    poses = poses_around(machine, count)
+    placement = machine.place(poses)
+    few = placement[: min(FEW, count)]
+
+    def by(method: Any, some: Placement) -> Array:
+        checked = check_limits(machine.limits, some)
+        found = jacobians(machine.linkage, checked, method)
+        return np.where(checked.reachable, found.margin(LENGTH), 0.0)
+
+    legs, rows = (jacobians(machine.linkage, few, m) for m in ("legs", "rows"))  # type: ignore[arg-type]
+    size = np.abs(rows.inverse).max(axis=-1, keepdims=True)
+    gap = float((np.abs(legs.inverse - rows.inverse) / size).max())
+    gap = max(gap, float(np.abs(legs.condition(LENGTH) / rows.condition(LENGTH) - 1.0).max()))
+    if not gap < AGREEMENT:
+        message = f"{type(machine).__name__}: legs and rows differ by {gap:.1e}"
+        raise RuntimeError(message)
+    number = len(poses.position)
+    return Rates(
+        rate(lambda: by("legs", machine.place(poses)), number),
+        rate(lambda: by("legs", placement), number),
+        rate(lambda: by("rows", few), len(few.positions), 3),
+        gap,
+    )
+
+
+def table(found: dict[str, Rates]) -> str:
+    """The page with the results."""
+    head = (
+        "",
+        "legs, poses/s from tool poses",
+        "legs, poses/s from placements",
+        "all rows, poses/s from placements",
+        "legs : rows",
+        "largest difference",
+    )
+    lines = [
+        "# Performance of velocity Jacobians",
+        "",
+        "Made by `python -m benchmarks.kinematics_speed --write`: read ratios. One thread,",
+        "processor time.",
+        machine_line(),
+        "",
+        "For every pose the inverse Jacobian, whether a joint is out of its range, and the",
+        "distance from the next singularity. *From tool poses* begins with the inverse kinematics.",
+        "*All rows* solves for the twists of all bodies in stacked NumPy; *legs* takes the joints",
+        "of each leg alone, compiled.",
+        "",
+        f"| {' | '.join(head)} |",
+        "|---|---:|---:|---:|---:|---:|",
+    ]
+    lines += [
+        f"| {name} | {r.poses:,.0f} | {r.placements:,.0f} | {r.rows:,.0f} | "
+        f"{r.placements / r.rows:.1f} | {r.gap:.0e} |"
+        for name, r in found.items()
+    ]
+    return "\n".join([*lines, ""])
+
+
+def main() -> None:
+    """Measure, print and perhaps write the table."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--poses", type=int, default=65_536)
+    parser.add_argument("--write", action="store_true", help=f"write docs/{DOCUMENT.name}")
+    arguments = parser.parse_args()
+    found = {name: measured(make(), arguments.poses) for name, make in MACHINES.items()}
+    text = table(found)
+    sys.stdout.write(text)
+    slow = [name for name, r in found.items() if r.placements < LEAST * r.rows]
+    if slow:
+        message = f"less than {LEAST:g} times the rate of all rows: {', '.join(slow)}"
+        raise RuntimeError(message)
+    if arguments.write:
+        from strutwork.files import write_text  # noqa: PLC0415 - only when asked
+
+        write_text(DOCUMENT, text)
+
+
+if __name__ == "__main__":
+    # pinned before any BLAS call: stacks of small systems want one thread
+    from threadpoolctl import threadpool_limits
+
+    with threadpool_limits(1, user_api="blas"):
+        main()

@@ -1,0 +1,100 @@
+"""Tool motions that a mechanism has beside a pose and not at it, to second order."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kinematics.rows import ConstraintRows, body_references
+
+Array = NDArray[Any]
+
+#: Share of the rows' largest singular value below which they hold nothing.
+HELD = 1e-10
+
+
+def lost_twists(
+    passive: ConstraintRows, null: Array, standing: Array, body: int, columns: Array
+) -> Array:
+    """Twists of the tool that begin to be possible when the mechanism moves.
+
+    Along a motion q of all bodies the rows A q = 0 keep holding when A q̇ = −Ȧ(q) q. For two
+    motions, α with a standing tool and any β, the mixed part of that gives by how much the
+    tool's twist in α changes as the mechanism moves along β.
+
+    Parameters
+    ----------
+    passive : ConstraintRows
+        At p poses.
+    null : (p, n, m)
+        Motions that the passive rows allow, on (v, L ω) of all bodies; columns may be zero.
+    standing : (p, n, k)
+        Those of them in which the tool stands; columns may be zero.
+    body : int
+        The tool's.
+    columns : (p, n)
+        Factors 1 and L of the bodies' twists.
+
+    Returns
+    -------
+    twists : (p, 6, k m)
+        On (v, L ω); they may hold parts that the tool can make at the pose itself.
+    """
+    rows = passive.on_bodies() / columns[:, None, :]
+    solve = np.linalg.pinv(rows, rcond=HELD)[:, 6 * body : 6 * body + 6]
+    used = np.flatnonzero(np.abs(standing).max(axis=(0, 1)) > 0)
+    any_motion = np.flatnonzero(np.abs(null).max(axis=(0, 1)) > 0)
+    result = []
+    for i in used:
+        a = standing[:, :, i] / columns
+        for j in any_motion:
+            b = null[:, :, j] / columns
+            mixed = (_drift(passive, a + b) - _drift(passive, a - b)) / 4.0
+            # in units of the machine: motions are made of columns of unit size
+            scale = columns[:, -1]
+            result.append(-np.einsum("pij,pj->pi", solve, mixed) * scale[:, None])
+    if not result:
+        return np.zeros((len(null), 6, 1))
+    return np.stack(result, axis=-1)
+
+
+def _drift(passive: ConstraintRows, twists: Array) -> Array:
+    """Ȧ(q) q of every row for twists (p, n) of the bodies, (p, r).
+
+    A row's axis is carried by its joint's first body; that of a universal joint, z × x, has z
+    in the first body and x in the second.
+    """
+    linkage, placement = passive.linkage, passive.placement
+    references = body_references(linkage, placement)
+    owner = linkage.body_of_node
+    bodies = np.concatenate(
+        [twists.reshape(len(twists), -1, 6), np.zeros((len(twists), 1, 6))], axis=1
+    )
+    points = np.concatenate([references, np.zeros((len(twists), 1, 3))], axis=1)
+    result = np.zeros((len(twists), len(passive)))
+    for r, (joint, pair) in enumerate(zip(passive.joint, passive.nodes, strict=True)):
+        if owner[pair[0]] == owner[pair[1]]:
+            continue
+        axis = passive.axes[:, r]
+        turn, speed, inward = [], [], []
+        for node in pair:
+            which = owner[node]
+            spin = bodies[:, which, 3:]
+            arm = placement.positions[:, node] - points[:, which]
+            turn.append(spin)
+            speed.append(bodies[:, which, :3] + np.cross(spin, arm))
+            inward.append(np.cross(spin, np.cross(spin, arm)))
+        if passive.direction[r] < 3:
+            e = axis[:, :3]
+            result[:, r] = (e * (inward[1] - inward[0])).sum(-1)
+            result[:, r] += 2.0 * (np.cross(turn[0], e) * (speed[1] - speed[0])).sum(-1)
+            continue
+        e = axis[:, 3:]
+        change = np.cross(turn[0], e)
+        if linkage.joints[joint].type == "universal":
+            x, z = (placement.frames[:, joint, :, k] for k in (0, 2))
+            change = np.cross(np.cross(turn[0], z), x) + np.cross(z, np.cross(turn[1], x))
+        result[:, r] = (change * (turn[1] - turn[0])).sum(-1)
+    return result

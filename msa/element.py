@@ -1,0 +1,30 @@
+"""What stands in a structure besides beams and springs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from msa.structure import PlacedStructure
+
+Array = NDArray[Any]
+
+
+class Element(Protocol):
+    """Anything that stands in a structure: nodes and a stiffness between them.
+
+    Only a rigid motion of its nodes may cost no energy.
+    """
+
+    @property
+    def name(self) -> str:
+        """Unique among the parts."""
+
+    @property
+    def nodes(self) -> tuple[str, ...]:
+        """The k nodes it connects; all on one body of the linkage."""
+
+    def stiffness(self, at: PlacedStructure) -> Array:
+        """Stiffness in global axes at a batch of poses, (..., 6 k, 6 k)."""

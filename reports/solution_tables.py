@@ -1,0 +1,81 @@
+"""Tables of a static solution as they are shown: rounding is 0."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from msa import system_of
+from reports.figures.model import model_size
+from reports.model_solution import ModelSolution
+from reports.numbers import ROUNDING, six_without_rounding
+
+Array = NDArray[Any]
+
+#: Titles of the tables of forces, what their rows are called, and their key.
+FORCE_TABLES = (
+    ("Reactions on the structure", "node", "reactions"),
+    ("Joint forces on the second node, joint axes", "joint", "joint_forces"),
+    ("Spring forces, global axes", "spring", "spring_forces"),
+    ("Forces on the beams, beam axes", "beam", "beam_forces"),
+)
+
+
+def shown_tables(solution: ModelSolution, number: int) -> dict[str, dict[str, Array]]:
+    """Displacements and forces of a load case by part, SI, with 0 for what is only rounding.
+
+    Forces are compared with the largest of the whole case, not of their own table: reactions
+    that cancel are rounding of the loads.
+
+    Returns
+    -------
+    dict
+        Keys "displacements" and those of `FORCE_TABLES`; (6,) by name of the part.
+    """
+    name = solution.statics.cases[number]
+    case = solution.to_dict()["cases"][name]
+    length = model_size(solution.model)
+    tables: dict[str, Mapping[str, Any]] = {key: case[key] for _, _, key in FORCE_TABLES[:3]}
+    tables["beam_forces"] = beam_ends(case["beam_forces"])
+    given = [wrench for _, wrench in solution.model.cases[number].wrenches]
+    forces = [six for table in tables.values() for six in table.values()]
+    every = np.array([*forces, *given], dtype=float).reshape(-1, 6)
+    result = {
+        key: dict(
+            zip(table, six_without_rounding(list(table.values()), length, every), strict=True)
+        )
+        for key, table in tables.items()
+    }
+    moved = case["displacements"]
+    still = _least_motion(solution, every, length) * np.array([1.0] * 3 + [1.0 / length] * 3)
+    shown = six_without_rounding(list(moved.values()), 1.0 / length)
+    low = np.abs(shown) <= still
+    result["displacements"] = dict(zip(moved, np.where(low, 0.0, shown), strict=True))
+    return result
+
+
+def beam_ends(forces: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
+    """Forces on both ends of the beams in one table."""
+    return {
+        f"{beam}, at its {word} end": both[end]
+        for beam, both in forces.items()
+        for word, end in (("first", "from"), ("second", "to"))
+    }
+
+
+def _least_motion(solution: ModelSolution, forces: Array, length: float) -> float:
+    """Displacement, m, below which nothing that is loaded can move: force over stiffness.
+
+    Where rigid joints take a load alone, a solution holds rounding of this size.
+    """
+    stiffest = 0.0
+    for _, _, part in system_of(solution.model.placed).contributions():
+        diagonal = np.abs(np.einsum("pii->pi", part)).reshape(-1, 6)
+        stiffest = max(stiffest, diagonal[:, :3].max(), diagonal[:, 3:].max() / length**2)
+    largest = (
+        np.abs(forces[:, :3]).max(initial=0.0) + np.abs(forces[:, 3:]).max(initial=0.0) / length
+    )
+    return float(ROUNDING * largest / stiffest) if stiffest else 0.0
