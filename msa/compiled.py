@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from msa.assembly import System
-from msa.program import Program, compile_program
+from msa.program import Program
+from msa.program_builder import compile_program
 from msa.structure import PlacedStructure, Structure
 
 Array = NDArray[Any]
@@ -23,6 +24,10 @@ RESIDUAL_LIMIT = 1e-8
 
 #: A pose whose smallest pivot is below this share of its diagonal entry likewise.
 PIVOT_LIMIT = 1e-10
+
+#: So is one whose loops hardly determine their dependent coordinates, or whose redundant rows, of
+#: order one, are not redundant at that pose to this.
+LOOP_LIMIT, REDUNDANT_LIMIT = 1e-6, 1e-11
 
 
 @cache
@@ -41,7 +46,7 @@ def program_of(system: System) -> Program | None:
     # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
     kept = structure.__dict__
     if "_program" not in kept:
-        kept["_program"] = compile_program(system.topology)
+        kept["_program"] = compile_program(system)
     program: Program | None = kept["_program"]
     return program
 
@@ -70,7 +75,7 @@ def compiled_compliance(
 
     poses = system.poses
     compliance = np.empty((poses, 6, 6))
-    quality = np.empty((poses, 2))
+    quality = np.empty((poses, 4))
 
     def piece(start: int) -> None:
         stop = min(start + PIECE, poses)
@@ -91,5 +96,6 @@ def compiled_compliance(
         for start in starts:
             piece(start)
     good = (quality[:, 0] > PIVOT_LIMIT) & (quality[:, 1] <= RESIDUAL_LIMIT)
+    good &= (quality[:, 2] > LOOP_LIMIT) & (quality[:, 3] <= REDUNDANT_LIMIT)
     good &= np.isfinite(compliance).all(axis=(1, 2))
     return compliance, ~good
