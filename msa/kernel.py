@@ -13,7 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from msa.kernel_assembly import assemble, axes_and_pivots
-from msa.kernel_loops import LANES, close_loops, loops_residual
+from msa.kernel_loops import LANES, close_loops, loops_residual, told
 from msa.program import Program
 
 Array = NDArray[Any]
@@ -130,8 +130,7 @@ def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
             one = abs(r[c, w])
             # a coordinate of which neither a stiffness nor a load is known is idle
             one = one / np.sqrt(whole) / size[w] if whole > 0.0 or one != 0.0 else 0.0
-            # a comparison with NaN is false: let it through instead of hiding it
-            share[w] = one if not one <= share[w] else share[w]
+            share[w] = max(share[w], told(one, np.inf))
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
@@ -179,6 +178,7 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
     point = np.empty((nodes, 3, LANES))
     frame = np.empty((joints, 3, 3, LANES))
     axis, pivot = np.empty((count, 3, LANES)), np.empty((count, 3, LANES))
+    geometry = (point, frame, axis, pivot)
     work = (
         np.empty((2, 3, LANES)),
         np.empty((3, 3, LANES)),
@@ -219,8 +219,8 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
                     for d in range(3):
                         frame[j, k, d, w] = frames[pose, j, k, d]
         axes_and_pivots(p, point, frame, axis, pivot)
-        close_loops(p, point, frame, axis, pivot, store, entry, loop_work, loop_pivot, rest)
-        assemble(p, point, frame, axis, pivot, entry, matrix, work)
+        close_loops(p, geometry, store, entry, loop_work, loop_pivot, rest)
+        assemble(p, geometry, entry, matrix, work)
         _eliminate(p, matrix, factor, inverse, scaled, smallest)
         _tool_loads(p, point, axis, pivot, entry, load)
         _solve_one(p, factor, inverse, load, x, r)

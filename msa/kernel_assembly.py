@@ -129,26 +129,16 @@ def _followed(p, item, entry, strain, reduced):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def _add_links(p, point, frame, axis, pivot, entry, matrix, strain, reduced, stress):  # type: ignore[no-untyped-def]
+def _add_links(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
     """Add springs and elastic joints that carry nothing to K."""
+    _, _, _, strain, reduced, stress = work
     beams = p.item_nodes.shape[0]
     for link in range(p.link_nodes.shape[0]):
         start, stop = p.touch_start[beams + link], p.touch_start[beams + link + 1]
         for t in range(start, stop):
             c = p.touch_coordinate[t]
-            parted(
-                p.touch_ends[t, 0],
-                p.touch_ends[t, 1],
-                p.link_joint[link],
-                c,
-                p.turns[c] == 1,
-                p.link_nodes[link],
-                point,
-                frame,
-                axis,
-                pivot,
-                strain[t - start],
-            )
+            ends, nodes = p.touch_ends[t], p.link_nodes[link]
+            parted(p, c, ends, nodes, p.link_joint[link], geometry, strain[t - start])
         motion = _followed(p, beams + link, entry, strain, reduced)
         q = p.pair_start[beams + link]
         for i in range(p.spread.width[beams + link]):
@@ -167,8 +157,9 @@ def _add_links(p, point, frame, axis, pivot, entry, matrix, strain, reduced, str
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def assemble(p, point, frame, axis, pivot, entry, matrix, work):  # type: ignore[no-untyped-def]
+def assemble(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
     """Stiffness K on the independent coordinates, by slots, (k, w)."""
+    point, frame, axis, pivot = geometry
     ends, local, length, strain, reduced, stress = work
     matrix[:] = 0.0
     for item in range(p.item_nodes.shape[0]):
@@ -208,7 +199,7 @@ def assemble(p, point, frame, axis, pivot, entry, matrix, work):  # type: ignore
                         + stress[4, w] * f[4, w]
                         + stress[5, w] * f[5, w]
                     )
-    _add_links(p, point, frame, axis, pivot, entry, matrix, strain, reduced, stress)
+    _add_links(p, geometry, entry, matrix, work)
     for s in range(p.spring_slot.shape[0]):
         for w in range(LANES):
             matrix[p.spring_slot[s], w] += p.spring_value[s]

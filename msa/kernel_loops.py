@@ -21,21 +21,28 @@ SNAP = 1e-13
 CANCELLED = 1e-14
 
 
+@njit(cache=True, nogil=True, error_model="numpy")
+def told(value, instead):  # type: ignore[no-untyped-def]
+    """The value, or `instead` of NaN, which would hide in comparisons."""
+    return instead if np.isnan(value) else value
+
+
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def parted(first, second, joint, c, turns, nodes, point, frame, axis, pivot, strain):  # type: ignore[no-untyped-def]
+def parted(p, c, ends, nodes, joint, geometry, strain):  # type: ignore[no-untyped-def]
     """Motion of a second node against a first per unit of coordinate c, (6, w).
 
-    `first` and `second` say whether the coordinate moves them; in the axes of a joint, or
-    global ones for −1. What would cancel but for rounding is zero: a rod's spin does not move
+    `ends` says whether the coordinate moves them. In the axes of a joint, or global ones for −1.
+    What would cancel but for rounding is zero: a rod's spin does not move
     the rod's end.
     """
+    point, frame, axis, pivot = geometry
     strain[:] = 0.0
     for e in range(2):
         node = nodes[e]
-        if node < 0 or (first if e == 0 else second) == 0:
+        if node < 0 or ends[e] == 0:
             continue
         sign = 1.0 if e == 1 else -1.0
-        if turns:
+        if p.turns[c] == 1:
             for w in range(LANES):
                 ax, ay, az = axis[c, 0, w], axis[c, 1, w], axis[c, 2, w]
                 px = point[node, 0, w] - pivot[c, 0, w]
@@ -68,7 +75,7 @@ def parted(first, second, joint, c, turns, nodes, point, frame, axis, pivot, str
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def _closing_rows(p, point, frame, axis, pivot, store, strain):  # type: ignore[no-untyped-def]
+def _closing_rows(p, geometry, store, strain):  # type: ignore[no-untyped-def]
     """Rows of all loops on scaled coordinates, one loop after another, (s, w)."""
     q = p.loops
     store[:] = 0.0
@@ -79,19 +86,7 @@ def _closing_rows(p, point, frame, axis, pivot, store, strain):  # type: ignore[
         for m in range(q.loop_joint[b], q.loop_joint[b + 1]):
             for t in range(q.touch_start[m], q.touch_start[m + 1]):
                 c = q.touch_coordinate[t]
-                parted(
-                    q.touch_ends[t, 0],
-                    q.touch_ends[t, 1],
-                    q.joint[m],
-                    c,
-                    p.turns[c] == 1,
-                    q.nodes[m],
-                    point,
-                    frame,
-                    axis,
-                    pivot,
-                    strain,
-                )
+                parted(p, c, q.touch_ends[t], q.nodes[m], q.joint[m], geometry, strain)
                 for r in range(q.row_start[m], q.row_start[m + 1]):
                     at = q.store_start[b] + (r - first_row) * width + q.touch_column[t]
                     size = q.row_scale[r] * q.scale[c]
@@ -118,8 +113,7 @@ def _reflect(rows, height, known, width, factor, pivots, pivot, rest):  # type: 
             head = rows[j, j, w]
             diagonal = -size if head > 0.0 else size
             pivots[j, w] = diagonal
-            # a comparison with NaN is false: let it through instead of hiding it
-            pivot[w] = pivot[w] if size >= pivot[w] else size
+            pivot[w] = min(pivot[w], told(size, 0.0))
             rows[j, j, w] = head - diagonal
             factor[w] = 1.0 / (size * (size + abs(head))) if size > 0.0 else 0.0
         for i in range(j + 1, width):
@@ -134,11 +128,11 @@ def _reflect(rows, height, known, width, factor, pivots, pivot, rest):  # type: 
         for i in range(known, width):
             for w in range(LANES):
                 size = abs(rows[r, i, w])
-                rest[w] = rest[w] if size <= rest[w] else size
+                rest[w] = max(rest[w], told(size, np.inf))
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def close_loops(p, point, frame, axis, pivot, store, entry, work, smallest, rest):  # type: ignore[no-untyped-def]
+def close_loops(p, geometry, store, entry, work, smallest, rest):  # type: ignore[no-untyped-def]
     """Shares of independent in dependent coordinates, by entries (x, w).
 
     Fills `smallest` (w) with the smallest pivot and `rest` (w) with the largest entry that the
@@ -148,7 +142,7 @@ def close_loops(p, point, frame, axis, pivot, store, entry, work, smallest, rest
     rows, pivots, factor, largest, strain = work
     smallest[:] = 1.0
     rest[:] = 0.0
-    _closing_rows(p, point, frame, axis, pivot, store, strain)
+    _closing_rows(p, geometry, store, strain)
     for b in range(q.loop_joint.shape[0] - 1):
         known = q.dependent_start[b + 1] - q.dependent_start[b]
         others = q.independent_start[b + 1] - q.independent_start[b]
@@ -218,8 +212,9 @@ def loops_residual(p, store, entry, x, share, total, size):  # type: ignore[no-u
                     total[1, w] += term
                     total[2, w] += abs(term)
             for w in range(LANES):
-                total[0, w] = total[0, w] if abs(total[1, w]) <= total[0, w] else abs(total[1, w])
+                miss = abs(total[1, w])
+                total[0, w] = max(total[0, w], told(miss, np.inf))
                 size[w] = max(size[w], total[2, w])
         for w in range(LANES):
             one = total[0, w] / size[w] if size[w] > 0.0 else 0.0
-            share[w] = share[w] if one <= share[w] else one
+            share[w] = max(share[w], one)
