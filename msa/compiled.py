@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System
-from msa.program import Program, compile_program
+from msa.assembly import System, system_of
+from msa.program import Program
+from msa.program_builder import compile_program
 from msa.structure import PlacedStructure, Structure
 
 Array = NDArray[Any]
@@ -23,6 +24,13 @@ RESIDUAL_LIMIT = 1e-8
 
 #: A pose whose smallest pivot is below this share of its diagonal entry likewise.
 PIVOT_LIMIT = 1e-10
+
+#: So is one whose loops hardly determine their dependent coordinates, or whose redundant rows, of
+#: order one, are not redundant at that pose to this.
+LOOP_LIMIT, REDUNDANT_LIMIT = 1e-6, 1e-11
+
+#: Doubtful poses, twice over, from which another choice of dependent coordinates is tried.
+RENEWED_FROM = 256
 
 
 @cache
@@ -41,7 +49,7 @@ def program_of(system: System) -> Program | None:
     # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
     kept = structure.__dict__
     if "_program" not in kept:
-        kept["_program"] = compile_program(system.topology)
+        kept["_program"] = compile_program(system)
     program: Program | None = kept["_program"]
     return program
 
@@ -50,6 +58,9 @@ def compiled_compliance(
     system: System, program: Program, workers: int = 1
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Tool compliance at every pose of a system.
+
+    Where most poses are doubtful, the loops' dependent coordinates are chosen anew on those, and
+    the better program is kept.
 
     Parameters
     ----------
@@ -66,11 +77,31 @@ def compiled_compliance(
     doubtful : (p,)
         True where a pivot or the residual is not good: solve these another way.
     """
+    compliance, again = _run(system, program, workers)
+    if len(program.loops.joint) and 2 * again.sum() > max(system.poses, RENEWED_FROM):
+        part = system_of(system.placed[again])
+        renewed = compile_program(part)
+        if renewed is not None and _dependent(renewed) != _dependent(program):
+            compliance[again], doubt = _run(part, renewed, workers)
+            if 2 * doubt.sum() < part.poses:
+                system.placed.structure.__dict__["_program"] = renewed
+            again[again] = doubt
+    return compliance, again
+
+
+def _dependent(program: Program) -> set[tuple[int, int]]:
+    """Joint and direction of the coordinates that the program takes to follow from others."""
+    found = program.loops.dependent
+    direction = program.axis_direction[found] + 3 * program.turns[found]
+    return set(zip(program.axis_joint[found].tolist(), direction.tolist(), strict=True))
+
+
+def _run(system: System, program: Program, workers: int) -> tuple[Array, NDArray[np.bool_]]:
     from msa.kernel import run_program  # noqa: PLC0415 - as in `available`
 
     poses = system.poses
     compliance = np.empty((poses, 6, 6))
-    quality = np.empty((poses, 2))
+    quality = np.empty((poses, 4))
 
     def piece(start: int) -> None:
         stop = min(start + PIECE, poses)
@@ -91,5 +122,6 @@ def compiled_compliance(
         for start in starts:
             piece(start)
     good = (quality[:, 0] > PIVOT_LIMIT) & (quality[:, 1] <= RESIDUAL_LIMIT)
+    good &= (quality[:, 2] > LOOP_LIMIT) & (quality[:, 3] <= REDUNDANT_LIMIT)
     good &= np.isfinite(compliance).all(axis=(1, 2))
     return compliance, ~good

@@ -12,7 +12,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from msa.kernel_assembly import LANES, assemble, axes_and_pivots
+from msa.kernel_assembly import assemble, axes_and_pivots
+from msa.kernel_loops import LANES, close_loops, loops_residual, told
 from msa.program import Program
 
 Array = NDArray[Any]
@@ -32,6 +33,7 @@ def _eliminate(p, matrix, factor, inverse, scaled, smallest):  # type: ignore[no
         diagonal = p.fill[p.diagonal[c]]
         whole = p.diagonal[c]
         for w in range(LANES):
+            # 0/0 of a coordinate that nothing resists is not present either
             share = factor[diagonal, w] / matrix[whole, w]
             present = share > VANISHED
             inverse[c, w] = 1.0 / factor[diagonal, w] if present else 0.0
@@ -50,11 +52,11 @@ def _eliminate(p, matrix, factor, inverse, scaled, smallest):  # type: ignore[no
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def _tool_loads(p, point, axis, pivot, load):  # type: ignore[no-untyped-def]
+def _tool_loads(p, point, axis, pivot, entry, load):  # type: ignore[no-untyped-def]
     """Unit wrenches at the tool on the coordinates, (c, 6, w); zero but for the last ones."""
     load[:] = 0.0
-    for t in range(p.tool_touches.shape[0]):
-        c = p.tool_touches[t]
+    for t in range(p.tool_moves.shape[0]):
+        c = p.tool_moves[t]
         for w in range(LANES):
             ax, ay, az = axis[c, 0, w], axis[c, 1, w], axis[c, 2, w]
             if p.turns[c] == 1:
@@ -67,6 +69,12 @@ def _tool_loads(p, point, axis, pivot, load):  # type: ignore[no-untyped-def]
                 load[c, 3, w], load[c, 4, w], load[c, 5, w] = ax, ay, az
             else:
                 load[c, 0, w], load[c, 1, w], load[c, 2, w] = ax, ay, az
+    s = p.spread
+    for k in range(s.tool_from.shape[0]):
+        c, i, e = s.tool_from[k], s.tool_to[k], s.tool_entry[k]
+        for d in range(6):
+            for w in range(LANES):
+                load[i, d, w] += entry[e, w] * load[c, d, w]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
@@ -105,7 +113,9 @@ def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
     size = np.zeros(LANES)
     for c in range(count):
         for w in range(LANES):
-            size[w] = max(size[w], abs(r[c, w]) / np.sqrt(matrix[p.diagonal[c], w]))
+            whole = matrix[p.diagonal[c], w]
+            # a force on a coordinate that nothing resists is no size, but a residual
+            size[w] = max(size[w], abs(r[c, w]) / np.sqrt(whole)) if whole > 0.0 else size[w]
     for k in range(p.entry_row.shape[0]):
         i, j = p.entry_row[k], p.entry_column[k]
         for w in range(LANES):
@@ -116,9 +126,11 @@ def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
     share[:] = 0.0
     for c in range(count):
         for w in range(LANES):
-            one = abs(r[c, w]) / np.sqrt(matrix[p.diagonal[c], w]) / size[w]
-            # a comparison with NaN is false: let it through instead of hiding it
-            share[w] = one if not one <= share[w] else share[w]
+            whole = matrix[p.diagonal[c], w]
+            one = abs(r[c, w])
+            # a coordinate of which neither a stiffness nor a load is known is idle
+            one = one / np.sqrt(whole) / size[w] if whole > 0.0 or one != 0.0 else 0.0
+            share[w] = max(share[w], told(one, np.inf))
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
@@ -153,24 +165,39 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
     start, stop : int
     compliance : (q, 6, 6)
         Filled.
-    quality : (q, 2)
-        Filled: smallest pivot as a share of its diagonal entry, and residual share.
+    quality : (q, 4)
+        Filled: smallest pivot as a share of its diagonal entry, residual share, and of the
+        loops' rows, which are of order one, the smallest pivot and what redundant ones keep.
     """
     nodes, joints = positions.shape[1], frames.shape[1]
-    count = p.diagonal.shape[0]
-    most = 1
+    count = p.axis_joint.shape[0]
+    most = widest = 1
     for item in range(p.touch_start.shape[0] - 1):
         most = max(most, p.touch_start[item + 1] - p.touch_start[item])
+        widest = max(widest, p.spread.width[item])
     point = np.empty((nodes, 3, LANES))
     frame = np.empty((joints, 3, 3, LANES))
     axis, pivot = np.empty((count, 3, LANES)), np.empty((count, 3, LANES))
+    geometry = (point, frame, axis, pivot)
     work = (
         np.empty((2, 3, LANES)),
         np.empty((3, 3, LANES)),
         np.empty(LANES),
         np.empty((most, 6, LANES)),
+        np.empty((widest, 6, LANES)),
         np.empty((6, LANES)),
     )
+    store = np.empty((p.loops.store_start[-1], LANES))
+    entry = np.empty((p.loops.entry_start[-1], LANES))
+    loop_work = (
+        np.empty((p.loops.most_rows, p.loops.most_columns, LANES)),
+        np.empty((p.loops.most_columns, LANES)),
+        np.empty(LANES),
+        np.empty(LANES),
+        np.empty((6, LANES)),
+    )
+    loop_pivot, rest = np.empty(LANES), np.empty(LANES)
+    total = np.empty((3, LANES))
     matrix = np.empty((p.fill.shape[0], LANES))
     factor = np.empty((p.slots, LANES))
     inverse, x, r = (
@@ -192,14 +219,17 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
                     for d in range(3):
                         frame[j, k, d, w] = frames[pose, j, k, d]
         axes_and_pivots(p, point, frame, axis, pivot)
-        assemble(p, point, frame, axis, pivot, matrix, work)
+        close_loops(p, geometry, store, entry, loop_work, loop_pivot, rest)
+        assemble(p, geometry, entry, matrix, work)
         _eliminate(p, matrix, factor, inverse, scaled, smallest)
-        _tool_loads(p, point, axis, pivot, load)
+        _tool_loads(p, point, axis, pivot, entry, load)
         _solve_one(p, factor, inverse, load, x, r)
         _residual(p, matrix, x, r, share)
+        loops_residual(p, store, entry, x, share, total, scaled)
         _compliance(p, factor, inverse, load, result)
         for w in range(min(LANES, stop - base)):
             quality[base + w, 0], quality[base + w, 1] = smallest[w], share[w]
+            quality[base + w, 2], quality[base + w, 3] = loop_pivot[w], rest[w]
             for i in range(6):
                 for j in range(i + 1):
                     compliance[base + w, i, j] = compliance[base + w, j, i] = result[i, j, w]

@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-#: Poses in step: every scalar operation is one over a row of lanes that the processor does at
-#: once. 64 lanes of a hundred-dof frame still fit a second-level cache.
-LANES = 64
+from msa.kernel_loops import LANES, parted
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
@@ -109,73 +107,60 @@ def _strains(p, t, axis, pivot, ends, local, length, strain):  # type: ignore[no
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def _stretches(p, link, t, point, frame, axis, pivot, strain):  # type: ignore[no-untyped-def]
-    """Motion of a link's second node against its first per unit of one coordinate, (6, w)."""
-    c = p.touch_coordinate[t]
-    joint = p.link_joint[link]
-    strain[:] = 0.0
-    for e in range(2):
-        node = p.link_nodes[link, e]
-        if node < 0 or p.touch_ends[t, e] == 0:
-            continue
-        sign = 1.0 if e == 1 else -1.0
-        for w in range(LANES):
-            ax, ay, az = axis[c, 0, w], axis[c, 1, w], axis[c, 2, w]
-            if p.turns[c] == 1:
-                px = point[node, 0, w] - pivot[c, 0, w]
-                py = point[node, 1, w] - pivot[c, 1, w]
-                pz = point[node, 2, w] - pivot[c, 2, w]
-                strain[0, w] += sign * (ay * pz - az * py)
-                strain[1, w] += sign * (az * px - ax * pz)
-                strain[2, w] += sign * (ax * py - ay * px)
-                strain[3, w] += sign * ax
-                strain[4, w] += sign * ay
-                strain[5, w] += sign * az
-            else:
-                strain[0, w] += sign * ax
-                strain[1, w] += sign * ay
-                strain[2, w] += sign * az
-    if joint < 0:
-        return
-    for half in range(0, 6, 3):
-        for w in range(LANES):
-            x, y, z = strain[half, w], strain[half + 1, w], strain[half + 2, w]
-            for d in range(3):
-                strain[half + d, w] = (
-                    frame[joint, 0, d, w] * x
-                    + frame[joint, 1, d, w] * y
-                    + frame[joint, 2, d, w] * z
-                )
+def _followed(p, item, entry, strain, reduced):  # type: ignore[no-untyped-def]
+    """An item's deformations per unit of its independent coordinates, from those of all."""
+    s = p.spread
+    if s.plain[item] == 1:
+        return strain
+    for i in range(s.width[item]):
+        reduced[i] = 0.0
+    start = p.touch_start[item]
+    for t in range(start, p.touch_start[item + 1]):
+        if s.own[t] >= 0:
+            for a in range(6):
+                for w in range(LANES):
+                    reduced[s.own[t], a, w] += strain[t - start, a, w]
+        for k in range(s.start[t], s.start[t + 1]):
+            i, e = s.target[k], s.entry[k]
+            for a in range(6):
+                for w in range(LANES):
+                    reduced[i, a, w] += entry[e, w] * strain[t - start, a, w]
+    return reduced
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def _add_links(p, point, frame, axis, pivot, matrix, strain, stress):  # type: ignore[no-untyped-def]
+def _add_links(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
     """Add springs and elastic joints that carry nothing to K."""
+    _, _, _, strain, reduced, stress = work
     beams = p.item_nodes.shape[0]
     for link in range(p.link_nodes.shape[0]):
         start, stop = p.touch_start[beams + link], p.touch_start[beams + link + 1]
         for t in range(start, stop):
-            _stretches(p, link, t, point, frame, axis, pivot, strain[t - start])
+            c = p.touch_coordinate[t]
+            ends, nodes = p.touch_ends[t], p.link_nodes[link]
+            parted(p, c, ends, nodes, p.link_joint[link], geometry, strain[t - start])
+        motion = _followed(p, beams + link, entry, strain, reduced)
         q = p.pair_start[beams + link]
-        for i in range(stop - start):
+        for i in range(p.spread.width[beams + link]):
             for a in range(6):
                 stress[a] = 0.0
                 for b in range(6):
                     if p.link_stiffness[link, a, b] != 0.0:
                         for w in range(LANES):
-                            stress[a, w] += p.link_stiffness[link, a, b] * strain[i, b, w]
+                            stress[a, w] += p.link_stiffness[link, a, b] * motion[i, b, w]
             for j in range(i + 1):
                 slot = p.pair_slot[q]
                 q += 1
                 for a in range(6):
                     for w in range(LANES):
-                        matrix[slot, w] += stress[a, w] * strain[j, a, w]
+                        matrix[slot, w] += stress[a, w] * motion[j, a, w]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
-def assemble(p, point, frame, axis, pivot, matrix, work):  # type: ignore[no-untyped-def]
-    """Stiffness K on the joint coordinates, by slots, (k, w)."""
-    ends, local, length, strain, stress = work
+def assemble(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
+    """Stiffness K on the independent coordinates, by slots, (k, w)."""
+    point, frame, axis, pivot = geometry
+    ends, local, length, strain, reduced, stress = work
     matrix[:] = 0.0
     for item in range(p.item_nodes.shape[0]):
         _element_axes(p, item, point, frame, ends, local, length)
@@ -186,9 +171,10 @@ def assemble(p, point, frame, axis, pivot, matrix, work):  # type: ignore[no-unt
         ea, gj = p.properties[b, 0], p.properties[b, 1]
         ey, ez = p.properties[b, 2], p.properties[b, 3]
         sy, sz = p.properties[b, 4], p.properties[b, 5]
+        motion = _followed(p, item, entry, strain, reduced)
         q = p.pair_start[item]
-        for i in range(stop - start):
-            e = strain[i]
+        for i in range(p.spread.width[item]):
+            e = motion[i]
             for w in range(LANES):
                 inverse = 1.0 / length[w]
                 square = inverse * inverse
@@ -203,7 +189,7 @@ def assemble(p, point, frame, axis, pivot, matrix, work):  # type: ignore[no-unt
             for j in range(i + 1):
                 slot = p.pair_slot[q]
                 q += 1
-                f = strain[j]
+                f = motion[j]
                 for w in range(LANES):
                     matrix[slot, w] += (
                         stress[0, w] * f[0, w]
@@ -213,7 +199,13 @@ def assemble(p, point, frame, axis, pivot, matrix, work):  # type: ignore[no-unt
                         + stress[4, w] * f[4, w]
                         + stress[5, w] * f[5, w]
                     )
-    _add_links(p, point, frame, axis, pivot, matrix, strain, stress)
+    _add_links(p, geometry, entry, matrix, work)
     for s in range(p.spring_slot.shape[0]):
         for w in range(LANES):
             matrix[p.spring_slot[s], w] += p.spring_value[s]
+    outer = p.spread
+    for s in range(outer.outer_slot.shape[0]):
+        slot, value = outer.outer_slot[s], outer.outer_value[s]
+        first, second = outer.outer_first[s], outer.outer_second[s]
+        for w in range(LANES):
+            matrix[slot, w] += value * entry[first, w] * entry[second, w]
