@@ -118,5 +118,9 @@ def compliance_budget(
     )
     batch = placed.batch
     # a refined solution has extended precision; results have not
-    plain = (np.asarray(a, dtype=float) for a in (shares.reshape(*batch, -1), work.reshape(batch)))
-    return ComplianceBudget(tuple(parts), *plain, w)
+    return ComplianceBudget(
+        tuple(parts),
+        shares.reshape(*batch, -1).astype(float),
+        work.reshape(batch).astype(float),
+        w,
+    )
