@@ -149,7 +149,7 @@ def _run(
             "solver slepc",
             "needs petsc4py, slepc4py and mpiexec, which are not here.",
             "On Debian: apt install python3-petsc4py python3-slepc4py openmpi-bin; elsewhere "
-            "pip install strutwork[mpi].",
+            "petsc4py and slepc4py from conda-forge, or compiled by pip.",
         )
     with tempfile.TemporaryDirectory(dir=ranks.folder, prefix="strutwork-petsc-") as name:
         folder = Path(name)
