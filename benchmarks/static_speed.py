@@ -166,6 +166,9 @@ def table(
         "|---|---:|---:|---:|",
         *rows,
         "",
+        "Velocity Jacobians of the same machines, with joint ranges and the distance from the next",
+        "singularity: [performance-kinematics.md](performance-kinematics.md).",
+        "",
     ]
     return "\n".join(lines)
 

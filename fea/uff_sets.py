@@ -142,7 +142,7 @@ def _binary_end(data: bytes, head: re.Match[bytes], part: str) -> tuple[int, int
     function or, failing that, by the field that counts them, which many programs fill wrongly.
     """
     start = head.end()
-    lines = []
+    lines: list[bytes] = []
     for _ in range(HEADER_LINES):
         ending = _LINE_END.search(data, start)
         if ending is None:

@@ -21,6 +21,14 @@ from machines.proposed_3pprs import Proposed3PPRS
 from machines.prototype_3ppprs import Prototype3PPPRS
 from machines.published import Paper, PublishedTable, PublishedValue
 from machines.three_legs import ThreeLegs
+from machines.variants import (
+    NamedMachine,
+    Variant,
+    is_machine,
+    named_machine,
+    require_mass,
+    variants,
+)
 from machines.work_table import WorkTable
 
 __all__ = [
@@ -36,6 +44,7 @@ __all__ = [
     "Limit",
     "Machine",
     "MitSS1",
+    "NamedMachine",
     "Paper",
     "Platform",
     "PoseGrid",
@@ -45,6 +54,7 @@ __all__ = [
     "PublishedValue",
     "StrutAssembly",
     "ThreeLegs",
+    "Variant",
     "VibratingLegs",
     "WorkTable",
     "check_limits",
@@ -52,7 +62,11 @@ __all__ = [
     "get",
     "hemisphere_normals",
     "hemisphere_poses",
+    "is_machine",
     "joint_limits",
+    "named_machine",
+    "require_mass",
     "roll_angles",
     "strut_width",
+    "variants",
 ]

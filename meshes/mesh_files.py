@@ -139,8 +139,9 @@ def _format(path: Path) -> Format:
     if suffix not in FORMATS:
         raise ModelError(
             str(path),
-            f"the suffix {suffix!r} is none of a mesh file.",
-            f"Use {', '.join(FORMATS)}; STL, OBJ and glTF are surfaces (`meshes.surfaces`).",
+            f"the suffix {suffix!r} is none of a mesh file that is read.",
+            f"Use {', '.join(FORMATS)} (ParaView and Gmsh save other formats as these); "
+            "STL, OBJ and glTF are surfaces (`meshes.surfaces`).",
         )
     return FORMATS[suffix]
 

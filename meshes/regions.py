@@ -14,9 +14,9 @@ UNNAMED = "solid"
 def partition(count: int, *levels: Mapping[str, Ints]) -> tuple[tuple[str, ...], Ints]:
     """One region for each cell.
 
-    A cell of several sets, each within the next, is of the smallest. Where two sets cross, the
-    cells of both are a region of their own, "A and B": which material they have is not for us
-    to guess.
+    A cell of several sets, each within the next, is of the smallest, of equal ones the last.
+    Where two sets cross, the cells of both are a region of their own, "A and B": which material
+    they have is not for us to guess.
 
     Parameters
     ----------
@@ -72,7 +72,8 @@ def _combinations(count: int, sets: list[Ints]) -> tuple[list[tuple[int, ...]], 
 
 def _name(keys: tuple[str, ...], sets: Mapping[str, Ints], members: tuple[int, ...]) -> str:
     """Name of the least of the sets, or of all that hold no other of them."""
-    names = sorted((keys[m] for m in members), key=lambda n: len(sets[n]))
+    # of equal sets the later: decks name blocks of elements first, and what they mean after
+    names = sorted((keys[m] for m in reversed(members)), key=lambda n: len(sets[n]))
     least: list[str] = []
     for name in names:
         inside = [n for n in least if np.isin(sets[n], sets[name]).all()]

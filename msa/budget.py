@@ -117,4 +117,10 @@ def compliance_budget(
         energies, total[:, None], out=np.zeros_like(energies), where=total[:, None] > 0
     )
     batch = placed.batch
-    return ComplianceBudget(tuple(parts), shares.reshape(*batch, -1), work.reshape(batch), w)
+    # a refined solution has extended precision; results have not
+    return ComplianceBudget(
+        tuple(parts),
+        shares.reshape(*batch, -1).astype(float),
+        work.reshape(batch).astype(float),
+        w,
+    )

@@ -13,8 +13,9 @@ from strutwork.errors import ProportionWarning
 if TYPE_CHECKING:
     from msa.structure import PlacedStructure
 
-#: A section deeper than so many lengths of its beam is no beam; stubs in machines reach sixty.
-DEEPEST = 80.0
+#: A section deeper than so many sizes of the whole structure belongs to none. Against its own beam
+#: it may be deeper: a stub in a machine has no length to speak of.
+DEEPEST = 5.0
 #: A beam longer than so many depths of its section is no beam; wires reach two thousand.
 LONGEST = 5000.0
 #: No machine is as large as this, m.
@@ -25,8 +26,8 @@ _LISTED = 3
 def warn_of_proportions(placed: PlacedStructure) -> None:
     """Warn of beams and sections that do not fit one another, once for a structure.
 
-    Judged by the ratio of a section's depth to its beam's length at the first pose; only the
-    size of the whole is absolute.
+    Judged at the first pose by the depth of a section beside the size of the structure and the
+    length of its beam; only the size of the whole is absolute.
 
     Warns
     -----
@@ -47,9 +48,10 @@ def warn_of_proportions(placed: PlacedStructure) -> None:
     if structure.beams:
         start, end = first.beam_ends
         lengths = np.linalg.norm(np.real(end - start), axis=-1)
+        size = max(size, float(lengths.max()))
         for beam, length in zip(structure.beams, lengths, strict=True):
             depth = _depth(beam.section)
-            if depth > DEEPEST * length or length > LONGEST * depth:
+            if depth > DEEPEST * size or length > LONGEST * depth:
                 found.append(
                     f'beam {beam.name} is {length:.4g} m long, and its section "'
                     f'{beam.section.name}" {depth:.4g} m deep'

@@ -79,6 +79,7 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
 
 def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFile, ...]]:
     from machines.catalogue import CATALOGUE
+    from machines.variants import MARK, is_machine
 
     make: Callable[[], tuple[str, str, tuple[Chapter, ...]]]
     if target == COMPARISON:
@@ -97,6 +98,12 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
         from reports.hexapod_report import hexapod_chapters
 
         make = partial(hexapod_chapters, progress)
+    elif is_machine(target) and MARK in target:
+        raise ModelError(
+            f"report {target}",
+            "names one model, and a machine's report shows all of them beside each other.",
+            f"Leave the variant out: {target.partition(MARK)[0]}.",
+        )
     elif target in CATALOGUE:
         from reports.machine_report import machine_chapters
 

@@ -27,6 +27,7 @@ from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
 from fea.validity import warn_beyond
+from machines import is_machine, named_machine, require_mass
 from machines.model import Model
 from msa import LoadCase, PlacedStructure
 from reports.data_files import csv_file
@@ -124,12 +125,12 @@ def vibration_target(
 ) -> Target:
     """The structure that a model file or a machine's name stands for.
 
-    A machine stands at home as the dynamic model of its paper has it.
+    A machine stands at home.
 
     Parameters
     ----------
     name : str
-        Path of a model file, or a machine of the catalogue.
+        Path of a model file, or a machine of the catalogue: `NAME` or `NAME:VARIANT`.
     modal_ratio, loss_factor : float or None
         Damping in place of the file's; joints' dashpots stay.
     preload : str or None
@@ -138,9 +139,10 @@ def vibration_target(
     Raises
     ------
     ModelError
-        No such machine or file, a wrong model, both kinds of damping, an unknown load case.
+        No such machine, variant or file, a variant for statics, a wrong model, both kinds of
+        damping, an unknown load case.
     """
-    from machines.catalogue import CATALOGUE, Machine
+    from machines.catalogue import CATALOGUE
     from machines.model_file import read_model
 
     if modal_ratio is not None and loss_factor is not None:
@@ -152,23 +154,15 @@ def vibration_target(
         given = ModalRatio(modal_ratio)
     elif loss_factor is not None:
         given = LossFactor(loss_factor)
-    if name in CATALOGUE:
+    if is_machine(name):
         if preload is not None:
             raise ModelError(
                 name, "has no load cases to preload it.", "Describe it in a model file."
             )
-        from machines.azulay_dynamic import DYNAMIC_SETS, dynamic_machine
-        from machines.three_legs import ThreeLegs
-
-        entry = CATALOGUE[name]
-        machine: Machine = entry.factory()
-        title = entry.title
-        # a machine whose structure has no platform vibrates as its dynamic model
-        if isinstance(machine, ThreeLegs) and not machine.structure.masses:
-            machine = dynamic_machine(name)
-            title += f"; calibrated set: {DYNAMIC_SETS['calibrated']}"
+        found = require_mass(named_machine(name))
+        machine = found.machine
         placed = machine.structure.at(machine.place(machine.home()))
-        return Target(title, name, placed, placed.structure.linkage.nodes, given)
+        return Target(found.title, found.stem, placed, placed.structure.linkage.nodes, given)
     if Path(name).suffix != ".toml" and not Path(name).exists():
         raise ModelError(
             name,

@@ -44,8 +44,9 @@ def stiffness_chapter() -> Chapter:
         Text(
             f"k_i = {micro(STRUT_STIFFNESS)} N/µm is calibrated: with it the flat part of the map "
             "lies at 150 N/µm, the highest tick of Fig. 29-(a), which prints no value. The "
-            "stiffness is 1/C_xx at the tool tip, tilt and z free to follow. Ours in Table 6 is the "
-            "whole structure with the bearings that are calibrated to the thesis's numerical frequencies and to its K_y of 35 N/µm at home."
+            "stiffness is 1/C_xx at the tool tip, tilt and z free to follow. Ours in Table 6 is "
+            "the whole structure with the bearings that are calibrated to the thesis's numerical "
+            "frequencies and to its K_y of 35 N/µm at home."
         ),
         _table_6(rows),
         _fits_table(fits),
@@ -195,7 +196,8 @@ def _verdict(fits: tuple[ColumnFit, ...]) -> str:
 def _swap(fits: tuple[ColumnFit, ...]) -> str:
     """Which models come nearer with the last two rows exchanged, and along which axis not."""
     size = len(fits) // len(READINGS)
-    nearer, farther = [], []
+    nearer: list[str] = []
+    farther: list[str] = []
     for one, other in zip(fits[1:size], fits[size + 1 :], strict=True):
         for axis, before, after in zip(QUANTITIES, one.rms, other.rms, strict=True):
             if before is not None and after is not None:

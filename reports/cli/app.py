@@ -31,7 +31,9 @@ Json = Annotated[
 
 Target = Annotated[
     str,
-    typer.Argument(metavar="FILE_OR_MACHINE", help="A model file, or a machine by its name."),
+    typer.Argument(
+        metavar="FILE_OR_MACHINE", help="A model file, or a machine: NAME or NAME:VARIANT."
+    ),
 ]
 Ratio = Annotated[
     float | None,
@@ -131,16 +133,12 @@ def solve(file: ModelFile, json: Json = False) -> None:
 @app.command("map")
 def map_stiffness(
     machine: Annotated[
-        str, typer.Argument(metavar="MACHINE", help="As `strutwork machines` says.")
+        str, typer.Argument(metavar="MACHINE", help="NAME or NAME:VARIANT of `strutwork machines`.")
     ],
     out: Annotated[
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Write the map there as NetCDF and CSV."),
     ] = None,
-    apparent: Annotated[
-        bool,
-        typer.Option("--apparent", help="Links clamped in the platform, not on spherical joints."),
-    ] = False,
     ranges: Annotated[
         Ranges, typer.Option(help="Whose joint ranges a pose must keep.")
     ] = Ranges.ALL,
@@ -164,8 +162,6 @@ def map_stiffness(
 ) -> None:
     """Map the stiffness of a machine over a hemisphere, or over x and tilt where it is made so."""
     if vibration:
-        if apparent:
-            raise typer.BadParameter("--apparent is a model of the statics only.")
         from reports.cli import vibration_map
 
         vibration_map.run(
@@ -183,7 +179,6 @@ def map_stiffness(
     work.run(
         machine,
         out,
-        apparent=apparent,
         ranges=ranges.value,
         lattice=lattice,
         rolls=rolls,

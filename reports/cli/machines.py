@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from machines import variants
 from machines.catalogue import CATALOGUE
 from reports.cli.output import console, print_json, table
 
@@ -15,6 +16,7 @@ def run(json: bool) -> None:
                 "title": entry.title,
                 "topology": entry.topology,
                 "paper": entry.paper.citation,
+                "variants": {v.name: v.description for v in variants(entry.name).values()},
             }
             for entry in CATALOGUE.values()
         ]
@@ -24,5 +26,14 @@ def run(json: bool) -> None:
     rows = [(e.name, e.title, e.topology, e.paper.key) for e in CATALOGUE.values()]
     columns = ["name", "machine", "joints of a leg", "paper"]
     out.print(table("Machines of the literature", columns, rows, names=4))
+    models = [
+        (f"{name}:{v.name}", v.description)
+        for name in CATALOGUE
+        for v in variants(name).values()
+        if len(variants(name)) > 1
+    ]
+    out.print(
+        table("Their models; a name alone means the first", ["name", "model"], models, names=2)
+    )
     for key, citation in {e.paper.key: e.paper.citation for e in CATALOGUE.values()}.items():
         out.print(f"{key}: {citation}", markup=False)

@@ -8,7 +8,7 @@ from typing import Any
 
 import xarray as xr
 
-from machines import GridMachine, Machine, ThreeLegs, get, roll_angles
+from machines import GridMachine, Machine, NamedMachine, named_machine, roll_angles
 from reports.cli.output import console, print_json, table
 from reports.cli.progress import shown
 from strutwork.errors import ModelError
@@ -31,7 +31,6 @@ def run(
     machine: str,
     out: str | None,
     *,
-    apparent: bool,
     ranges: str,
     lattice: int,
     rolls: int,
@@ -45,11 +44,8 @@ def run(
             "is a model file, which has one configuration: there is nothing to map.",
             "Use `strutwork solve`, or name a machine of `strutwork machines`.",
         )
-    made = get(machine).factory()
-    if apparent:
-        if not isinstance(made, ThreeLegs):
-            raise ModelError(f"machine {machine}", "has no apparent joint model.", "Leave it out.")
-        made = made.apparent()
+    found = named_machine(machine)
+    made = found.machine
     with shown() as started:
         dataset = _map(
             made,
@@ -57,12 +53,12 @@ def run(
             rolls,
             Filters(joint_kinds=RANGES[ranges]),
             workers,
-            started(f"stiffness of {machine}"),
+            started(f"stiffness of {found.name}"),
         )
-    result = _result(machine, dataset)
+    result = _result(found, dataset)
     if out is not None:
         folder = Path(out)
-        name = f"{machine}-apparent-map" if apparent else f"{machine}-map"
+        name = f"{found.stem}-map"
         written = [
             write_netcdf(folder / f"{name}.nc", dataset),
             write_csv(folder / f"{name}.csv", dataset),
@@ -119,9 +115,10 @@ def _counts(dataset: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _result(machine: str, dataset: xr.Dataset) -> dict[str, Any]:
+def _result(found: NamedMachine, dataset: xr.Dataset) -> dict[str, Any]:
     return {
-        "machine": machine,
+        "machine": found.name,
+        "model": found.title,
         **_counts(dataset),
         "dropped_because": json_text.loads(dataset.attrs["dropped_by_reason"]),
         "stiffness": {
@@ -138,7 +135,7 @@ def _result(machine: str, dataset: xr.Dataset) -> dict[str, Any]:
 def _print(result: dict[str, Any]) -> None:
     out = console()
     out.print(
-        f"{result['machine']}: {result['points_kept']} of {result['points']} points, "
+        f"{result['model']}: {result['points_kept']} of {result['points']} points, "
         f"{result['candidates_kept']} of {result['candidates']} candidate poses count",
         markup=False,
     )

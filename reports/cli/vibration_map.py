@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from machines import GridMachine, dynamic_machine, get, roll_angles
-from machines.published_azulay import TABLE_5
+from machines import GridMachine, named_machine, require_mass, roll_angles
 from reports.cli.output import console, print_json, table
 from reports.cli.progress import shown
 from reports.cli.stiffness import RANGES
@@ -27,14 +26,9 @@ def run(
     workers: int | None,
     json: bool,
 ) -> None:
-    """Map the vibration and print its summary.
-
-    The machines of Azulay's Table 5 are their calibrated vibrating models: roots clamped,
-    drives held, 1 % of critical damping.
-    """
-    entry = get(machine)
-    calibrated = machine in {value.row for value in TABLE_5.values}
-    made = dynamic_machine(machine, "calibrated") if calibrated else entry.factory()
+    """Map the vibration with 1 % of critical damping and print its summary."""
+    found = require_mass(named_machine(machine))
+    made = found.machine
     if isinstance(made, GridMachine):
         raise ModelError(
             f"machine {machine}",
@@ -49,11 +43,11 @@ def run(
             roll_angles(rolls),
             Filters(joint_kinds=RANGES[ranges]),
             workers=workers,
-            progress=started(f"vibration of {machine}"),
+            progress=started(f"vibration of {found.name}"),
         )
-    result = _result(machine, "calibrated" if calibrated else "as in the catalogue", dataset)
+    result = _result(found.name, found.title, dataset)
     if out is not None:
-        name = f"{machine}-vibration-map"
+        name = f"{found.stem}-vibration-map"
         written = [
             write_netcdf(Path(out) / f"{name}.nc", dataset),
             write_csv(Path(out) / f"{name}.csv", dataset),
@@ -98,8 +92,7 @@ def _spread(values: np.ndarray[Any, Any]) -> dict[str, float | None]:
 def _print(result: dict[str, Any]) -> None:
     out = console()
     out.print(
-        f"{result['machine']} ({result['model']}): {result['points_kept']} of "
-        f"{result['points']} points count",
+        f"{result['model']}: {result['points_kept']} of {result['points']} points count",
         markup=False,
     )
     names = ["worst", "mean", "best"]

@@ -24,6 +24,7 @@ def test_keys_of_the_json(strutwork: Program) -> None:
     found = strutwork("map", "proposed-3pprs", *FEW, "--json").result
     assert set(found) == {
         "machine",
+        "model",
         "points",
         "points_kept",
         "candidates",
@@ -34,7 +35,12 @@ def test_keys_of_the_json(strutwork: Program) -> None:
         "data",
     }
     # i² + j² ≤ 1 has five points on the lattice
-    assert (found["machine"], found["points"], found["candidates"]) == ("proposed-3pprs", 5, 10)
+    assert (found["machine"], found["points"], found["candidates"]) == (
+        "proposed-3pprs:static",
+        5,
+        10,
+    )
+    assert "true spherical joints" in found["model"]
     assert found["candidates_kept"] + sum(found["dropped"].values()) == 10
     assert found["data"] == []
     for meaning in ("blocked", "free"):
@@ -47,7 +53,7 @@ def test_numbers_are_those_of_the_study_and_land_in_files(
     strutwork: Program, tmp_path: Path
 ) -> None:
     found = strutwork("map", "proposed-3pprs", *FEW, "-o", tmp_path / "maps", "--json").result
-    names = ["proposed-3pprs-map.nc", "proposed-3pprs-map.csv"]
+    names = ["proposed-3pprs-static-map.nc", "proposed-3pprs-static-map.csv"]
     assert found["data"] == [str(tmp_path / "maps" / name) for name in names]
     machine = Proposed3PPRS()
     study = stiffness_map(machine, hemisphere(machine, lattice=1), roll_angles(2), AS_IN_AZULAY)
@@ -60,7 +66,7 @@ def test_numbers_are_those_of_the_study_and_land_in_files(
 
 def test_apparent_joint_model_is_another(strutwork: Program) -> None:
     plain = strutwork("map", "proposed-3pprs", *FEW, "--json").result
-    apparent = strutwork("map", "proposed-3pprs", *FEW, "--apparent", "--json").result
+    apparent = strutwork("map", "proposed-3pprs:apparent", *FEW, "--json").result
     stiffer = [found["stiffness"]["free"]["z"]["statistics"]["mean"] for found in (apparent, plain)]
     # links clamped in the platform hold its rotation as well
     assert stiffer[0] > stiffer[1]

@@ -47,7 +47,7 @@ def test_version(strutwork: Program) -> None:
 def test_machines(strutwork: Program) -> None:
     listed = strutwork("machines", "--json").result["machines"]
     assert [entry["name"] for entry in listed] == list(CATALOGUE)
-    assert all(set(entry) == {"name", "title", "topology", "paper"} for entry in listed)
+    assert all(set(entry) == {"name", "title", "topology", "paper", "variants"} for entry in listed)
     run = strutwork("machines")
     assert run.status == 0
     for entry in listed:

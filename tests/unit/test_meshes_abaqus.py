@@ -107,6 +107,12 @@ def test_sections_say_which_cells_are_of_which_material(tmp_path: Path) -> None:
     assert mesh.holders("A") == ("A", "EALL")
 
 
+def test_of_equal_sets_the_last_names_the_region(tmp_path: Path) -> None:
+    mesh = deck(tmp_path, ROW + "*ELSET, ELSET=body, GENERATE\n1, 4\n")
+    assert mesh.regions == ("body",)
+    assert mesh.holders("body") == ("body", "EALL")
+
+
 def test_cells_of_two_sets_that_cross_are_a_region_of_both(tmp_path: Path) -> None:
     mesh = deck(tmp_path, ROW + "*ELSET, ELSET=A\n1, 2, 3\n*ELSET, ELSET=B\n3, 4\n")
     assert shares(mesh) == {"A": 2, "B": 1, "A and B": 1}

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import fields, replace
+from math import sqrt
 from typing import Any
 
 import pytest
 
+from kinematics import Poses
 from machines.catalogue import CATALOGUE
 from machines.model_file import parse_model
 from msa import tube
@@ -68,6 +70,16 @@ def test_sections_and_beams_that_do_not_fit() -> None:
         wrong.structure.at(placement)
 
 
+def test_a_stub_in_a_machine_is_in_proportion() -> None:
+    machine = CATALOGUE["proposed-3pprs"].factory(shortest_first_link=3e-5)
+    # the height at which the sliders stand on the guide
+    height = sqrt(machine.link_length**2 - 0.144**2)
+    placement = machine.place(Poses.of([0.0, 0.0, height]))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        machine.structure.at(placement)
+
+
 def cantilever(length: str, section: str, far: str = "") -> str:
     return f"""
 [materials.steel]
@@ -114,7 +126,7 @@ def test_a_file_with_lengths_out_of_proportion_is_warned_of(text: str, words: st
     [
         cantilever("0.216", TUBE),
         # a stub in a machine, a wire, a bridge
-        cantilever("0.001", TUBE),
+        cantilever("0.005", TUBE),
         cantilever("1", 'shape = "rod"\ndiameter = 0.0005'),
         cantilever("400", 'shape = "rod"\ndiameter = 8'),
     ],

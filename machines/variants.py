@@ -1,0 +1,147 @@
+"""Models of one machine by name: `eclipse-3pprs:calibrated`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import cast, get_args
+
+from machines.azulay_dynamic import DYNAMIC_SETS, DynamicSet, dynamic_machine
+from machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
+from machines.three_legs import ThreeLegs
+from strutwork.errors import ModelError
+
+#: Between a machine's name and its variant's.
+MARK = ":"
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One model of a machine.
+
+    Parameters
+    ----------
+    name : str
+    description : str
+        What sets it apart from the others.
+    factory : callable
+        Makes the machine.
+    """
+
+    name: str
+    description: str
+    factory: Callable[[], Machine]
+
+
+@dataclass(frozen=True)
+class NamedMachine:
+    """A machine as it was named.
+
+    Parameters
+    ----------
+    entry : CatalogueEntry
+    variant : Variant
+    machine : Machine
+    """
+
+    entry: CatalogueEntry
+    variant: Variant
+    machine: Machine
+
+    @property
+    def name(self) -> str:
+        """As it is typed, with the variant where there are several."""
+        several = len(variants(self.entry.name)) > 1
+        return f"{self.entry.name}{MARK}{self.variant.name}" if several else self.entry.name
+
+    @property
+    def stem(self) -> str:
+        """For names of files."""
+        return self.name.replace(MARK, "-")
+
+    @property
+    def title(self) -> str:
+        """What it is, in words."""
+        several = len(variants(self.entry.name)) > 1
+        return (
+            f"{self.entry.title}; {self.variant.name}: {self.variant.description}"
+            if several
+            else self.entry.title
+        )
+
+
+def variants(name: str) -> Mapping[str, Variant]:
+    """The models of a machine of the catalogue by their names, its own first.
+
+    Raises
+    ------
+    ModelError
+        An unknown machine.
+    """
+    entry = get(name)
+    made = entry.factory()
+    if not isinstance(made, ThreeLegs):
+        return MappingProxyType({"own": Variant("own", "its only model", entry.factory)})
+    legs: ThreeLegs = made
+    found = [
+        Variant("static", "true spherical joints, drives with their stiffness", entry.factory),
+        Variant(
+            "apparent",
+            "links clamped in the platform, carriages that do not turn: as the paper's static "
+            "tables suggest",
+            lambda: cast(Machine, legs.apparent()),
+        ),
+    ]
+    found += [
+        Variant(which, DYNAMIC_SETS[which], _dynamic(name, which)) for which in get_args(DynamicSet)
+    ]
+    return MappingProxyType({v.name: v for v in found})
+
+
+def _dynamic(name: str, which: DynamicSet) -> Callable[[], Machine]:
+    return lambda: cast(Machine, dynamic_machine(name, which))
+
+
+def is_machine(text: str) -> bool:
+    """Whether a name stands for a machine of the catalogue, with or without a variant."""
+    return text.partition(MARK)[0] in CATALOGUE
+
+
+def named_machine(text: str) -> NamedMachine:
+    """The machine that `NAME` or `NAME:VARIANT` stands for; without a variant the first.
+
+    Raises
+    ------
+    ModelError
+        An unknown machine or variant; the message lists them.
+    """
+    name, mark, which = text.partition(MARK)
+    entry = get(name)
+    known = variants(name)
+    if mark and which not in known:
+        raise ModelError(
+            f"machine {name}",
+            f'has no variant "{which}".',
+            "Variants: " + ", ".join(f"{name}{MARK}{v}" for v in known) + ".",
+        )
+    variant = known[which] if mark else next(iter(known.values()))
+    return NamedMachine(entry, variant, variant.factory())
+
+
+def require_mass(found: NamedMachine) -> NamedMachine:
+    """Return the machine itself if its structure can vibrate.
+
+    Raises
+    ------
+    ModelError
+        Its platform has no mass; names the variants that have.
+    """
+    if found.machine.structure.masses or found.variant.name == "own":
+        return found
+    heavy = [v.name for v in variants(found.entry.name).values() if v.name in DYNAMIC_SETS]
+    raise ModelError(
+        f"machine {found.name}",
+        "is a model for statics: its platform has no mass, so it cannot be asked how it vibrates.",
+        "Name a model that can: " + ", ".join(f"{found.entry.name}{MARK}{v}" for v in heavy) + ".",
+    )
