@@ -42,7 +42,7 @@ def tool_compliance(
     method : str, optional
         "compiled", or as `solve`. Default: compiled for `COMPILED_FROM` poses and more where
         the kernel applies, else as `solve`. Poses that the compiled kernel cannot vouch for
-        are solved again by the saddle-point system.
+        are solved again by the saddle-point system, or the sparse solver where it is large.
     workers : int
         Threads of the compiled kernel.
 
@@ -117,7 +117,7 @@ def compliance_and_outcome(
         result, again = compiled_compliance(system, program, workers)
         outcome = Outcome.good((system.poses,))
         if np.any(again):
-            result[again], some = _stacked(system_of(system.placed[again]), "saddle_point")
+            result[again], some = _stacked(system_of(system.placed[again]), None)
             outcome.status[again] = some.status
             outcome = Outcome(outcome.status, some.reasons, some.errors)
     _project(system, result, outcome.solved)
