@@ -22,7 +22,9 @@ LEGS = range(6)
 DRIVE, BEARING = 3e7, MappingProxyType({"x": 8e7, "y": 8e7, "z": 2e8})
 
 
-def hexapod(poses: int, lower: str = "universal", *, beams: bool, bearings: bool) -> PlacedStructure:
+def hexapod(
+    poses: int, lower: str = "universal", *, beams: bool, bearings: bool
+) -> PlacedStructure:
     """A hexapod at poses around home.
 
     Parameters

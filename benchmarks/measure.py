@@ -31,9 +31,7 @@ def wall_rate(task: Callable[[], object], poses: int, rounds: int = 5) -> float:
     return _rate(task, poses, rounds, time.perf_counter)
 
 
-def _rate(
-    task: Callable[[], object], poses: int, rounds: int, clock: Callable[[], float]
-) -> float:
+def _rate(task: Callable[[], object], poses: int, rounds: int, clock: Callable[[], float]) -> float:
     task()
     seconds = []
     for _ in range(rounds):
