@@ -14,7 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.measure import DOCUMENTS, machine_line, one_thread, parser, rate, require, shown
+from benchmarks.measure import (
+    DOCUMENTS,
+    machine_line,
+    one_thread,
+    parsed,
+    parser,
+    rate,
+    require,
+    shown,
+)
 from kinematics import Placement, Poses, jacobians
 from machines import (
     Alizade3PRPS,
@@ -144,7 +153,7 @@ def main() -> None:
     """Measure, print and perhaps write the table."""
     options = parser(__doc__, DOCUMENT)
     options.add_argument("--poses", type=int, default=65_536)
-    arguments = options.parse_args()
+    arguments = parsed(options)
     poses = 64 if arguments.smallest else arguments.poses
     found = {name: measured(make(), poses) for name, make in MACHINES.items()}
     shown(table(found), DOCUMENT, arguments)

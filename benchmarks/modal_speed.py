@@ -15,6 +15,7 @@ from benchmarks.measure import (
     joined,
     machine_line,
     one_thread,
+    parsed,
     parser,
     rate,
     require,
@@ -101,7 +102,7 @@ def main() -> None:
     """Measure, print and perhaps write the table."""
     options = parser(__doc__, DOCUMENT)
     options.add_argument("--poses", type=int, default=1024)
-    arguments = options.parse_args()
+    arguments = parsed(options)
     shown(table(8 if arguments.smallest else arguments.poses), DOCUMENT, arguments)
 
 

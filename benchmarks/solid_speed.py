@@ -42,7 +42,7 @@ MODES = 10
 LINES, RESPONSE_SIZES = 1000, ("smallest", "92k")
 
 #: Frequencies agree with CalculiX's, which prints seven digits, and of the same matrices among all
-#: solvers, to these shares; a response with direct lines to ten times the tolerance it was asked for.
+#: solvers, to these shares; a response with direct lines to ten times the tolerance it was given.
 APART, SAME = 1e-5, 1e-9
 
 CALCULIX, SLEPC = "CalculiX", "SLEPc with MUMPS"
@@ -329,6 +329,8 @@ def main() -> None:
     parser.add_argument("--prepare", type=Path, help="write the input of all engines to a folder")
     parser.add_argument("--write", action="store_true", help="write docs/performance-solids.md")
     arguments = parser.parse_args()
+    if arguments.smallest and arguments.write:
+        parser.error("--smallest is a check; its figures are not written")
     sizes = ["smallest"] if arguments.smallest else arguments.size or ["92k", "300k"]
     if arguments.prepare:
         print(json.dumps(prepare(sizes[0], arguments.prepare)))
@@ -338,8 +340,6 @@ def main() -> None:
         task = response if arguments.response else ours
         print(json.dumps(task(sizes[0], arguments.engine)))
     else:
-        if arguments.smallest and arguments.write:
-            parser.error("--smallest is a check; its figures are not written")
         for size in sizes if arguments.write else ():
             # a page without a place for them is told before minutes of measurement, not after
             merged(DOCUMENT.read_text(encoding="utf-8"), size, "")

@@ -23,6 +23,7 @@ from benchmarks.measure import (
     joined,
     machine_line,
     one_thread,
+    parsed,
     parser,
     rate,
     require,
@@ -217,8 +218,8 @@ def table(
             "Six legs from a universal (U) or spherical (S) joint over a driven prismatic joint to",
             "a ball, at random poses. *Of the frame* is the rate beside the three-legged frame's,",
             f"at least {LEAST:g}; *vouched* is the share of poses whose residual, pivots and",
-            "closed loops let the kernel answer for them. The others are solved again by the saddle-point",
-            "system, which *apart* compares.",
+            "closed loops let the kernel answer for them. The others are solved again by the",
+            "saddle-point system, which *apart* compares.",
             "",
             "| | poses/s | of the frame | saddle-point | vouched | apart |",
             "|---|---:|---:|---:|---:|---:|",
@@ -254,7 +255,7 @@ def main() -> None:
     """Measure, print and write the table."""
     options = parser(__doc__, DOCUMENT)
     options.add_argument("--poses", type=int, default=65_536)
-    arguments = options.parse_args()
+    arguments = parsed(options)
     poses = 64 if arguments.smallest else arguments.poses
     million = 2000 if arguments.smallest else 1_000_000
     rates, gaps = frame_rates(poses)

@@ -23,6 +23,7 @@ from benchmarks.measure import (
     joined,
     machine_line,
     one_thread,
+    parsed,
     parser,
     require,
     shown,
@@ -199,7 +200,7 @@ def table(samples: int, assemblies: int) -> str:
 
 def main() -> None:
     """Measure, print and perhaps write the table."""
-    arguments = parser(__doc__, DOCUMENT).parse_args()
+    arguments = parsed(parser(__doc__, DOCUMENT))
     text = table(2000, 2000) if arguments.smallest else table(MILLION, HUNDRED_THOUSAND)
     shown(text, DOCUMENT, arguments)
 
