@@ -81,5 +81,5 @@ def require_memory(size: int, need: float, name: str) -> None:
             f"{available / 1e9:.3g} GB are available.",
             "Mesh coarser (memory grows as dofs to the power 4/3), reduce the parts one by one, "
             "install strutwork[accel], which takes half of SuperLU's memory, or share the work "
-            'among machines with PETSc and solver="slepc" (docs/performance-solids.md).',
+            'among machines with solver="slepc", which needs petsc4py, slepc4py and MPI.',
         )

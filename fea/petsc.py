@@ -148,8 +148,8 @@ def _run(
         raise ModelError(
             "solver slepc",
             "needs petsc4py, slepc4py and mpiexec, which are not here.",
-            "On Debian: apt install python3-petsc4py python3-slepc4py openmpi-bin; elsewhere take "
-            "petsc4py, slepc4py and openmpi from conda-forge.",
+            "On Debian: apt install python3-petsc4py python3-slepc4py openmpi-bin; elsewhere "
+            "petsc4py and slepc4py from conda-forge, or compiled by pip.",
         )
     with tempfile.TemporaryDirectory(dir=ranks.folder, prefix="strutwork-petsc-") as name:
         folder = Path(name)

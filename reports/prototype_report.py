@@ -86,7 +86,7 @@ def prototype_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[
             "Compliance budget",
             (
                 Figure(
-                    "budget",
+                    "budget-bars",
                     "Share of each kind of part, all three legs, in the deflection along the "
                     "force, at the best, median and worst pose of each axis.",
                     stacked_shares(categories, shares, "share of the deflection"),
