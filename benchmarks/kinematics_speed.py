@@ -7,19 +7,23 @@ are not faster by `LEAST`.
 
 from __future__ import annotations
 
-import argparse
-import statistics
-import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from benchmarks.static_speed import machine_line
+from benchmarks.measure import (
+    DOCUMENTS,
+    machine_line,
+    one_thread,
+    parsed,
+    parser,
+    rate,
+    require,
+    shown,
+)
 from kinematics import Placement, Poses, jacobians
 from machines import (
     Alizade3PRPS,
@@ -34,7 +38,7 @@ from machines import (
 
 Array = NDArray[Any]
 
-DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "performance-kinematics.md"
+DOCUMENT = DOCUMENTS / "performance-kinematics.md"
 
 MACHINES: dict[str, Callable[[], Machine]] = {
     "proposed-3pprs": Proposed3PPRS,
@@ -81,17 +85,6 @@ def poses_around(machine: Machine, count: int) -> Poses:
     return good[:count]
 
 
-def rate(task: Callable[[], object], poses: int, rounds: int = 5) -> float:
-    """Median poses per second of processor time over some rounds, after one that does not count."""
-    task()
-    seconds = []
-    for _ in range(rounds):
-        start = time.process_time()
-        task()
-        seconds.append(time.process_time() - start)
-    return poses / max(statistics.median(seconds), 1e-9)
-
-
 def measured(machine: Machine, count: int) -> Rates:
     """Rates of one machine: Jacobian, joint ranges and singularity margin of every pose.
 
@@ -113,9 +106,7 @@ def measured(machine: Machine, count: int) -> Rates:
     size = np.abs(rows.inverse).max(axis=-1, keepdims=True)
     gap = float((np.abs(legs.inverse - rows.inverse) / size).max())
     gap = max(gap, float(np.abs(legs.condition(LENGTH) / rows.condition(LENGTH) - 1.0).max()))
-    if not gap < AGREEMENT:
-        message = f"{type(machine).__name__}: legs and rows differ by {gap:.1e}"
-        raise RuntimeError(message)
+    require(gap < AGREEMENT, f"{type(machine).__name__}: legs and rows differ by {gap:.1e}")
     number = len(poses.position)
     return Rates(
         rate(lambda: by("legs", machine.place(poses)), number),
@@ -160,26 +151,16 @@ def table(found: dict[str, Rates]) -> str:
 
 def main() -> None:
     """Measure, print and perhaps write the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--poses", type=int, default=65_536)
-    parser.add_argument("--write", action="store_true", help=f"write docs/{DOCUMENT.name}")
-    arguments = parser.parse_args()
-    found = {name: measured(make(), arguments.poses) for name, make in MACHINES.items()}
-    text = table(found)
-    sys.stdout.write(text)
-    slow = [name for name, r in found.items() if r.placements < LEAST * r.rows]
-    if slow:
-        message = f"less than {LEAST:g} times the rate of all rows: {', '.join(slow)}"
-        raise RuntimeError(message)
-    if arguments.write:
-        from strutwork.files import write_text  # noqa: PLC0415 - only when asked
-
-        write_text(DOCUMENT, text)
+    options = parser(__doc__, DOCUMENT)
+    options.add_argument("--poses", type=int, default=65_536)
+    arguments = parsed(options)
+    poses = 64 if arguments.smallest else arguments.poses
+    found = {name: measured(make(), poses) for name, make in MACHINES.items()}
+    shown(table(found), DOCUMENT, arguments)
+    if not arguments.smallest:
+        slow = [name for name, r in found.items() if r.placements < LEAST * r.rows]
+        require(not slow, f"less than {LEAST:g} times the rate of all rows: {', '.join(slow)}")
 
 
 if __name__ == "__main__":
-    # pinned before any BLAS call: stacks of small systems want one thread
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(1, user_api="blas"):
-        main()
+    one_thread(main)

@@ -84,17 +84,18 @@ def parser(description: str | None, document: Path) -> argparse.ArgumentParser:
     return result
 
 
-def shown(text: str, document: Path, arguments: argparse.Namespace) -> None:
-    """Print a page, and write it where that was asked.
+def parsed(options: argparse.ArgumentParser) -> argparse.Namespace:
+    """The arguments; a table of the smallest size is refused before anything is measured."""
+    arguments = options.parse_args()
+    if arguments.smallest and arguments.write:
+        options.error("--smallest is a check; its figures are not written")
+    return arguments
 
-    Raises
-    ------
-    RuntimeError
-        The smallest size is asked to be written: its figures say nothing.
-    """
+
+def shown(text: str, document: Path, arguments: argparse.Namespace) -> None:
+    """Print a page, and write it where that was asked."""
     sys.stdout.write(text)
     if arguments.write:
-        require(not arguments.smallest, "--smallest is a check; its figures are not written")
         from strutwork.files import write_text  # noqa: PLC0415 - only when asked
 
         write_text(document, text)

@@ -15,7 +15,7 @@ from meshes.mesh import Mesh
 from msa import Material
 
 #: Cells along an arm, through its thickness, and across.
-SIZES = {"22k": (33, 11, 10), "92k": (54, 18, 17), "300k": (81, 27, 25)}
+SIZES = {"smallest": (12, 4, 4), "22k": (33, 11, 10), "92k": (54, 18, 17), "300k": (81, 27, 25)}
 
 #: Edge of a cell, m.
 CELL = 0.02

@@ -6,7 +6,6 @@ docs/performance-tolerances.md.
 
 from __future__ import annotations
 
-import argparse
 import math
 import resource
 import statistics
@@ -14,11 +13,21 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from benchmarks.static_speed import machine_line
+from benchmarks.measure import (
+    DOCUMENTS,
+    joined,
+    machine_line,
+    one_thread,
+    parsed,
+    parser,
+    require,
+    shown,
+)
 from overconstraint import (
     Responses,
     allocate,
@@ -32,9 +41,16 @@ from overconstraint import (
 from tests.random_zones import random_responses
 from tests.three_struts import LIMITS, three_struts, tilted_axes
 
-DOCUMENT = Path(__file__).resolve().parent.parent / "docs" / "performance-tolerances.md"
+Array = NDArray[Any]
 
-MILLION = 1_000_000
+DOCUMENT = DOCUMENTS / "performance-tolerances.md"
+
+MILLION, HUNDRED_THOUSAND = 1_000_000, 100_000
+
+#: Share by which a sample may pass the worst case: that of its certificate.
+CERTIFIED = 1e-9
+#: Certified gap of an allocation.
+GAP = 1e-6
 
 
 def struts(kind: str = "surface") -> Responses:
@@ -55,8 +71,15 @@ def seconds(task: Callable[[], object], rounds: int = 5) -> float:
     return statistics.median(found)
 
 
-def plain_loop(responses: Responses, samples: int) -> float:
-    """Seconds for a plain loop over samples and quantities, NumPy within a sample."""
+def plain_loop(responses: Responses, samples: int) -> tuple[float, Array]:
+    """Seconds for a plain loop over samples and quantities, NumPy within a sample.
+
+    Returns
+    -------
+    seconds : float
+    largest : (q,)
+        Of every quantity.
+    """
     generator = np.random.default_rng(0)
     largest = np.zeros(len(responses.quantities))
     start = time.perf_counter()
@@ -65,7 +88,7 @@ def plain_loop(responses: Responses, samples: int) -> float:
         for q in range(len(largest)):
             parts = responses.gain[q] @ z + responses.mean[q]
             largest[q] = max(largest[q], math.hypot(*parts))
-    return time.perf_counter() - start
+    return time.perf_counter() - start, largest
 
 
 def peak_memory(samples: int) -> float:
@@ -83,22 +106,40 @@ def peak_here() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 
 
-def table() -> str:
-    """Measure everything and return the page."""
+def table(samples: int, assemblies: int) -> str:
+    """Measure everything and return the page.
+
+    Parameters
+    ----------
+    samples : int
+        Of the distributions.
+    assemblies : int
+        Of the allocations.
+
+    Raises
+    ------
+    RuntimeError
+        A sample exceeds the worst case, or an allocation's certificate leaves a gap.
+    """
     model = struts()
-    loop = plain_loop(model, 2000) / 2000
+    loop, largest = plain_loop(model, 2000)
+    loop /= 2000
+    found = worst_case(model)
+    require(
+        bool(np.all(largest <= found.bound * (1.0 + CERTIFIED))),
+        "a sample exceeds the worst case",
+    )
     rows = []
     for kind in ("surface", "uniform", "normal"):
         responses = struts(kind)
         for method in ("monte_carlo", "quasi_monte_carlo"):
-            count = distribution(responses, MILLION, method).samples
-            taken = seconds(lambda r=responses, m=method: distribution(r, MILLION, m), 3)
+            count = distribution(responses, samples, method).samples
+            taken = seconds(lambda r=responses, m=method: distribution(r, samples, m), 3)
             words = "Monte Carlo" if method == "monte_carlo" else "quasi-Monte Carlo"
             rows.append(
                 f"| {words}, {kind} | {count:,} | {taken:.2f} | {loop / (taken / count):,.0f} |"
             )
     worst = seconds(lambda: worst_case(model), 50)
-    found = worst_case(model)
     tool = seconds(lambda: tool_deviation(found), 20)
     rng = np.random.default_rng(0)
     large = random_responses(rng, 40, 60)
@@ -113,17 +154,24 @@ def table() -> str:
         for words, options in (
             ("one factor", {}),
             ("least cost", {"objective": "cost"}),
-            ("one factor, 99 % of 100 000", {"quantile": 0.99}),
-            ("least cost, 99 % of 100 000", {"objective": "cost", "quantile": 0.99}),
+            (f"one factor, 99 % of {assemblies:,}", {"quantile": 0.99}),
+            (f"least cost, 99 % of {assemblies:,}", {"objective": "cost", "quantile": 0.99}),
         ):
-            result = allocate(responses, limit, costs=cost, **options)
+            result = allocate(responses, limit, costs=cost, samples=assemblies, **options)
             taken = seconds(
-                lambda r=responses, m=limit, c=cost, o=options: allocate(r, m, costs=c, **o), 3
+                lambda r=responses, m=limit, c=cost, o=options: allocate(
+                    r, m, costs=c, samples=assemblies, **o
+                ),
+                3,
+            )
+            require(
+                result.gap is None or result.gap <= GAP,
+                f"{name}, {words}: the certificate leaves a gap of {result.gap}",
             )
             gap = "none claimed" if result.gap is None else f"{result.gap:.1e}"
             allocations.append(f"| {name} | {words} | {1e3 * taken:,.1f} | {gap} |")
-    memory = [f"{n:,}: {peak_memory(n):.0f} MB" for n in (1000, MILLION, 4 * MILLION)]
-    return "\n".join(
+    memory = [f"{n:,}: {peak_memory(n):.0f} MB" for n in (1000, samples, 4 * samples)]
+    return joined(
         [
             "# Performance: tolerances",
             "",
@@ -146,27 +194,16 @@ def table() -> str:
             "| allocation | | ms | certified gap |",
             "|---|---|---:|---:|",
             *allocations,
-            "",
         ]
     )
 
 
 def main() -> None:
     """Measure, print and perhaps write the table."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--write", action="store_true", help=f"write docs/{DOCUMENT.name}")
-    arguments = parser.parse_args()
-    text = table()
-    sys.stdout.write(text)
-    if arguments.write:
-        from strutwork.files import write_text  # noqa: PLC0415 - only when asked
-
-        write_text(DOCUMENT, text)
+    arguments = parsed(parser(__doc__, DOCUMENT))
+    text = table(2000, 2000) if arguments.smallest else table(MILLION, HUNDRED_THOUSAND)
+    shown(text, DOCUMENT, arguments)
 
 
 if __name__ == "__main__":
-    # pinned before any BLAS call: products of small matrices want one thread
-    from threadpoolctl import threadpool_limits
-
-    with threadpool_limits(1, user_api="blas"):
-        main()
+    one_thread(main)

@@ -63,7 +63,7 @@ def petsc_python() -> str | None:
     for python in (sys.executable, SYSTEM_PYTHON):
         if Path(python).exists():
             check = subprocess.run(  # noqa: S603 - this Python or the system's
-                [python, "-c", "import petsc4py, slepc4py, numpy, scipy"],
+                [python, "-c", "import petsc4py, slepc4py, numpy"],
                 capture_output=True,
                 check=False,
                 env=petsc_environment(),

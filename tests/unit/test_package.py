@@ -62,6 +62,30 @@ def test_tested_floors_are_the_declared_ones() -> None:
     assert {name: pinned.get(name) for name in floors()} == floors()
 
 
+def advised_extras() -> dict[str, list[str]]:
+    """Every `strutwork[...]` in sources, scripts and pages, with the files that say it."""
+    places = [ROOT / name for name in (*ROOMS, "docs", "examples", "benchmarks", "scripts", ".ci")]
+    files = [p for place in places for p in place.rglob("*") if p.is_file()]
+    files += [*ROOT.glob("*.md"), ROOT / "pyproject.toml", *ROOT.glob(".github/**/*.yml")]
+    found: dict[str, list[str]] = {}
+    for path in files:
+        if path.suffix not in {".py", ".md", ".toml", ".sh", ".yml", ".html", ".txt", ""}:
+            continue
+        text = path.read_text(encoding="utf-8", errors="replace")
+        # a source may break its string, and a shell may quote it: strutwork"[cad]"
+        for names in re.findall(r"strutwork[\"'\s\\]*\[([A-Za-z0-9_, -]+)\]", text):
+            for extra in names.split(","):
+                found.setdefault(extra.strip(), []).append(str(path.relative_to(ROOT)))
+    return found
+
+
+def test_every_extra_that_is_advised_exists() -> None:
+    extras = set(PROJECT["project"]["optional-dependencies"])
+    found = advised_extras()
+    assert {"cad", "accel"} <= set(found)
+    assert {extra: where for extra, where in found.items() if extra not in extras} == {}
+
+
 def test_every_error_of_the_packages_is_of_the_family() -> None:
     modules = [
         importlib.import_module(module.name)
