@@ -18,6 +18,8 @@ DOUBTFUL = 1e-5
 #: Columns whose cosine is below this are orthogonal: singular values hold to a few times it.
 ORTHOGONAL = 1e-13
 SWEEPS = 30
+#: Squared size of a column, of the largest one's, that is nothing: its square is still a number.
+NOTHING = 1e-150
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -151,25 +153,56 @@ def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-un
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _turned(a, size, c, d):  # type: ignore[no-untyped-def]
-    """Turn two columns (rows of a) so that they become orthogonal; False where they were."""
-    dot = 0.0
-    for i in range(a.shape[1]):
-        dot += a[c, i] * a[d, i]
-    if min(size[c], size[d]) < 1e-300 or dot * dot <= ORTHOGONAL**2 * size[c] * size[d]:
-        return False
-    zeta = (size[d] - size[c]) / (2.0 * dot)
-    t = 1.0 / (abs(zeta) + np.sqrt(1.0 + zeta * zeta))
-    t = -t if zeta < 0.0 else t
-    cosine = 1.0 / np.sqrt(1.0 + t * t)
-    sine = cosine * t
-    for i in range(a.shape[1]):
-        x, y = a[c, i], a[d, i]
-        a[c, i] = cosine * x - sine * y
-        a[d, i] = sine * x + cosine * y
-    size[c] -= t * dot
-    size[d] += t * dot
-    return True
+def _rounds(columns):  # type: ignore[no-untyped-def]
+    """Each pair of columns once, (rounds, pairs of a round, 2): a tournament's circle.
+
+    The pairs of a round share no column, so that the processor turns them at the same time. With
+    an odd number the dummy `columns` stands still: its pair is (c, c).
+    """
+    even = columns + columns % 2
+    pairs = np.empty((even - 1, even // 2, 2), dtype=np.int64)
+    for r in range(even - 1):
+        for k in range(even // 2):
+            c = even - 1 if k == 0 else (r + k) % (even - 1)
+            d = (r - k) % (even - 1)
+            pairs[r, k, 0] = min(c, d)
+            pairs[r, k, 1] = min(c, d) if max(c, d) == columns else max(c, d)
+    return pairs
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sweep(a, size, pairs, tangent):  # type: ignore[no-untyped-def]
+    """Turn each pair of columns (rows of a) so that it becomes orthogonal; False where all were."""
+    rotated = False
+    for r in range(pairs.shape[0]):
+        for k in range(pairs.shape[1]):
+            c, d = pairs[r, k, 0], pairs[r, k, 1]
+            dot = 0.0
+            for i in range(a.shape[1]):
+                dot += a[c, i] * a[d, i]
+            small = min(size[c], size[d]) < NOTHING
+            if c == d or small or dot * dot <= ORTHOGONAL**2 * size[c] * size[d]:
+                tangent[k] = 0.0
+                continue
+            rotated = True
+            # t = sign(ζ) / (|ζ| + √(1 + ζ²)) with ζ = gap / 2 dot, and one division
+            gap, twice = size[d] - size[c], 2.0 * dot
+            t = abs(twice) / (abs(gap) + np.sqrt(gap * gap + twice * twice))
+            t = -t if (gap < 0.0) != (dot < 0.0) else t
+            tangent[k] = t
+            size[c] -= t * dot
+            size[d] += t * dot
+        for k in range(pairs.shape[1]):
+            t = tangent[k]
+            if t != 0.0:
+                c, d = pairs[r, k, 0], pairs[r, k, 1]
+                cosine = 1.0 / np.sqrt(1.0 + t * t)
+                sine = cosine * t
+                for i in range(a.shape[1]):
+                    x, y = a[c, i], a[d, i]
+                    a[c, i] = cosine * x - sine * y
+                    a[d, i] = sine * x + cosine * y
+    return rotated
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -181,27 +214,70 @@ def _squares(a, size):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _triangle(a, m):  # type: ignore[no-untyped-def]
+    """R of a Gram-Schmidt elimination of the rows of a, the longest first, into rows of m.
+
+    R has the singular values of a, and its rows are so nearly orthogonal that half the sweeps
+    are left (Drmač and Veselić 2008).
+    """
+    columns, rows = a.shape
+    for k in range(columns):
+        for c in range(columns):
+            m[c, k] = 0.0
+    for k in range(columns):
+        best, at = -1.0, k
+        for c in range(k, columns):
+            square = 0.0
+            for i in range(rows):
+                square += a[c, i] * a[c, i]
+            if square > best:
+                best, at = square, c
+        if at != k:
+            for i in range(rows):
+                a[k, i], a[at, i] = a[at, i], a[k, i]
+            # R's columns may stand in any order, its finished rows must keep to theirs
+            for j in range(k):
+                m[j, k], m[j, at] = m[j, at], m[j, k]
+        if not best > 0.0:
+            break
+        m[k, k] = np.sqrt(best)
+        inverse = 1.0 / m[k, k]
+        for i in range(rows):
+            a[k, i] *= inverse
+        for c in range(k + 1, columns):
+            dot = 0.0
+            for i in range(rows):
+                dot += a[k, i] * a[c, i]
+            m[k, c] = dot
+            for i in range(rows):
+                a[c, i] -= dot * a[k, i]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def jacobi_values(matrices, values):  # type: ignore[no-untyped-def]
     """Singular values of (q, m, n) matrices, m ≥ n, by one-sided Jacobi (Hestenes 1958)."""
     count, rows, columns = matrices.shape
-    a = np.empty((columns, rows))
-    size = np.empty(columns)
+    a, triangle = np.empty((columns, rows)), np.empty((columns, columns))
+    size, pairs = np.empty(columns), _rounds(columns)
+    tangent = np.empty(pairs.shape[1])
     for q in range(count):
         for i in range(rows):
             for c in range(columns):
                 a[c, i] = matrices[q, i, c]
+        _triangle(a, triangle)
+        # squares of squares of any unit stay in range
+        unit = triangle[0, 0] if triangle[0, 0] > 0.0 else 1.0
+        for c in range(columns):
+            for i in range(columns):
+                triangle[c, i] /= unit
         for _ in range(SWEEPS):
-            _squares(a, size)
-            rotated = False
-            for c in range(columns - 1):
-                for d in range(c + 1, columns):
-                    rotated = _turned(a, size, c, d) or rotated
-            if not rotated:
+            _squares(triangle, size)
+            if not _sweep(triangle, size, pairs, tangent):
                 break
-        _squares(a, size)
+        _squares(triangle, size)
         for c in range(columns):
             # sorted in, largest first
-            value, at = np.sqrt(size[c]), c
+            value, at = unit * np.sqrt(size[c]), c
             while at > 0 and values[q, at - 1] < value:
                 values[q, at] = values[q, at - 1]
                 at -= 1
