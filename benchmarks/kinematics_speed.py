@@ -195,10 +195,10 @@ def table(found: dict[str, Rates], planar: float) -> str:
         "",
         "## What has no legs to eliminate",
         "",
-        f"MIT-SS-1: {planar:,.0f} poses/s from tool poses, by the null space of all rows. Each strut",
-        "lets the tool move in three ways only, in the plane, and two bearings share each pin. What",
-        "the tool can do is then where the motions of all legs meet, a rank of all of them together",
-        "at every pose, which the elimination of single legs does not see.",
+        f"MIT-SS-1: {planar:,.0f} poses/s from tool poses, by the null space of all rows. Each",
+        "strut lets the tool move in three ways only, in the plane, and two bearings share each",
+        "pin. What the tool can do is then where the motions of all legs meet, a rank of all of",
+        "them together at every pose, which the elimination of single legs does not see.",
     ]
     return "\n".join([*lines, ""])
 

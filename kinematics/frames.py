@@ -69,8 +69,10 @@ def turned(rotation: Array, points: Array) -> Array:
     Memory as in `vector`.
     """
     batch = rotation.shape[:-2]
-    columns = np.moveaxis(rotation.reshape(-1, 3, 3), 0, -1)
-    result = np.matmul(points, np.ascontiguousarray(columns))
+    r = np.ascontiguousarray(np.moveaxis(rotation.reshape(-1, 3, 3), 0, -1))[:, None]
+    q = points[..., None]
+    # not by BLAS: a pose has the same digits alone as in a batch
+    result = r[:, :, 0] * q[:, 0] + r[:, :, 1] * q[:, 1] + r[:, :, 2] * q[:, 2]
     return np.asarray(result.T.reshape(*batch, len(points), 3))
 
 
