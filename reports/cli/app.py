@@ -5,6 +5,7 @@ A command imports its work when it runs, so that help and wrong usage answer at 
 
 from __future__ import annotations
 
+import os
 import sys
 import warnings
 from enum import StrEnum
@@ -12,7 +13,9 @@ from typing import Annotated
 
 import typer
 
+from reports.cli.streams import show_every_character
 from strutwork import StrutworkError, __version__
+from strutwork.names import visible
 
 app = typer.Typer(
     name="strutwork",
@@ -44,10 +47,26 @@ Loss = Annotated[
     typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
 ]
 
+
+
+def _typed(value: str | list[str] | None) -> str | list[str] | None:
+    """Names as they were typed: a locale of ASCII hands over their UTF-8 byte by byte."""
+    if isinstance(value, list):
+        return [str(_typed(one)) for one in value]
+    if value is None or value.isascii():
+        return value
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        return os.fsencode(value).decode("utf-8", "surrogateescape")
+    return value
+
+
 Preload = Annotated[
     str | None,
     typer.Option(
         "--preload",
+        callback=_typed,
         metavar="CASE",
         help="Load case under which it vibrates, for the file's preload.",
     ),
@@ -71,12 +90,13 @@ class Ranges(StrEnum):
 
 def main() -> None:
     """Run the program: the console script."""
+    show_every_character()
     said: set[str] = set()
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
         # the steps of one command may warn of the same thing
         if str(message) not in said:
-            sys.stderr.write(f"Warning: {message}\n")
+            sys.stderr.write(f"Warning: {visible(str(message), lines=True)}\n")
         said.add(str(message))
 
     with warnings.catch_warnings():
@@ -227,7 +247,7 @@ def frf(
     target: Target,
     given: Annotated[
         str,
-        typer.Option("--input", metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
+        typer.Option("--input", callback=_typed, metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
     ],
     low: Annotated[
         float | None,
@@ -236,7 +256,7 @@ def frf(
     high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
-        typer.Option("--output", metavar="NODE:DIR", help="What moves; the input by default."),
+        typer.Option("--output", callback=_typed, metavar="NODE:DIR", help="What moves; the input by default."),
     ] = None,
     lines: Annotated[
         int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
@@ -309,6 +329,7 @@ def tolerance(
     limit: Annotated[
         list[str] | None,
         typer.Option(
+            callback=_typed,
             metavar="[JOINT:]KIND=VALUE",
             help="A force limit beside the file's, as in --limit radial_force=2kN. Repeatable.",
         ),
