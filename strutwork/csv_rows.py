@@ -49,10 +49,14 @@ class RowWriter:
 
     def __init__(self, stream: TextIO) -> None:
         self._writer = csv.writer(stream, lineterminator="\n")
+        self._quoting = csv.writer(stream, lineterminator="\n", quoting=csv.QUOTE_ALL)
 
     def writerow(self, row: Iterable[Any]) -> None:
         """Write one row."""
-        self._writer.writerow([csv_cell(value) for value in row])
+        cells = [csv_cell(value) for value in row]
+        # Python's writer leaves a carriage return bare, where readers see the end of the row
+        bare = any(isinstance(cell, str) and "\r" in cell for cell in cells)
+        (self._quoting if bare else self._writer).writerow(cells)
 
     def writerows(self, rows: Iterable[Iterable[Any]]) -> None:
         """Write rows."""

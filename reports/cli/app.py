@@ -5,20 +5,21 @@ A command imports its work when it runs, so that help and wrong usage answer at 
 
 from __future__ import annotations
 
-import os
 import sys
 import warnings
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
+from reports.cli.choices import Objective, Ranges
 from reports.cli.streams import show_every_character
+from reports.cli.usage import Commands, typed
 from strutwork import StrutworkError, __version__
 from strutwork.names import visible
 
 app = typer.Typer(
     name="strutwork",
+    cls=Commands,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
     epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage.",
     no_args_is_help=True,
@@ -47,45 +48,15 @@ Loss = Annotated[
     typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
 ]
 
-
-
-def _typed(value: str | list[str] | None) -> str | list[str] | None:
-    """Names as they were typed: a locale of ASCII hands over their UTF-8 byte by byte."""
-    if isinstance(value, list):
-        return [str(_typed(one)) for one in value]
-    if value is None or value.isascii():
-        return value
-    try:
-        value.encode()
-    except UnicodeEncodeError:
-        return os.fsencode(value).decode("utf-8", "surrogateescape")
-    return value
-
-
 Preload = Annotated[
     str | None,
     typer.Option(
         "--preload",
-        callback=_typed,
+        callback=typed,
         metavar="CASE",
         help="Load case under which it vibrates, for the file's preload.",
     ),
 ]
-
-
-class Objective(StrEnum):
-    """What an allocation of tolerances aims at."""
-
-    UNIFORM = "uniform"
-    COST = "cost"
-
-
-class Ranges(StrEnum):
-    """Joints whose ranges a pose must keep."""
-
-    ALL = "all"
-    REVOLUTE = "revolute"
-    NONE = "none"
 
 
 def main() -> None:
@@ -247,7 +218,9 @@ def frf(
     target: Target,
     given: Annotated[
         str,
-        typer.Option("--input", callback=_typed, metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
+        typer.Option(
+            "--input", callback=typed, metavar="NODE:DIR", help="Where the force acts, as in TCP:x."
+        ),
     ],
     low: Annotated[
         float | None,
@@ -256,7 +229,9 @@ def frf(
     high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
-        typer.Option("--output", callback=_typed, metavar="NODE:DIR", help="What moves; the input by default."),
+        typer.Option(
+            "--output", callback=typed, metavar="NODE:DIR", help="What moves; the input by default."
+        ),
     ] = None,
     lines: Annotated[
         int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
@@ -329,7 +304,7 @@ def tolerance(
     limit: Annotated[
         list[str] | None,
         typer.Option(
-            callback=_typed,
+            callback=typed,
             metavar="[JOINT:]KIND=VALUE",
             help="A force limit beside the file's, as in --limit radial_force=2kN. Repeatable.",
         ),

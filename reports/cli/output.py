@@ -35,7 +35,9 @@ def print_json(result: Mapping[str, Any]) -> None:
         A number that is not finite; nothing is printed.
     """
     try:
-        text = json.dumps(result, allow_nan=False, ensure_ascii=not _shows(str(result)))
+        text = json.dumps(result, allow_nan=False, ensure_ascii=False)
+        if not _shows(text):
+            text = json.dumps(result, allow_nan=False)
     except ValueError:
         raise NumericalError(
             "result", "holds a number that is not finite and is withheld.", "Check the model."

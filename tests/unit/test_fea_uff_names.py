@@ -29,7 +29,7 @@ HARD = (
     "１１",  # noqa: RUF001 - digits of another script are digits to Python
     "11",
     "a.b/c:d",
-    "it's \"quoted\"",
+    'it\'s "quoted"',
     "a\u00a0b",
     "a\nb",
     " a",
