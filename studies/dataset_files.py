@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
 from studies.filters import PoseStatus
@@ -65,7 +65,7 @@ def write_csv(path: Path, dataset: xr.Dataset) -> Path:
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
+            writer = RowWriter(file)
             writer.writerow([dim, *columns])
             writer.writerows(
                 [i, *(_cell(c[i]) for c in columns.values())] for i in range(dataset.sizes[dim])
@@ -99,7 +99,7 @@ def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
+            writer = RowWriter(file)
             writer.writerow(head)
             for index in np.ndindex(*(len(p) for p in places)):
                 where = [_cell(p[i]) for p, i in zip(places, index, strict=True)]

@@ -7,6 +7,7 @@ from pathlib import Path
 from reports.build import write_report
 from reports.cli.output import console, print_json
 from reports.cli.progress import shown
+from strutwork.names import visible
 
 
 def run(target: str, out: str | None, json: bool) -> None:
@@ -18,5 +19,5 @@ def run(target: str, out: str | None, json: bool) -> None:
         print_json({"report": str(written.report), "data": [str(p) for p in written.data]})
         return
     printed = console()
-    printed.print(f"Report: {written.report}", markup=False, soft_wrap=True)
+    printed.print(f"Report: {visible(str(written.report))}", markup=False, soft_wrap=True)
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)

@@ -120,17 +120,6 @@ def test_another_program_reads_the_function(path: Path) -> None:
     }
 
 
-@pytest.mark.parametrize(
-    ("name", "word"),
-    [("n" * 41, "40 printable"), (" a", "40 printable"), ("a\nb", "40 printable"), ("", "40 p")],
-)
-def test_names_that_do_not_fit(path: Path, name: str, word: str) -> None:
-    record = FrfRecord((name, "x"), ("b", "x"), LINES, VALUES)
-    with pytest.raises(ModelError, match=word):
-        write_universal(path, UniversalFile((record,)))
-    assert not path.exists()
-
-
 def test_nothing_to_write(path: Path) -> None:
     with pytest.raises(ModelError, match="would be empty"):
         write_universal(path, UniversalFile(positions=POSITIONS))
