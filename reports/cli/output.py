@@ -37,6 +37,14 @@ def print_json(result: Mapping[str, Any]) -> None:
     sys.stdout.write(text + "\n")
 
 
+class _Console(Console):
+    """A console that leaves the end of its reader to the program."""
+
+    def on_broken_pipe(self) -> None:
+        """Called while the error is handled: let it pass."""
+        raise  # noqa: PLE0704
+
+
 def table(
     title: str, columns: Sequence[str], rows: Iterable[Sequence[object]], names: int = 1
 ) -> Table:
@@ -62,7 +70,7 @@ def show(value: object) -> str:
 def console() -> Console:
     """Console on standard output; wide when it goes to a file, whose width nobody set."""
     free = not sys.stdout.isatty() and "COLUMNS" not in os.environ
-    return Console(highlight=False, width=WIDE if free else None)
+    return _Console(highlight=False, width=WIDE if free else None)
 
 
 def progress_console() -> Console:

@@ -7,6 +7,7 @@ from pathlib import Path
 from reports.build import write_report
 from reports.cli.output import console, print_json
 from reports.cli.progress import shown
+from reports.manifest import verify_report
 
 
 def run(target: str, out: str | None, json: bool) -> None:
@@ -20,3 +21,12 @@ def run(target: str, out: str | None, json: bool) -> None:
     printed = console()
     printed.print(f"Report: {written.report}", markup=False, soft_wrap=True)
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)
+
+
+def verify(folder: str, json: bool) -> None:
+    """Compare a report with its manifest and say that it is whole."""
+    found = verify_report(Path(folder))
+    if json:
+        print_json({"report": folder, "files": len(found.files), "whole": True})
+        return
+    console().print(f"Whole: {folder}, {len(found.files)} files", markup=False, soft_wrap=True)
