@@ -77,6 +77,9 @@ def write_set(folder: Path, writers: Mapping[str, Callable[[Path], object]]) -> 
         new = not place.exists()
         if new:
             place.parent.mkdir(parents=True, exist_ok=True)
+        # what a killed run left in the folder, or beside it when it was making it
+        clean(place)
+        clean(place.parent)
         with staging(place.parent if new else place) as made:
             # a name of its own: the staging folder is private, an ordinary folder is not
             staged = made / "report"
@@ -91,18 +94,16 @@ def write_set(folder: Path, writers: Mapping[str, Callable[[Path], object]]) -> 
                 staged.rename(place)
             else:
                 _exchange(staged, place, old, manifest)
-        # what a killed run left beside a folder that it was making
-        clean(place.parent)
     except OSError as error:
         raise write_error(folder, error) from error
 
 
 def _exchange(staged: Path, folder: Path, old: Manifest, new: Manifest) -> None:
+    # also after a power failure the old page is gone before its data are
+    (folder / PAGE).unlink(missing_ok=True)
+    sync(folder)
     # names all that may lie there from here on, so that the next run knows them as ours
     Manifest({**old.files, **new.files}, complete=False).write(folder)
-    (folder / PAGE).unlink(missing_ok=True)
-    # also after a power failure the old page is gone before its data are
-    sync(folder)
     for name in old.files:
         if name not in new.files:
             _remove(folder / name)

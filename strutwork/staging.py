@@ -19,7 +19,7 @@ if sys.platform != "win32":
     import fcntl
 
 #: How the name of every staging folder begins.
-PREFIX = ".strutwork-"
+PREFIX = ".strutwork-staging-"
 
 _cleaned: set[Path] = set()
 

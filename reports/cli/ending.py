@@ -61,6 +61,9 @@ def _status(program: Callable[[], object]) -> int:
     try:
         program()
     except SystemExit as end:
+        # click turns the end of the reader into a status of its own
+        if isinstance(end.__context__, BrokenPipeError):
+            raise end.__context__ from None
         return end.code if isinstance(end.code, int) else int(end.code is not None)
     return 0
 
