@@ -68,7 +68,7 @@ def _small_files() -> None:
     [
         ("map", "proposed-3pprs", "--lattice", "1"),
         ("tolerance", "mit-ss1", "--samples", "100"),
-        ("modes", "proposed-3pprs:paper", "-n", "2"),
+        ("modes", "examples/03_tripod.toml", "-n", "2"),
         ("scale", "mit-ss1", "--lengths", "2"),
         ("report", MODEL),
     ],
