@@ -13,6 +13,7 @@ import xarray as xr
 
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import NumericalError
+from studies.netcdf import netcdf_bytes
 
 
 @dataclass(frozen=True)
@@ -73,7 +74,7 @@ def json_file(name: str, what: str, value: Any) -> DataFile:
 
 def netcdf_file(name: str, what: str, dataset: xr.Dataset) -> DataFile:
     """A dataset as NetCDF-4."""
-    return DataFile(name, what, lambda path: dataset.to_netcdf(path, engine="h5netcdf"))
+    return DataFile(name, what, lambda path: path.write_bytes(netcdf_bytes(dataset)))
 
 
 def _entry(name: str, value: Any) -> Any:

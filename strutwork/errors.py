@@ -35,6 +35,10 @@ class ModelError(StrutworkError):
     """The description of the structure or the study is wrong."""
 
 
+class OutputError(ModelError):
+    """A result that cannot be written: the folder, the disk or standard output refuses."""
+
+
 class UnitError(ModelError):
     """A quantity has a unit of another dimension than its field."""
 

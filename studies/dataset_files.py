@@ -15,6 +15,7 @@ from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
 from studies.filters import PoseStatus
+from studies.netcdf import netcdf_bytes
 
 _UNITS = {"direction": ("N/m", "N m/rad")}
 
@@ -27,9 +28,8 @@ def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
     ModelError
         The folder cannot be written.
     """
-    return write_whole(
-        Path(path), lambda part: dataset.to_netcdf(part, engine="h5netcdf", format="NETCDF4")
-    )
+    content = netcdf_bytes(dataset)
+    return write_whole(Path(path), lambda part: part.write_bytes(content))
 
 
 def read_netcdf(path: Path) -> xr.Dataset:

@@ -12,16 +12,18 @@ from typing import Annotated
 import typer
 
 from reports.cli.choices import Objective, Ranges
+from reports.cli.ending import guarded
 from reports.cli.streams import show_every_character
 from reports.cli.usage import Commands, typed
-from strutwork import StrutworkError, __version__
+from strutwork import __version__
 from strutwork.names import visible
 
 app = typer.Typer(
     name="strutwork",
     cls=Commands,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
-    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage.",
+    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
+    "3 a result cannot be written, 141 nobody reads the output any more.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -72,11 +74,7 @@ def main() -> None:
 
     with warnings.catch_warnings():
         warnings.showwarning = show
-        try:
-            app()
-        except StrutworkError as error:
-            sys.stderr.write(f"Error: {error}\n")
-            sys.exit(1)
+        sys.exit(guarded(app))
 
 
 def _print_version(wanted: bool) -> None:
@@ -383,9 +381,18 @@ def report(
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
     ] = None,
+    verify: Annotated[
+        bool,
+        typer.Option("--verify", help="Compare the report in the folder TARGET with its manifest."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
     from reports.cli import report as work
 
+    if verify:
+        if out is not None:
+            raise typer.BadParameter("--verify writes nothing: leave --out out.")
+        work.verify(target, json)
+        return
     work.run(target, out, json)

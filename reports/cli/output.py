@@ -87,6 +87,10 @@ class Screen(Console):
         shown = (visible(o, lines=True) if isinstance(o, str) else o for o in objects)
         super().print(*shown, **options)
 
+    def on_broken_pipe(self) -> None:
+        """Leave the end of the reader to the program: called while the error is handled."""
+        raise  # noqa: PLE0704
+
 
 def console() -> Console:
     """Console on standard output; wide when it goes to a file, whose width nobody set."""

@@ -7,6 +7,7 @@ from pathlib import Path
 from reports.build import write_report
 from reports.cli.output import console, print_json
 from reports.cli.progress import shown
+from reports.manifest import verify_report
 from strutwork.names import visible
 
 
@@ -21,3 +22,13 @@ def run(target: str, out: str | None, json: bool) -> None:
     printed = console()
     printed.print(f"Report: {visible(str(written.report))}", markup=False, soft_wrap=True)
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)
+
+
+def verify(folder: str, json: bool) -> None:
+    """Compare a report with its manifest and say that it is whole."""
+    found = verify_report(Path(folder))
+    if json:
+        print_json({"report": folder, "files": len(found.files), "whole": True})
+        return
+    whole = f"Whole: {visible(folder)}, {len(found.files)} files"
+    console().print(whole, markup=False, soft_wrap=True)

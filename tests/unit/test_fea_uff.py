@@ -17,7 +17,7 @@ from fea import uff_read
 from fea.uff import FrfRecord, ModeRecord, UniversalFile
 from fea.uff_read import read_universal
 from fea.uff_write import write_universal
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, OutputError
 
 RNG = np.random.default_rng(11)
 LINES = np.linspace(1.0, 500.0, 333)
@@ -383,7 +383,7 @@ def test_a_failed_write_leaves_the_old_file(path: Path, monkeypatch: pytest.Monk
         raise OSError("disk full")
 
     monkeypatch.setattr("fea.uff_write.read_universal", broken)
-    with pytest.raises(OSError, match="disk full"):
+    with pytest.raises(OutputError, match="disk full"):
         write_universal(path, UniversalFile((FUNCTION,)))
     assert path.read_bytes() == before
     assert list(path.parent.iterdir()) == [path]
