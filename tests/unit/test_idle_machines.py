@@ -18,6 +18,7 @@ from tests.structures import Model
 from tests.vibration import heavy
 
 ROOT = Path(__file__).parents[2]
+CARRIAGE = ((1e-2, 0.0, 0.0), (0.0, 1e-2, 0.0), (0.0, 0.0, 1e-2))
 
 
 def linear_delta() -> PlacedStructure:
@@ -27,7 +28,8 @@ def linear_delta() -> PlacedStructure:
     balls = []
     for leg in range(3):
         angle = 2 * np.pi * leg / 3
-        out, side = np.array([np.cos(angle), np.sin(angle), 0]), np.array([-np.sin(angle), np.cos(angle), 0])  # fmt: skip
+        out = np.array([np.cos(angle), np.sin(angle), 0])
+        side = np.array([-np.sin(angle), np.cos(angle), 0])
         model.ground(**{f"rail{leg}": 0.3 * out + [0, 0, 0.4]})
         held = [f"slide{leg}"]
         model.joint(
@@ -46,7 +48,7 @@ def linear_delta() -> PlacedStructure:
             held.append(f"up{key}")
             balls.append(f"low{key}")
         model.rigid(f"carriage{leg}", *held)
-        model.masses.append(PointMass(f"slide{leg}", 1.0, ((1e-2, 0, 0), (0, 1e-2, 0), (0, 0, 1e-2))))  # fmt: skip
+        model.masses.append(PointMass(f"slide{leg}", 1.0, CARRIAGE))
     model.rigid("platform", "tool", *balls)
     model.masses.append(PointMass("tool", 2.0, ((1e-2, 0, 0), (0, 1e-2, 0), (0, 0, 2e-2))))
     return model.place()
