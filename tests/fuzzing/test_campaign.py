@@ -34,21 +34,21 @@ def test_ten_thousand() -> None:
 
 def test_a_number_is_one_mutant() -> None:
     texts = seeds()
-    assert [mutant(n, texts) for n in range(200)] == [mutant(n, texts) for n in range(200)]
-    changed = [mutant(n, texts) for n in range(200)]
-    assert len({m.text for m in changed}) > 190
-    assert {m.seed for m in changed} > {"sample", "03_tripod"}
+    changed = [mutant(n, texts) for n in range(60)]
+    assert changed == [mutant(n, texts) for n in range(60)]
+    assert len({m.text for m in changed}) > 50
+    assert len({m.seed for m in changed}) > 10
 
 
 def test_some_mutants_are_sound_and_some_are_no_toml() -> None:
     texts = seeds()
     broken = 0
-    for number in range(200):
+    for number in range(60):
         try:
             tomllib.loads(mutant(number, texts).text)
         except tomllib.TOMLDecodeError:
             broken += 1
-    assert 0 < broken < 100
+    assert 0 < broken < 30
 
 
 @pytest.mark.parametrize(
@@ -94,6 +94,6 @@ def test_a_raise_is_a_fault_with_its_place(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_a_campaign_counts_and_spreads() -> None:
-    done = campaign(range(8), workers=2)
-    assert (done.mutants, done.faults) == (8, ())
-    assert done.runs >= 8 * len(judge.QUICK)
+    done = campaign(range(1, 5), workers=2)
+    assert (done.mutants, done.faults) == (4, ())
+    assert done.runs == 4 * len(judge.QUICK)
