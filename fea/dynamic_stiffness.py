@@ -58,19 +58,30 @@ class MinimumDynamicStiffness:
         )
 
 
+#: Highest frequency of a band, Hz: no machine vibrates up there, and the fourth power of ω
+#: still keeps its digits beside any stiffness.
+HIGHEST = 1e9
+
+
 def check_band(low: float, high: float) -> None:
     """Check a frequency band in Hz.
 
     Raises
     ------
     ModelError
-        A band that is empty, negative or not finite.
+        A band that is empty, negative, not finite or ends above `HIGHEST`.
     """
     if not (np.isfinite(low) and np.isfinite(high)) or low < 0 or high <= low:
         raise ModelError(
             "frequency band",
             f"goes from {low:g} to {high:g} Hz.",
             "Give two frequencies, the second larger than the first and neither negative.",
+        )
+    if high > HIGHEST:
+        raise ModelError(
+            "frequency band",
+            f"goes up to {high:g} Hz, where nothing vibrates.",
+            f"Let it end at {HIGHEST:g} Hz or below; machines vibrate below 1e5 Hz.",
         )
 
 

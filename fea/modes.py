@@ -146,6 +146,7 @@ def modes(
     if preload is not None:
         placed = pulled(placed, np.asarray(preload, dtype=float))
     system = system_of(placed)
+    asked, count = count, min(count, max(system.topology.forest.count, 1))
     every: list[Array] = []
     solvers: list[str] = []
 
@@ -164,8 +165,8 @@ def modes(
     solver = solvers[0]
     exist = int(np.isfinite(frequencies).sum(axis=-1).max())
     note = ""
-    if exist < count:
-        note = f"{count} modes were asked for and {exist} exist: these are all there are."
+    if exist < asked:
+        note = f"{asked} modes were asked for and {exist} exist: these are all there are."
         frequencies, shapes = frequencies[:, :exist], shapes[:, :exist]
         effective, shares = effective[:, :exist], shares[:, :exist]
     if not np.all(np.isfinite(shapes[outcome.solved])):

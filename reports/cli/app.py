@@ -12,7 +12,7 @@ from typing import Annotated
 import typer
 
 from reports.cli.choices import Objective, Ranges
-from reports.cli.ending import guarded
+from reports.cli.ending import OUT_OF_RANGE, guarded
 from reports.cli.streams import show_every_character
 from reports.cli.usage import Commands, typed
 from strutwork import __version__
@@ -74,6 +74,8 @@ def main() -> None:
 
     with warnings.catch_warnings():
         warnings.showwarning = show
+        # NumPy's words name no part of a model: `guarded` says what the reader can do
+        warnings.filterwarnings("error", OUT_OF_RANGE, RuntimeWarning)
         sys.exit(guarded(app))
 
 

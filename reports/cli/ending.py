@@ -15,6 +15,9 @@ from strutwork.files import write_error
 #: Exit status where the model is wrong or cannot be solved.
 WRONG = 1
 
+#: What NumPy warns of where a number leaves the range of doubles.
+OUT_OF_RANGE = r"(overflow|underflow|invalid value|divide by zero) encountered"
+
 #: Exit status where a result cannot be written.
 UNWRITTEN = 3
 
@@ -48,6 +51,14 @@ def guarded(program: Callable[[], object]) -> int:
     except StrutworkError as error:
         _say(str(error))
         return UNWRITTEN if isinstance(error, OutputError) else WRONG
+    except (FloatingPointError, OverflowError, RuntimeWarning) as error:
+        # a number that is made of one that overflowed may look sound
+        _say(
+            f"numbers: leave the range of doubles ({error}); every result is withheld.\n"
+            "Look for a quantity or an option out of all proportion to the others, such as a "
+            "size in the wrong unit."
+        )
+        return WRONG
     except OSError as error:
         _drop_output()
         if error.errno == errno.EPIPE:

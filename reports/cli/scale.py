@@ -40,6 +40,12 @@ def run(
             "is not known: no study of its size exists.",
             "Machines: " + ", ".join(MACHINES) + ".",
         )
+    if not RATIOS[0] <= ratio <= RATIOS[1]:
+        raise ModelError(
+            "--width-ratio",
+            f"{ratio:g} is no width of a strut over its length.",
+            f"Give a number from {RATIOS[0]:g} to {RATIOS[1]:g}; the default is 0.2.",
+        )
     found = assembly_scale(
         _lengths(band, count), ratio, tilt=quantity(_number(tilt), ANGLE, "--tilt")
     )
@@ -73,13 +79,17 @@ def run(
             screen.print(visible(path), markup=False, soft_wrap=True)
 
 
+#: Shortest and longest struts, m, and width over length: what lies beyond is no strut.
+SIZES, RATIOS = (1e-6, 1e6), (1e-6, 1e3)
+
+
 def _lengths(band: tuple[float, float], count: int) -> list[float]:
     low, high = band
-    if not (np.isfinite(band).all() and 0 < low < high):
+    if not (SIZES[0] <= low < high <= SIZES[1]):
         raise ModelError(
             "lengths of the struts",
             f"from {low:g} to {high:g} m are none.",
-            "Give --from above zero and --to above it, in m.",
+            f"Give --from of at least {SIZES[0]:g} and --to above it, up to {SIZES[1]:g}, in m.",
         )
     # 0.7 and not 0.7000000000000001 in the tables
     return [float(v) for v in np.round(np.linspace(low, high, count), 12)]

@@ -1,0 +1,116 @@
+"""Sizes and bands out of all proportion end in one message, and never in NumPy's words."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reports.cli import check
+from tests.cli.conftest import Program
+from tests.model_files import SAMPLE, Content, put, sample
+
+FAR: dict[str, Content] = {
+    "one node": sample(put("nodes.C", [1e300, 0.0, 0.0])),
+    "all nodes": sample(put("nodes", {n: [1e300] * 3 for n in SAMPLE["nodes"]})),
+    "a node in a unit of its own": sample(put("nodes.C", ["1e300 km", 0, 0])),
+}
+COMMANDS = ("check", "solve", "modes", "frf", "tolerance", "report")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+@pytest.mark.parametrize("content", FAR.values(), ids=FAR)
+def test_nodes_farther_than_any_machine(
+    strutwork: Program, write: Callable[[Content], Path], command: str, content: Content
+) -> None:
+    port = ("--input", "C:x") if command == "frf" else ()
+    run = strutwork(command, write(content), *port)
+    assert (run.status, run.out) == (1, "")
+    assert run.err.startswith("Error: ")
+    assert "nodes." in run.err
+    assert "the largest that counts" in run.err
+    assert "Warning" not in run.err
+
+
+@pytest.mark.parametrize(("low", "high"), [("0", "1e300"), ("1e299", "1e300"), ("1", "1.1e9")])
+@pytest.mark.parametrize("machine", ["mit-ss1", None])
+def test_band_where_nothing_vibrates(
+    strutwork: Program,
+    write: Callable[[Content], Path],
+    machine: str | None,
+    low: str,
+    high: str,
+) -> None:
+    file = machine or write(SAMPLE)
+    run = strutwork("frf", file, "--input", "TCP:x", "--from", low, "--to", high)
+    assert (run.status, run.out) == (1, "")
+    assert "frequency band: goes up to" in run.err
+    assert "1e+09 Hz or below" in run.err
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "part"),
+    [
+        ("--to", "1e300", "lengths of the struts"),
+        ("--to", "inf", "lengths of the struts"),
+        ("--from", "1e-300", "lengths of the struts"),
+        ("--from", "nan", "lengths of the struts"),
+        ("--width-ratio", "1e300", "--width-ratio"),
+        ("--width-ratio", "1e-300", "--width-ratio"),
+        ("--width-ratio", "nan", "--width-ratio"),
+        ("--tilt", "1e300", "--tilt"),
+    ],
+)
+def test_struts_out_of_proportion(strutwork: Program, option: str, value: str, part: str) -> None:
+    run = strutwork("scale", "mit-ss1", option, value)
+    assert (run.status, run.out) == (1, "")
+    assert run.err.startswith(f"Error: {part}: ")
+    assert run.err.count("\n") == 2
+    assert "Warning" not in run.err
+
+
+def test_more_modes_than_memory_holds(strutwork: Program, write: Callable[[Content], Path]) -> None:
+    file = write(SAMPLE)
+    many = strutwork("modes", file, "-n", str(10**21), "--json")
+    assert many.result == strutwork("modes", file, "-n", "100", "--json").result
+    assert "exist: these are all there are" in many.err
+
+
+@pytest.mark.parametrize(
+    "fails",
+    [
+        lambda: np.float64(1e300) * np.float64(1e300),
+        lambda: np.float64(0.0) / np.float64(0.0),
+        lambda: np.ones(2) / np.zeros(2),
+        lambda: 1e300**2,
+    ],
+    ids=["overflow", "invalid value", "division by zero", "overflow of a Python float"],
+)
+def test_overflow_that_no_check_foresaw_is_withheld(
+    strutwork: Program,
+    write: Callable[[Content], Path],
+    monkeypatch: pytest.MonkeyPatch,
+    fails: Callable[[], object],
+) -> None:
+    monkeypatch.setattr(check, "run", lambda *_: fails())
+    run = strutwork("check", write(SAMPLE))
+    assert (run.status, run.out) == (1, "")
+    assert run.err.startswith("Error: numbers: leave the range of doubles")
+    assert "out of all proportion" in run.err
+
+
+def test_other_warnings_are_shown_and_end_nothing(
+    strutwork: Program, write: Callable[[Content], Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def warn(*_: object) -> None:
+        warnings.warn("the grid is coarse", UserWarning, stacklevel=1)
+
+    monkeypatch.setattr(check, "run", warn)
+    # the tests turn warnings into errors, which the program does not
+    with warnings.catch_warnings():
+        warnings.simplefilter("default")
+        run = strutwork("check", write(SAMPLE))
+    assert (run.status, run.err) == (0, "Warning: the grid is coarse\n")
