@@ -32,8 +32,8 @@ from strutwork.errors import ModelWarning
 
 Array = NDArray[Any]
 
-#: A node, the force on it (p, 3) in global axes, and how far beside the node it acts, m.
-Force = tuple[str, Array, tuple[float, float, float]]
+#: A node, the force on it (p, 3) in global axes, and where beside it that acts, (3,) or (p, 3), m.
+Force = tuple[str, Array, Array | tuple[float, float, float]]
 
 #: A joint force below this share of the largest is none.
 LOADED = 1e-9

@@ -260,9 +260,10 @@ class System:
                         "Define the node.",
                     )
                 loads[:, structure.mesh_index[node], :, m] += wrench
+            pull = np.asarray(case.gravity)
             for mass in structure.masses if case.gravity is not None else ():
                 at = structure.mesh_index[mass.node]
-                loads[:, at, :, m] += mass_weight(mass, case.gravity, self.placed)
+                loads[:, at, :, m] += mass_weight(mass, pull, self.placed)
             for element in structure.elements if case.gravity is not None else ():
                 if hasattr(element, "mass"):
                     # a rigid translation of its nodes is one of the whole element
