@@ -12,6 +12,7 @@ from fea.coupled import AnyDamping
 from fea.eigen import solve_eigen
 from fea.poles import find_poles
 from fea.reduction import reduce_system
+from fea.validity import warn_beyond
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -75,6 +76,11 @@ def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10)
         Several poses, a count below one, no mass.
     NumericalError
         Poles that their residuals do not verify.
+
+    Warns
+    -----
+    ValidityWarning
+        A frequency above half the cutoff of a superelement.
     """
     if count < 1:
         raise ModelError("complex modes", f"{count} asked for.", "Ask for at least one.")
@@ -102,4 +108,6 @@ def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10)
     scale = flat[np.arange(len(values)), np.abs(flat).argmax(axis=1)]
     size = np.abs(values)
     ratios = np.divide(-values.real, size, out=np.zeros(len(values)), where=size > 0)
+    # a motion that only creeps has no frequency
+    warn_beyond(placed, float(size[values.imag > 0].max(initial=0.0)) / (2.0 * np.pi))
     return ComplexModes(size / (2.0 * np.pi), ratios, values, at_nodes / scale[:, None, None])

@@ -13,6 +13,7 @@ from fea.damping import Damping, LossFactor, modal_ratios
 from fea.modal import ModalModel, modal_model
 from fea.peak import TOLERANCE, largest_magnitudes
 from fea.ports import Port
+from fea.validity import warn_beyond
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
 
@@ -98,8 +99,14 @@ def minimum_dynamic_stiffness(
         An empty band, no mass, a port that cannot move, no damping.
     NumericalError
         The result breaks the two-sided bound.
+
+    Warns
+    -----
+    ValidityWarning
+        The band reaches above half the cutoff of a superelement.
     """
     check_band(*band)
+    warn_beyond(placed, band[1])
     model = modal_model(placed, ports, damping)
     return minimum_of(model, band, placed.batch)
 

@@ -139,7 +139,8 @@ def rigid_modes(system: System, rigid: Array, gram: Array, largest: Array) -> Ar
             "structure",
             "has a free motion without mass: "
             + str(mechanism_error(system, int(np.argwhere(massless)[0][0]))),
-            "Give what moves a mass or an inertia about that axis, or hold it.",
+            "Give what moves a mass or an inertia about that axis, or hold it; two dashpots in "
+            "series are one, of 1/(1/c₁ + 1/c₂).",
         )
     size = np.where(real, 1.0 / np.sqrt(np.where(values > 0, values, 1.0)), 0.0)
     return np.asarray(rigid @ vectors * size[:, None, :])

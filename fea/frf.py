@@ -16,6 +16,7 @@ from fea.modal import modal_model_of
 from fea.ports import Port
 from fea.reduction import Reduced, reduce_system
 from fea.rounding import uncoupled
+from fea.validity import warn_beyond
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -122,7 +123,26 @@ def frequency_response(
     NumericalError
         A response that is not finite: no damping at a resonance, or a floating structure at
         zero frequency.
+
+    Warns
+    -----
+    ValidityWarning
+        A line above half the cutoff of a superelement.
     """
+    found = response_at(placed, inputs, outputs, frequencies, damping, method)
+    warn_beyond(placed, float(found.frequencies.max()))
+    return found
+
+
+def response_at(
+    placed: PlacedStructure,
+    inputs: Sequence[Port],
+    outputs: Sequence[Port],
+    frequencies: ArrayLike,
+    damping: AnyDamping,
+    method: Method = "modal",
+) -> FrequencyResponse:
+    """`frequency_response`, for steps of another solver that warns itself."""
     lines = np.asarray(frequencies, dtype=float)
     if lines.ndim != 1 or not len(lines) or np.any(~np.isfinite(lines)) or np.any(lines < 0):
         raise ModelError("frequencies", "are empty or negative.", "Give frequencies in Hz.")

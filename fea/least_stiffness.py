@@ -12,7 +12,7 @@ from fea.coupled import AnyDamping, PartDamping, is_coupled
 from fea.damping import Damping, modal_ratios
 from fea.dynamic_stiffness import check_band, minimum_of
 from fea.eigen import Eigen, solve_eigen
-from fea.frf import frequency_response
+from fea.frf import response_at
 from fea.modal import ModalModel, modal_model_of
 from fea.peak import TOLERANCE, largest_magnitudes
 from fea.pole_peak import PoleSum, largest_on_band
@@ -20,6 +20,7 @@ from fea.pole_residue import pole_model
 from fea.ports import Port
 from fea.reduction import Reduced, reduce_system
 from fea.rounding import UNCOUPLED, uncoupled
+from fea.validity import warn_beyond
 from msa.assembly import system_of
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
@@ -110,8 +111,14 @@ def least_dynamic_stiffness(
         Several poses, an empty band, no mass, a port that cannot move, no damping in the band.
     NumericalError
         A direct solution with a residual that is not small.
+
+    Warns
+    -----
+    ValidityWarning
+        The band reaches above half the cutoff of a superelement.
     """
     check_band(*band)
+    warn_beyond(placed, band[1])
     reduced = reduce_system(system_of(placed))
     if len(reduced.stiffness) != 1:
         raise ModelError("dynamic stiffness", "between ports of several poses.", "Give one pose.")
@@ -215,7 +222,7 @@ def _coupled(
     low, high = (2.0 * np.pi * f for f in band)
     lines = _telling(eigen, band, high)
     lines = lines[:: max(1, len(lines) // LINES)]
-    direct = frequency_response(placed, both, both, lines, damping, "direct").receptance
+    direct = response_at(placed, both, both, lines, damping, "direct").receptance
     if not direct[:, o, i].any():
         return 0.0, band[0], True
     try:
@@ -236,7 +243,7 @@ def _coupled(
     total = PoleSum(poles[kept], residues[kept], constant, float(model.moving[o, i].real))
     place, size, certified = largest_on_band(total, max(low, 1e-9 * high), high)
     frequency = place / (2.0 * np.pi)
-    peak = frequency_response(placed, both, both, [frequency], damping, "direct").receptance
+    peak = response_at(placed, both, both, [frequency], damping, "direct").receptance
     lines, direct = np.append(lines, frequency), np.concatenate([direct, peak])
     miss = np.abs(direct - model.receptance(lines))[:, o, i]
     if not np.all(miss <= AGREES * size):
@@ -270,7 +277,7 @@ def _searched(
     )
     best, frequency = 0.0, start
     for _ in range(ROUNDS):
-        found = frequency_response(placed, ports[:1], ports[1:], lines, damping, "direct")
+        found = response_at(placed, ports[:1], ports[1:], lines, damping, "direct")
         size = np.abs(found.receptance[:, 0, 0])
         if size.max() > best:
             best, frequency = float(size.max()), float(lines[size.argmax()])

@@ -15,6 +15,7 @@ from fea.participation import PRELOAD, effective_mass, energy_shares
 from fea.reduction import reduce_system
 from fea.sparse_modes import SPARSE_FROM, lanczos_suits, sparse_modes
 from fea.sparse_reduction import reduce_sparse
+from fea.validity import warn_beyond
 from msa.assembly import System, system_of
 from msa.mass import mass_matrix, sparse_mass
 from msa.structure import PlacedStructure
@@ -132,6 +133,11 @@ def modes(
     MechanismError
         The stiffness is not positive beside the rigid-body modes. As the one before, at the
         single pose or at all of a batch; else `outcome` marks the poses.
+
+    Warns
+    -----
+    ValidityWarning
+        A frequency above half the cutoff of a superelement.
     """
     if count < 1:
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
@@ -164,6 +170,7 @@ def modes(
         effective, shares = effective[:, :exist], shares[:, :exist]
     if not np.all(np.isfinite(shapes[outcome.solved])):
         raise NumericalError("mode shapes", "are not finite.", "Check masses and stiffnesses.")
+    warn_beyond(placed, float(frequencies[np.isfinite(frequencies)].max(initial=0.0)))
     batch = placed.batch
     # parts have the same names at every pose; at one without an answer they may have no numbers
     one = system_of(system.placed[np.flatnonzero(outcome.solved)[:1]])

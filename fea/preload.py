@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
@@ -19,17 +20,26 @@ from fea.geometric_joints import (
     joint_parts,
     spring_parts,
 )
+from kinematics import DIRECTIONS
 from msa.assembly import System, system_of
 from msa.loads import LoadCase
 from msa.point_mass import mass_arm
 from msa.solve import Method, StaticSolution, solve
 from msa.stiffening import Stiffening
 from msa.structure import PlacedStructure
+from msa.undetermined import undetermined
+from strutwork.errors import ModelWarning
 
 Array = NDArray[Any]
 
 #: A node, the force on it (p, 3) in global axes, and how far beside the node it acts, m.
 Force = tuple[str, Array, tuple[float, float, float]]
+
+#: A joint force below this share of the largest is none.
+LOADED = 1e-9
+
+#: Joints that a warning names before it only counts them.
+NAMED = 8
 
 NOWHERE = (0.0, 0.0, 0.0)
 
@@ -62,14 +72,45 @@ def preloaded(
     ------
     StrutworkError
         As `msa.solve`.
+
+    Warns
+    -----
+    ModelWarning
+        Rigid joints share a force of the case among themselves: names them.
     """
     bare = replace(placed, stiffening=None)
     system = system_of(bare)
     solution = solve(system.placed, [case], method)
+    _warn_of_shared(system, solution, case)
     parts = tuple(_parts(system, solution, case))
     batch = placed.batch
     shaped = tuple((n, at, m.reshape((*batch, *m.shape[1:]))) for n, at, m in parts)
     return replace(placed, stiffening=Stiffening(case.name, shaped))
+
+
+def _warn_of_shared(system: System, solution: StaticSolution, case: LoadCase) -> None:
+    """Warn of preload forces that rigid parts leave open: stiffness would follow a mere choice."""
+    forces = np.abs(solution.joint_forces[..., 0]).reshape(system.poses, -1, 6)
+    if not forces.size:
+        return
+    largest = np.nanmax(forces, axis=(1, 2), initial=0.0)[:, None, None]
+    open_ = undetermined(system.placed).reshape(forces.shape) & (forces > LOADED * largest)
+    joints = system.placed.structure.linkage.joints
+    shared = []
+    for joint, row in zip(joints, open_.any(axis=0), strict=True):
+        if row.any():
+            names = (d for d, shares in zip(DIRECTIONS, row, strict=True) if shares)
+            shared.append(f"{joint.name} in {', '.join(names)}")
+    if not shared:
+        return
+    more = f" and {len(shared) - NAMED} more" if len(shared) > NAMED else ""
+    warnings.warn(
+        f"preload {case.name}: the forces of {'; '.join(shared[:NAMED])}{more} are not determined: "
+        "rigid joints share them. The least forces in balance stiffen the structure, and the "
+        "frequencies are those of this choice. Give these joints a stiffness or more freedom.",
+        ModelWarning,
+        stacklevel=3,
+    )
 
 
 def _parts(system: System, solution: StaticSolution, case: LoadCase) -> Iterator[Part]:

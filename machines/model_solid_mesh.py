@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import stat
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from math import ceil, pi, prod
@@ -13,18 +14,18 @@ import numpy as np
 
 from machines.model_solid_schema import SolidTable
 from meshes.cells import CELL_TYPES
-from meshes.gmsh_volumes import tetrahedra
+from meshes.gmsh_volumes import VOLUME_ERROR, tetrahedra
 from meshes.grading import lines_through
 from meshes.grids import grid
 from meshes.l_frame import l_frame
 from meshes.mesh import Mesh
 from meshes.mesh_files import read_mesh
 from meshes.order import linear
-from meshes.quality import check_quality
+from meshes.quality import cell_volumes, check_quality
 from meshes.selection import Box, patches
 from meshes.surfaces import read_surface
 from meshes.tube import tube
-from strutwork.errors import ModelError, StrutworkError
+from strutwork.errors import ModelError, ModelWarning, StrutworkError
 
 Value = TypeVar("Value")
 
@@ -120,6 +121,12 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
     ModelError
         A file that is missing, too large, damaged or outside the folder, inverted cells, an
         unknown patch, a box without a face; names the field.
+
+    Warns
+    -----
+    ModelWarning
+        Straight edges take more than 1 % of the volume of curved cells; with the size that
+        reaches it.
     """
     source = check_source(table)
     field = field_of(table)
@@ -140,9 +147,32 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
             mesh = _generated(table)
     with at_field(field):
         if any(CELL_TYPES[b.kind].linear_kind != b.kind for b in mesh.blocks):
+            curved = float(cell_volumes(mesh).sum())
             mesh = linear(mesh)
             check_quality(mesh)
+            _warn_of_lost_volume(table, curved, float(cell_volumes(mesh).sum()))
     return _with_patches(table, mesh)
+
+
+def _warn_of_lost_volume(table: SolidTable, curved: float, straight: float) -> None:
+    """Warn where straight cells hold another volume than the curved ones they come from."""
+    error = straight / curved - 1.0
+    if abs(error) <= VOLUME_ERROR:
+        return
+    # chords err by the square of their length
+    finer = 0.9 * (VOLUME_ERROR / abs(error)) ** 0.5
+    size = (
+        f"Mesh it {1.0 / finer:.2g} times finer to reach 1 %."
+        if table.cell is None
+        else f"Cells of {finer * table.cell:.2g} m should reach 1 %."
+    )
+    warnings.warn(
+        f"{field_of(table)}: the edges of its cells are straight, and its volume {straight:.5g} m³ "
+        f"is {100 * error:+.1f} % off the {curved:.5g} m³ of its curved faces; mass, stiffness and "
+        f"frequencies are of that order. {size}",
+        ModelWarning,
+        stacklevel=3,
+    )
 
 
 def part_file(name: str, folder: Path, field: str) -> Path:

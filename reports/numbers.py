@@ -110,8 +110,15 @@ def six_without_rounding(table: ArrayLike, arm: float, beside: ArrayLike | None 
 
 
 def matrix_without_rounding(matrix: ArrayLike) -> Array:
-    """A symmetric matrix of mixed units with 0 for what is rounding beside its diagonal."""
+    """A 6x6 compliance or stiffness with 0 for what is rounding beside its diagonal.
+
+    A diagonal entry that is rounding beside the others of its unit belongs to a direction that
+    does not take part: its row and column are 0.
+    """
     numbers = np.array(matrix, dtype=float)
+    blocks = np.abs(np.diag(numbers)).reshape(2, -1)
+    still = (blocks <= CANCELLED * blocks.max(axis=1, keepdims=True)).ravel()
+    numbers[still] = numbers[:, still] = 0.0
     scale = np.sqrt(np.abs(np.diag(numbers)))
     return np.where(np.abs(numbers) <= ROUNDING * np.outer(scale, scale), 0.0, numbers)
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from msa import system_of
 from reports.figures.model import model_size
 from reports.model_solution import ModelSolution
-from reports.numbers import ROUNDING, six_without_rounding
+from reports.numbers import CANCELLED, ROUNDING, six_without_rounding
 
 Array = NDArray[Any]
 
@@ -43,6 +43,8 @@ def shown_tables(solution: ModelSolution, number: int) -> dict[str, dict[str, Ar
     given = [wrench for _, wrench in solution.model.cases[number].wrenches]
     forces = [six for table in tables.values() for six in table.values()]
     every = np.array([*forces, *given], dtype=float).reshape(-1, 6)
+    forced = _forced(solution, number, length)
+    every = np.concatenate([every, [[forced] * 3 + [forced * length] * 3]])
     result = {
         key: dict(
             zip(table, six_without_rounding(list(table.values()), length, every), strict=True)
@@ -66,16 +68,52 @@ def beam_ends(forces: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
     }
 
 
+def _forced(solution: ModelSolution, number: int, length: float) -> float:
+    """Force, N, beside which those of settlements and gaps are rounding: stiffness times motion.
+
+    A structure that gives way to them without strain answers with what is left of this product.
+    """
+    return (
+        CANCELLED / ROUNDING * _stiffest(solution, length) * _largest_gap(solution, number, length)
+    )
+
+
+def _largest_gap(solution: ModelSolution, number: int, length: float) -> float:
+    """Largest settlement or misfit of a case, m; turns at the structure's size."""
+    gaps = solution.model.cases[number].gaps.items()
+    return max(
+        (abs(v) * (length if direction.startswith("r") else 1.0) for (_, direction), v in gaps),
+        default=0.0,
+    )
+
+
+def shown_energy(solution: ModelSolution, number: int) -> float:
+    """Strain energy of a load case, J, with 0 for what is only rounding.
+
+    Beside that of the stiffest part if it took the largest settlement or gap alone.
+    """
+    length = model_size(solution.model)
+    energy = float(solution.statics.strain_energy[number])
+    most = _stiffest(solution, length) * _largest_gap(solution, number, length) ** 2
+    return energy if energy > CANCELLED * most else 0.0
+
+
 def _least_motion(solution: ModelSolution, forces: Array, length: float) -> float:
     """Displacement, m, below which nothing that is loaded can move: force over stiffness.
 
     Where rigid joints take a load alone, a solution holds rounding of this size.
     """
-    stiffest = 0.0
-    for _, _, part in system_of(solution.model.placed).contributions():
-        diagonal = np.abs(np.einsum("pii->pi", part)).reshape(-1, 6)
-        stiffest = max(stiffest, diagonal[:, :3].max(), diagonal[:, 3:].max() / length**2)
+    stiffest = _stiffest(solution, length)
     largest = (
         np.abs(forces[:, :3]).max(initial=0.0) + np.abs(forces[:, 3:]).max(initial=0.0) / length
     )
     return float(ROUNDING * largest / stiffest) if stiffest else 0.0
+
+
+def _stiffest(solution: ModelSolution, length: float) -> float:
+    """Largest stiffness of any part, N/m; rotations at the structure's size."""
+    stiffest = 0.0
+    for _, _, part in system_of(solution.model.placed).contributions():
+        diagonal = np.abs(np.einsum("pii->pi", part)).reshape(-1, 6)
+        stiffest = max(stiffest, diagonal[:, :3].max(), diagonal[:, 3:].max() / length**2)
+    return float(stiffest)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -26,14 +27,13 @@ from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from fea.mode_damping import damping_ratios
 from fea.uff import UniversalFile, mode_file, node_positions, response_records
 from fea.uff_write import write_universal
-from fea.validity import warn_beyond
 from machines import is_machine, named_machine, require_mass
 from machines.model import Model
 from msa import LoadCase, PlacedStructure
 from reports.data_files import csv_file
 from reports.model_damping import model_damping
 from reports.preload_note import WATCHED, warn_of_preload
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, ValidityWarning
 from strutwork.files import write_whole
 
 Array = NDArray[Any]
@@ -258,7 +258,6 @@ def target_modes(target: Target, count: int) -> TargetModes:
     """
     rigid = free_motions(target.placed)
     found = modes(target.placed, count + rigid)
-    warn_beyond(target.placed, float(found.frequencies.max(initial=0.0)))
     warn_of_preload(found, target.cases)
     # a preload gives some free motions a frequency
     rigid = int(found.rigid_body_modes)
@@ -370,7 +369,6 @@ def target_response(
         An empty band, fewer than two lines, no damping, a port that cannot move.
     """
     check_band(*band)
-    warn_beyond(target.placed, band[1])
     damping = target.require_damping()
     if lines < 2:
         raise ModelError("lines", f"{lines} asked for.", "Ask for at least two.")
@@ -378,6 +376,10 @@ def target_response(
         target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
     )
     if target.cases:
-        warn_of_preload(modes(target.placed, WATCHED), target.cases)
+        with warnings.catch_warnings():
+            # these modes are looked at and not shown
+            warnings.simplefilter("ignore", ValidityWarning)
+            watched = modes(target.placed, WATCHED)
+        warn_of_preload(watched, target.cases)
     least = least_dynamic_stiffness(target.placed, given, output, damping, band)
     return TargetResponse(target, response, least)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
+from fea.frf import response_at
 from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from fea.validity import beyond
 from kinematics import GROUND
@@ -178,7 +179,7 @@ def _study(
     response = frequency_response(target.placed, ports, ports, drawn, target.damping, "all_modes")
     coarse = np.full(len(AXES), np.nan)
     if steps.size:
-        at = frequency_response(target.placed, ports, ports, steps, target.damping, "all_modes")
+        at = response_at(target.placed, ports, ports, steps, target.damping, "all_modes")
         coarse = (1.0 / np.abs(np.einsum("fii->fi", at.receptance))).min(axis=0)
     return VibrationStudy(
         target.stem, target.title, found, tuple(lines), band, response, least, coarse, stop

@@ -13,7 +13,7 @@ from reports.data_files import DataFile, csv_file, json_file
 from reports.figures.model import deformed_shape, deformed_view, model_size
 from reports.model_solution import ModelSolution
 from reports.numbers import significant
-from reports.solution_tables import FORCE_TABLES, beam_ends, shown_tables
+from reports.solution_tables import FORCE_TABLES, beam_ends, shown_energy, shown_tables
 
 #: Rows of a table a reader is shown; the file has all.
 SHOWN = 40
@@ -32,9 +32,8 @@ def loads_chapter(solution: ModelSolution) -> Chapter:
     blocks: list[Block] = []
     shapes: list[list[Any]] = []
     for number, name in enumerate(solution.statics.cases):
-        case = answers["cases"][name]
         figure = _deformed(solution, number, shapes)
-        energy = significant(case["strain_energy"], 4)
+        energy = significant(shown_energy(solution, number), 4)
         blocks.append(Text(f"Case “{name}”: strain energy {energy} J."))
         if figure is not None:
             blocks.append(figure)

@@ -13,7 +13,7 @@ from machines.model_file import read_model
 from msa import axis_stiffness_blocked, axis_stiffness_free
 from reports.cli.output import console, print_json, table
 from reports.model_solution import ModelSolution, solve_model
-from reports.solution_tables import FORCE_TABLES, shown_tables
+from reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
 
 _AXES = ("x", "y", "z")
 _MOVED = [*(f"{a}, mm" for a in _AXES), *(f"r{a}, mrad" for a in _AXES)]
@@ -32,8 +32,9 @@ def run(file: str, json: bool) -> None:
 def _print(found: ModelSolution) -> None:
     out, answers = console(), found.to_dict()
     out.print(found.model.title or "Model", markup=False, style="bold")
-    for number, (name, case) in enumerate(answers["cases"].items()):
-        out.print(f'\nCase "{name}", strain energy {case["strain_energy"]:.4g} J', markup=False)
+    for number, name in enumerate(answers["cases"]):
+        energy = shown_energy(found, number)
+        out.print(f'\nCase "{name}", strain energy {energy:.4g} J', markup=False)
         tables = shown_tables(found, number)
         moved = {n: 1e3 * six for n, six in tables["displacements"].items()}
         _six(out, "Displacements", "node", _MOVED, moved)

@@ -100,6 +100,47 @@ def test_a_bushing_of_dashpots_alone(strutwork: Program, write: Write) -> None:
     assert found["static_stiffness"] == 0.0
 
 
+def in_series(middle: float) -> Content:
+    """2 kg on two dashpots in series along x, 50 and 150 N·s/m, `middle` kg between them."""
+    others = dict.fromkeys(("y", "z", "rx", "ry", "rz"), 1e4)
+    content = dashpot()
+    content["nodes"]["M"] = [0, 0, 0]
+    content["joints"] = [
+        {
+            "name": name,
+            "type": "bushing",
+            "between": between,
+            "stiffness": others,
+            "damping": {"x": factor},
+        }
+        for name, between, factor in (("one", ["G", "M"], 50.0), ("two", ["M", "A"], 150.0))
+    ]
+    content["springs"] = [{"name": "s", "node": "A", "stiffness": {"x": 5e3}}]
+    if middle:
+        inertia = [1e-6] * 3
+        content["masses"].append({"node": "M", "mass": middle, "inertia": inertia})
+    return content
+
+
+def test_two_dashpots_with_a_massless_node_between(strutwork: Program, write: Write) -> None:
+    """The node has no static place: named with both dashpots; as one, or with mass, it is right."""
+    band = ("--input", "TCP:x", "--from", "1", "--to", "50", "--lines", "50", "--json")
+    for command in (("modes",), ("frf", *band)):
+        run = strutwork(command[0], write(in_series(0.0)), *(command[1:] or ("--json",)))
+        assert (run.status, run.out) == (1, "")
+        assert "has a free motion without mass" in run.err
+        assert "one in x" in run.err
+        assert "two in x" in run.err
+        assert "two dashpots in series are one" in run.err
+    found = strutwork("frf", write(in_series(1e-6)), *band).result
+    w = 2 * np.pi * np.array(found["frequencies"])
+    series = 1 / (1 / 50.0 + 1 / 150.0)
+    wanted = 1 / (5e3 + 1j * w * series - 2.0 * w**2)
+    given = np.array(found["receptance"]["real"]) + 1j * np.array(found["receptance"]["imag"])
+    # a microgram-scale node between dashpots of 200 N·s/m shifts nothing at 50 Hz: ω m/c = 2e-6
+    np.testing.assert_allclose(given, wanted, rtol=1e-5)
+
+
 def test_a_bushing_of_nothing_is_an_error(strutwork: Program, write: Write) -> None:
     content = dashpot(x=1.0)
     content["joints"][0]["damping"] = {}

@@ -306,6 +306,25 @@ def test_a_pretensioned_wire() -> None:
     assert modes(model.placed, 1).frequencies[0] == pytest.approx(4.60, abs=0.01)
 
 
+def test_a_wire_whose_ends_turn_is_the_string_of_the_public_report() -> None:
+    """63.7 Hz: √(T/μ)/2l, stiffened by π² EI/(T l²); the file itself clamps its ends, 65.03 Hz."""
+    text = (CASES / "f7_preload_ignored.toml").read_text(encoding="utf-8")
+    hinged = text.replace('fixed = ["y", "z", "rx", "ry", "rz"]', 'fixed = ["y", "z", "rx"]')
+    hinged = hinged.replace('node = "A"\nfixed = "all"', 'node = "A"\nfixed = ["x", "y", "z"]')
+    assert hinged.count('"rx"') == 1
+    model = parse_model(hinged)
+    wire = rod(0.001)
+    per_length, bending = 7850.0 * wire.area, 210e9 * wire.second_moment_y
+    string = np.sqrt(100.0 / per_length) / 2.0
+    assert string == pytest.approx(63.7, abs=0.05)
+    found = modes(preloaded(model.placed, model.cases[0]), 2).frequencies
+    # sine waves are all but exact for cubic elements of a twentieth of the half wave
+    exact = string * np.sqrt(1 + np.pi**2 * bending / 100.0)
+    np.testing.assert_allclose(found[:2], exact, rtol=1e-5)
+    wire_file = clamped_string(100.0, bending, per_length, 1.0)
+    assert wire_file == pytest.approx(65.03, abs=5e-3)
+
+
 def test_a_frequency_response_has_the_preloads_resonance_and_compliance() -> None:
     """At rest a pendulum yields by 1/(m g d) per unit moment; without its weight it floats."""
     d = 0.3
