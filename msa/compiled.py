@@ -13,6 +13,7 @@ from msa.assembly import System, system_of
 from msa.program import Program
 from msa.program_builder import compile_program
 from msa.structure import PlacedStructure, Structure
+from msa.trust import TRUSTED
 
 Array = NDArray[Any]
 
@@ -21,7 +22,7 @@ PIECE = 8192
 
 #: A pose whose residual exceeds this share of the load is solved again with diagnosis. Poses near a
 #: singularity lose digits so; solving one again costs as much as thousands here.
-RESIDUAL_LIMIT = 1e-8
+RESIDUAL_LIMIT = TRUSTED
 
 #: A pose whose smallest pivot is below this share of its diagonal entry likewise.
 PIVOT_LIMIT = 1e-5
