@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import numpy as np
-
 from strutwork.errors import NumericalError
+from strutwork.memory import available_memory
 
 #: Bytes per entry of the Cholesky factor and per entry of the matrix at a factorisation's peak,
 #: measured on bricks of 22 000 to 295 000 dofs: values and supernodes' padding, and indices,
@@ -17,35 +14,6 @@ BYTES = {
     "PARDISO": (8.8, 28.0),
     "SuperLU": (16.0, 55.0),
 }
-
-MEMINFO = Path("/proc/meminfo")
-CONTROL_GROUPS = (
-    (Path("/sys/fs/cgroup/memory.max"), Path("/sys/fs/cgroup/memory.current")),
-    (
-        Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
-        Path("/sys/fs/cgroup/memory/memory.usage_in_bytes"),
-    ),
-)
-
-
-def available_memory() -> float:
-    """Bytes that can be had without swapping; infinite where the system does not say.
-
-    The least of the kernel's `MemAvailable` and of what a control group leaves.
-    """
-    found = [np.inf]
-    try:
-        lines = MEMINFO.read_text(encoding="ascii").splitlines()
-    except OSError:
-        lines = []
-    found += [1024.0 * float(x.split()[1]) for x in lines if x.startswith("MemAvailable:")]
-    for limit, usage in CONTROL_GROUPS:
-        try:
-            found.append(float(limit.read_text()) - float(usage.read_text()))
-        except (OSError, ValueError):  # absent, or the word "max"
-            continue
-    return min(found)
-
 
 def foreseen_memory(fill: int, entries: int, library: str, scalar: int = 8) -> float:
     """Bytes at the peak of a factorisation.

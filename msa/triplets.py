@@ -22,6 +22,12 @@ class Triplets:
         row = np.repeat(rows, len(columns))
         self._parts.append((row, np.tile(columns, len(rows)), block.ravel()))
 
+    def add_entries(
+        self, rows: NDArray[np.intp], columns: NDArray[np.intp], values: Array
+    ) -> None:
+        """Add entries (e,), each at its row and column."""
+        self._parts.append((rows, columns, values))
+
     def matrix(self, shape: tuple[int, int]) -> sp.csr_array:
         """The matrix of all blocks."""
         if not self._parts:

@@ -12,12 +12,15 @@ from typing import Annotated
 
 import typer
 
+from reports.cli.watch import watched
 from strutwork import StrutworkError, __version__
+from strutwork.memory import out_of_memory
 
 app = typer.Typer(
     name="strutwork",
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
-    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage.",
+    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
+    "130 interrupted.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -82,9 +85,13 @@ def main() -> None:
     with warnings.catch_warnings():
         warnings.showwarning = show
         try:
-            app()
+            with watched():
+                app()
         except StrutworkError as error:
             sys.stderr.write(f"Error: {error}\n")
+            sys.exit(1)
+        except MemoryError as error:
+            sys.stderr.write(f"Error: {out_of_memory(error)}\n")
             sys.exit(1)
 
 

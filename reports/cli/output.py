@@ -15,6 +15,9 @@ from rich.text import Text
 
 from strutwork.errors import NumericalError
 
+#: Rows from which a table is written as plain text.
+LONG = 400
+
 #: Width of tables in a file or a pipe, characters.
 WIDE = 120
 
@@ -48,6 +51,29 @@ def table(
     for row in rows:
         made.add_row(*(Text(show(entry)) for entry in row))
     return made
+
+
+def print_table(
+    out: Console, title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]
+) -> None:
+    """Print a table whose first column is a name and the others numbers; a long one as text.
+
+    Rich measures and wraps every cell, a millisecond a row; a long table is for searching and
+    has columns as wide as what stands in them.
+    """
+    if len(rows) <= LONG:
+        out.print(table(title, columns, rows))
+        return
+    cells = [list(columns), *([plain(show(entry)) for entry in row] for row in rows)]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    layout = f"{{:<{widths[0]}}}" + "".join(f"  {{:>{w}}}" for w in widths[1:]) + "\n"
+    out.print(title, markup=False, style="bold")
+    out.file.write("".join(layout.format(*row) for row in cells))
+
+
+def plain(text: str) -> str:
+    """Text of a name without control characters, which a terminal would obey."""
+    return "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def show(value: object) -> str:
