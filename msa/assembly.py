@@ -26,7 +26,7 @@ from msa.beam import fixed_end_loads
 from msa.loads import LoadCase
 from msa.structure import PlacedStructure, rigid_map
 from msa.topology import Topology
-from msa.triplets import Triplets
+from msa.triplets import sum_of_parts
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -147,27 +147,11 @@ class System:
 
     def sparse_sum(self, parts: Iterable[tuple[str, NDArray[np.intp], Array]]) -> sp.csc_array:
         """Sum of parts' matrices at mesh nodes on the unknowns, sparse, for a batch of one."""
-        # parts of one size together: by far the most are beam elements
-        sizes: dict[int, tuple[list[NDArray[np.intp]], list[Array]]] = {}
-        for _, nodes, part in parts:
-            own = sizes.setdefault(len(nodes), ([], []))
-            own[0].append(nodes)
-            own[1].append(part[0])
-        found = Triplets()
-        for listed, blocks in sizes.values():
-            nodes, stack = np.asarray(listed), np.asarray(blocks)
-            k = nodes.shape[1]
-            arms = self.placed.arms[0, nodes]
-            if np.any(arms):
-                maps = rigid_map(arms)
-                split = stack.reshape(-1, k, 6, k, 6)
-                stack = np.einsum("saji,sajbk,sbkl->saibl", maps, split, maps, optimize=True)
-                stack = stack.reshape(-1, 6 * k, 6 * k)
-            vertex = self.placed.structure.vertex_of_node[nodes]
-            dofs = (6 * vertex[..., None] + np.arange(6)).reshape(len(nodes), -1)
-            row, column = np.broadcast_arrays(dofs[:, :, None], dofs[:, None, :])
-            kept = (row >= 0) & (column >= 0)
-            found.add_entries(row[kept], column[kept], stack[kept])
+        structure = self.placed.structure
+        found = sum_of_parts(
+            (nodes, part[0], self.placed.arms[0, nodes], structure.vertex_of_node[nodes])
+            for _, nodes, part in parts
+        )
         return sp.csc_array(found.matrix((self.topology.size, self.topology.size)))
 
     @cached_property

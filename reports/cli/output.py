@@ -16,7 +16,7 @@ from rich.text import Text
 from strutwork.errors import NumericalError
 
 #: Rows from which a table is written as plain text.
-LONG = 400
+LONG = 200
 
 #: Width of tables in a file or a pipe, characters.
 WIDE = 120

@@ -10,14 +10,14 @@ import scipy.sparse as sp
 
 import fea.factorize
 import fea.memory
-import strutwork.memory
 import fea.ordering
+import strutwork.memory
 from fea import factor_cholmod, factor_mumps, factor_superlu
 from fea.factorize import SOLVERS, factorize, installed_solvers
 from fea.memory import foreseen_memory, require_memory
 from fea.ordering import nested_dissection
-from strutwork.memory import available_memory
 from strutwork.errors import ModelError, NumericalError
+from strutwork.memory import available_memory
 from tests.solids import frame
 
 INSTALLED = installed_solvers()
