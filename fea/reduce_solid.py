@@ -53,7 +53,8 @@ def tied(
         if names.count(name) > 1:
             raise ModelError(f"interface {name}", "is defined twice.", "Give it another name.")
     mesh = solid.mesh
-    library = SOLVERS[installed_solvers()[0] if solver is None else solver].NAME
+    # a solver that is unknown or not installed is named by `factorize`
+    library = SOLVERS.get(solver or "", SOLVERS[installed_solvers()[0]]).NAME
     require_solid(solid.name, solid.kind, solid.order, len(mesh.points), mesh.cell_count, library)
     matrices = solid_matrices(solid)
     patches = [tie(i, matrices.points, *matrices.patch(i.patch)) for i in interfaces]
