@@ -45,8 +45,7 @@ FORMATS = {
 OTHERS = {
     ".vtk": (
         "is a legacy file of VTK, which is not read: it may name neither regions nor patches.",
-        "Save it as .vtu: in ParaView by File, Save Data; in Python by "
-        "`pyvista.read(name).cast_to_unstructured_grid().save('part.vtu')`.",
+        "Save it as .vtu, in ParaView by File, Save Data.",
     ),
 }
 

@@ -87,7 +87,7 @@ def structure_chapter(model: Model) -> Chapter:
         "tool": model.tool,
     }
     figure = Figure(
-        "structure",
+        "structure-drawing",
         "The structure as the file describes it, in mm. Drag to turn, scroll to zoom; names show "
         "under the pointer. Joint symbols are not to scale.",
         model_view(model),

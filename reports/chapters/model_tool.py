@@ -124,7 +124,7 @@ def budget_chapter(model: Model) -> Chapter:
             "shares of one force add to 100 %. Other directions are free to follow."
         ),
         Figure(
-            "budget",
+            "budget-bars",
             "Compliance budget: share of the parts in the tool's deflection along the force.",
             stacked_shares(categories, named, "share of the deflection"),
             "Stacked bars of the share of the parts in the deflection along x, y and z.",

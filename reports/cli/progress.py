@@ -11,6 +11,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemaini
 from rich.progress import Progress as Bars
 
 from reports.cli.output import progress_console
+from strutwork.names import visible
 from strutwork.stages import stage
 from studies.progress import Lines, Progress
 
@@ -31,7 +32,7 @@ def shown(unit: str = "poses") -> Iterator[Callable[[str], Progress]]:
 
 def _bars() -> Bars:
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),
@@ -40,7 +41,7 @@ def _bars() -> Bars:
 
 
 def _started(bars: Bars, label: str) -> Progress:
-    task = bars.add_task(label, total=None)
+    task = bars.add_task(visible(label), total=None)
 
     def tell(done: int, total: int, /) -> None:
         bars.update(task, completed=done, total=total)

@@ -84,7 +84,8 @@ def test_names_of_a_model_are_text_and_never_markup(
     assert {"<img src=x onerror=alert(1)>", "B%{x}</script>", "<i>hinge</i>"} <= set(
         browser.evaluate(cells)
     )
-    plotted = "document.querySelector('#structure .drawing').data.flatMap((t) => t.text ?? [])"
+    drawing = "document.querySelector('#structure-drawing .drawing')"
+    plotted = f"{drawing}.data.flatMap((t) => t.text ?? [])"
     assert any("&lt;i&gt;hinge&lt;/i&gt;" in text for text in browser.evaluate(plotted))
     assert browser.complaints == []
 

@@ -53,7 +53,7 @@ def test_hexapod_says_what_was_assumed(hexapod_report: WrittenReport) -> None:
     for words in (
         "our choice: the k_i",
         "the drawing is missing",
-        "nothing else was chosen",
+        "the thesis prints none",
         "6 x 3 type",
     ):
         assert words in page

@@ -49,14 +49,14 @@ def test_a_shell_pushed_through_itself_is_refused_with_the_place() -> None:
 @pytest.mark.parametrize("shift", [0.5, 0.37])
 def test_cubes_that_overlap_cross_at_any_place(shift: float) -> None:
     one = skin(block((1, 1, 1), (1, 1, 1)))
-    moved = one.points + (shift, shift, shift)
+    moved = one.points + np.full(3, shift)
     both = Surface(
         np.concatenate([one.points, moved]),
         np.concatenate([one.triangles, one.triangles + len(one.points)]),
     )
     with pytest.raises(ModelError, match="crosses itself"):
         check_simple(both)
-    apart = np.concatenate([one.points, one.points + (1.0 + shift, 0, 0)])
+    apart = np.concatenate([one.points, one.points + np.array([1.0 + shift, 0, 0])])
     check_simple(replace(both, points=apart))
 
 
