@@ -147,11 +147,8 @@ class System:
 
     def sparse_sum(self, parts: Iterable[tuple[str, NDArray[np.intp], Array]]) -> sp.csc_array:
         """Sum of parts' matrices at mesh nodes on the unknowns, sparse, for a batch of one."""
-        structure = self.placed.structure
-        found = sum_of_parts(
-            (nodes, part[0], self.placed.arms[0, nodes], structure.vertex_of_node[nodes])
-            for _, nodes, part in parts
-        )
+        arms, vertex = self.placed.arms[0], self.placed.structure.vertex_of_node
+        found = sum_of_parts((n, part[0], arms[n], vertex[n]) for _, n, part in parts)
         return sp.csc_array(found.matrix((self.topology.size, self.topology.size)))
 
     @cached_property

@@ -76,8 +76,7 @@ def main() -> None:
     with warnings.catch_warnings():
         warnings.showwarning = show
         with watched():
-            status = guarded(app)
-        sys.exit(status)
+            sys.exit(guarded(app))
 
 
 def _print_version(wanted: bool) -> None:
