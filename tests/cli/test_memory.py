@@ -63,22 +63,17 @@ def test_a_small_model_keeps_the_ceiling(command: str) -> None:
 @pytest.mark.parametrize(
     "arguments",
     [
-        ("frf", "mit-ss1", "--input", "TCP:x", "--modal-ratio", "0.01"),
         ("tolerance", "mit-ss1"),
-        ("map", "proposed-3pprs"),
-        ("scale", "mit-ss1"),
         (
             "compare",
             "tests/cases/uff/frf_computed.uff",
             "tests/cases/uff/frf_computed.uff",
         ),
-        ("report", "mit-ss1", "-o"),
     ],
     ids=lambda arguments: arguments[0],
 )
-def test_a_machine_keeps_the_ceiling(arguments: tuple[str, ...], tmp_path: Path) -> None:
-    folder = [tmp_path / "report"] if arguments[-1] == "-o" else []
-    assert peak(*arguments, *folder) < stated()[arguments[0]][0]
+def test_a_machine_keeps_the_ceiling(arguments: tuple[str, ...]) -> None:
+    assert peak(*arguments) < stated()[arguments[0]][0]
 
 
 @pytest.mark.slow
