@@ -12,6 +12,7 @@ from fea import factor_cholmod, factor_mumps, factor_pardiso, factor_superlu, or
 from fea.factor import Factor, NotPositiveError, singular
 from fea.memory import foreseen_memory, require_memory
 from strutwork.errors import ModelError, NumericalError
+from strutwork.stages import stage
 
 __all__ = ["SOLVERS", "Factor", "factorize", "installed_solvers"]
 
@@ -29,6 +30,11 @@ INSTALL = {
     "mumps": "pip install PyMUMPS (after apt install libmumps-seq-dev)",
     "pardiso": "pip install pypardiso",
 }
+
+
+#: Operations a second by which the time of a factorisation is foreseen: SuperLU's, measured from
+#: 92 000 to 295 000 degrees of freedom on one thread; the others take a third.
+FLOPS = 6e9
 
 
 def installed_solvers() -> tuple[str, ...]:
@@ -81,7 +87,8 @@ def factorize(matrix: sp.csc_array, solver: str | None = None, *, positive: bool
             memory = foreseen_memory(found.fill, whole.nnz, module.NAME, whole.dtype.itemsize)
             require_memory(whole.shape[0], memory, module.NAME)
         try:
-            factor: Factor = module.factorize(whole, found)
+            with stage(*_told(whole.shape[0], module.NAME, found)):
+                factor: Factor = module.factorize(whole, found)
         except NotPositiveError:
             continue
         except MemoryError as error:
@@ -97,6 +104,13 @@ def factorize(matrix: sp.csc_array, solver: str | None = None, *, positive: bool
         f"solver {solver}",
         "takes positive definite matrices only.",
         f"Choose one of {', '.join(n for n in installed_solvers() if SOLVERS[n].INDEFINITE)}.",
+    )
+
+
+def _told(size: int, name: str, found: ordering.Ordering | None) -> tuple[str, float | None]:
+    """What to say of a factorisation, and how long it takes, s."""
+    return f"factorises {size:,} degrees of freedom with {name}", (
+        None if found is None else found.flops / FLOPS
     )
 
 

@@ -26,6 +26,9 @@ Array = NDArray[Any]
 #: Frequency lines solved at once by the direct method.
 LINES = 64
 
+#: Bytes of a stack of matrices, one for each line.
+STACKED = 2**28
+
 Method = Literal["modal", "all_modes", "direct"]
 
 
@@ -230,8 +233,10 @@ def _direct(
     )
     scaled = (load * scale[..., None]).astype(complex)
     result = np.empty((len(at), len(lines), len(ports), len(ports)), dtype=complex)
-    for start in range(0, len(lines), LINES):
-        w = 2.0 * np.pi * lines[None, start : start + LINES, None, None]
+    # of a large structure one line at a time: a stack of its matrices would not fit
+    step = max(1, min(LINES, STACKED // (16 * k.size)))
+    for start in range(0, len(lines), step):
+        w = 2.0 * np.pi * lines[None, start : start + step, None, None]
         dynamic = (k + 1j * d)[:, None] + 1j * w * c[:, None] - w**2 * m[:, None]
         try:
             solution = np.linalg.solve(dynamic, scaled[:, None])
@@ -248,5 +253,5 @@ def _direct(
                 f"the residual is {residual:.2g} of the load.",
                 "The structure is badly conditioned.",
             )
-        result[:, start : start + LINES] = np.swapaxes(scaled.real, -1, -2)[:, None] @ solution
+        result[:, start : start + step] = np.swapaxes(scaled.real, -1, -2)[:, None] @ solution
     return result

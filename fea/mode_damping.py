@@ -47,9 +47,10 @@ def damping_ratios(modes: Modes, damping: AnyDamping) -> Array:
     """
     frequencies = np.asarray(modes.frequencies)
     rigid = min(int(modes.rigid_body_modes), len(frequencies))
-    reduced = reduce_system(system_of(modes.placed))
     ratios = np.zeros(len(frequencies))
-    if not is_coupled(reduced, damping):
+    # damping of the whole needs no matrices, which of a large structure would not fit
+    reduced = reduce_system(system_of(modes.placed)) if isinstance(damping, PartDamping) else None
+    if reduced is None or not is_coupled(reduced, damping):
         simple = damping.background if isinstance(damping, PartDamping) else damping
         if simple is not None:
             square = (2.0 * np.pi * frequencies[rigid:]) ** -2.0

@@ -21,6 +21,7 @@ from msa.mass import mass_matrix, sparse_mass
 from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
 from strutwork.outcome import Outcome, solve_poses
+from strutwork.stages import stage
 
 Array = NDArray[Any]
 Method = Literal["dense", "sparse"]
@@ -160,7 +161,8 @@ def modes(
             whole[part] = array
         solvers.append(solver)
 
-    outcome = solve_poses(run, system.poses).require_some()
+    with stage(f"finds {count} modes of {system.topology.forest.count:,} coordinates"):
+        outcome = solve_poses(run, system.poses).require_some()
     frequencies, shapes, effective, total, shares, rigid = every
     solver = solvers[0]
     exist = int(np.isfinite(frequencies).sum(axis=-1).max())

@@ -8,7 +8,9 @@ from typing import Literal
 
 import numpy as np
 
+from fea.factorize import SOLVERS, installed_solvers
 from fea.interface import Interface, tie
+from fea.memory import require_solid
 from fea.solid import Solid
 from fea.solid_matrices import solid_matrices
 from fea.superelement import Superelement, superelement
@@ -17,7 +19,12 @@ from fea.tied_solid import TiedSolid, tied_solid
 from strutwork.errors import ModelError
 
 
-def tied(solid: Solid, interfaces: Sequence[Interface], fixed: Sequence[str] = ()) -> TiedSolid:
+def tied(
+    solid: Solid,
+    interfaces: Sequence[Interface],
+    fixed: Sequence[str] = (),
+    solver: str | None = None,
+) -> TiedSolid:
     """Assemble a solid and tie patches of its surface to nodes.
 
     Parameters
@@ -27,6 +34,8 @@ def tied(solid: Solid, interfaces: Sequence[Interface], fixed: Sequence[str] = (
     interfaces : sequence of Interface
     fixed : sequence of str
         Node sets or patches held in all directions.
+    solver : str, optional
+        What will factorise it, as in `factorize`: its memory is foreseen.
 
     Returns
     -------
@@ -36,11 +45,17 @@ def tied(solid: Solid, interfaces: Sequence[Interface], fixed: Sequence[str] = (
     ------
     ModelError
         An unknown patch, an empty or collinear one, two interfaces of one name.
+    NumericalError
+        A solid that will not fit into memory.
     """
     names = [i.name for i in interfaces]
     for name in names:
         if names.count(name) > 1:
             raise ModelError(f"interface {name}", "is defined twice.", "Give it another name.")
+    mesh = solid.mesh
+    # a solver that is unknown or not installed is named by `factorize`
+    library = SOLVERS.get(solver or "", SOLVERS[installed_solvers()[0]]).NAME
+    require_solid(solid.name, solid.kind, solid.order, len(mesh.points), mesh.cell_count, library)
     matrices = solid_matrices(solid)
     patches = [tie(i, matrices.points, *matrices.patch(i.patch)) for i in interfaces]
     held = None
@@ -103,7 +118,7 @@ def reduce_solid(
     return cached_superelement(
         content,
         lambda: superelement(
-            tied(solid, interfaces, fixed), solid.cells, cutoff, modes, method, solver
+            tied(solid, interfaces, fixed, solver), solid.cells, cutoff, modes, method, solver
         ),
         folder,
     )

@@ -23,6 +23,8 @@ from msa.mass import mass_matrix
 from msa.null_space import closing_rows, joint_coordinates, symmetric_product
 from msa.structure import rigid_map
 from strutwork.errors import ModelError
+from strutwork.memory import require_dense
+from strutwork.stages import stage
 
 Array = NDArray[Any]
 
@@ -100,6 +102,12 @@ def reduce_system(system: System) -> Reduced:
     NumericalError
         The structure does not stand under its preload; names the critical share of it.
     """
+    _require_memory(system)
+    with stage(f"brings {system.topology.size:,} unknowns to independent coordinates"):
+        return _reduced(system)
+
+
+def _reduced(system: System) -> Reduced:
     no_gaps = np.zeros((system.poses, len(system.row_labels), 0))
     basis, _ = joint_coordinates(system, no_gaps)
     d = scales(system)[..., None]
@@ -134,6 +142,24 @@ def reduce_system(system: System) -> Reduced:
     diagonal = np.einsum("pii->pi", reduced)
     diagonal[absent] = np.broadcast_to(diagonal.max(axis=1, keepdims=True), diagonal.shape)[absent]
     return Reduced(system, basis, reduced, symmetric_product(basis, mass_matrix(system)), rigid)
+
+
+def _require_memory(system: System) -> None:
+    """NumericalError before matrices that do not fit."""
+    n, c = system.topology.size, system.topology.forest.count
+    # stiffness, mass and a product of each; the basis twice; and on the coordinates the two
+    # matrices, their factors and eigenvectors
+    need = 8.0 * system.poses * (3.0 * n * n + 3.0 * n * c + 6.0 * c * c)
+    require_dense(
+        "structure",
+        f"responses with all modes: dense matrices of {c:,} coordinates at {system.poses} poses"
+        if system.poses > 1
+        else f"responses with all modes: dense matrices of {c:,} coordinates",
+        need,
+        "Divide beams into fewer elements or make stiff parts rigid bodies; the lowest modes alone "
+        "(`strutwork modes`, with a modal ratio, loss factor or Rayleigh damping) need no dense "
+        "matrix.",
+    )
 
 
 def _stiffened(system: System, basis: Array, elastic: Array, free: Array) -> tuple[Array, Array]:

@@ -13,6 +13,7 @@ from machines.model_builder import build_model
 from machines.model_errors import model_error
 from machines.model_schema import ModelTable
 from strutwork.errors import ModelError
+from strutwork.stages import stage
 
 #: A larger file is no description of a structure that a person wrote, bytes.
 MAX_BYTES = 10_000_000
@@ -70,7 +71,8 @@ def parse_model(text: str, source: str = "model", folder: Path | None = None) ->
         tables = ModelTable.model_validate(data)
     except ValidationError as error:
         raise model_error(error, data, source) from None
-    return build_model(tables, Path() if folder is None else folder)
+    with stage(f"builds the model of {source}"):
+        return build_model(tables, Path() if folder is None else folder)
 
 
 def _text(path: Path) -> str:

@@ -26,6 +26,7 @@ from meshes.mesh import Mesh
 from meshes.surfaces import surface_of
 from msa import Material
 from strutwork.errors import ModelError, NumericalError
+from strutwork.stages import stage
 
 Array = NDArray[Any]
 
@@ -114,7 +115,8 @@ def _solid(table: SolidTable, tables: ModelTable, folder: Path) -> SolidElement:
     field = field_of(table)
     rotation = axes_frame(table.axis, table.second_axis, field)
     shift = np.array(table.position)
-    mesh = solid_mesh(table, folder)
+    with stage(f"meshes solid {table.name}"):
+        mesh = solid_mesh(table, folder)
     materials = _materials(table, tables, mesh)
     interfaces = []
     for i, interface in enumerate(table.interfaces):
@@ -126,7 +128,8 @@ def _solid(table: SolidTable, tables: ModelTable, folder: Path) -> SolidElement:
     with at_field(field):
         solid = Solid(mesh, materials, table.order, table.name)
         modes = MODES if table.modes is None else table.modes
-        reduced = reduce_solid(solid, interfaces, cutoff=table.cutoff, modes=modes)
+        with stage(f"reduces solid {table.name}, {mesh.cell_count:,} cells, to its interfaces"):
+            reduced = reduce_solid(solid, interfaces, cutoff=table.cutoff, modes=modes)
     _check_spread(field, reduced.local_stiffness)
     outer = boundary(mesh)
     surface = surface_of(mesh, outer)

@@ -22,6 +22,7 @@ from meshes.mesh import CellBlock, Faces, Mesh, Patch
 from meshes.order import without_orphans
 from meshes.quality import check_quality, quality
 from meshes.rows import row_groups
+from meshes.self_intersections import check_simple
 from meshes.surfaces import Surface, check_closed, check_one_body
 from strutwork.errors import ModelError
 
@@ -75,7 +76,7 @@ def tetrahedra(
     ------
     ModelError
         Gmsh is not installed; a file that is missing, damaged or without a solid; a surface
-        that is not closed; a mesh that Gmsh fails to make.
+        that is not closed or crosses itself; a mesh that Gmsh fails to make.
     """
     name = source.name if isinstance(source, Surface) else Path(source).name
     # a surface has flat triangles: nothing is gained by curved edges, which may invert cells
@@ -90,6 +91,7 @@ def tetrahedra(
     if isinstance(source, Surface):
         check_closed(source)
         check_one_body(source)
+        check_simple(source)
     else:
         _check_step(Path(source))
     with _session(name) as gmsh:

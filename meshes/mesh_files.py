@@ -41,6 +41,13 @@ FORMATS = {
     ".bdf": Format(format_nastran.read, format_nastran.write, _COMMON),
     ".med": Format(format_med.read, format_med.write, _COMMON),
 }
+#: Formats that are known and refused: why, and what to do.
+OTHERS = {
+    ".vtk": (
+        "is a legacy file of VTK, which is not read: it may name neither regions nor patches.",
+        "Save it as .vtu, in ParaView by File, Save Data.",
+    ),
+}
 
 
 def read_mesh(path: Path | str, unit: str = "m", *, check: bool = True) -> Mesh:
@@ -136,6 +143,8 @@ def _scale(path: Path, unit: str) -> float:
 
 def _format(path: Path) -> Format:
     suffix = path.suffix.lower()
+    if suffix in OTHERS:
+        raise ModelError(str(path), *OTHERS[suffix])
     if suffix not in FORMATS:
         raise ModelError(
             str(path),

@@ -181,7 +181,7 @@ def flipped(surface: Surface) -> Surface:
 def check_closed(surface: Surface) -> None:
     """Pass a surface that bounds a volume: closed, of one orientation, outwards.
 
-    Self-intersections are not looked for.
+    Self-intersections are not looked for: `meshes.self_intersections.check_simple`.
 
     Raises
     ------

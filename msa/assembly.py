@@ -27,7 +27,7 @@ from msa.loads import LoadCase
 from msa.point_mass import mass_weight
 from msa.structure import PlacedStructure, rigid_map
 from msa.topology import Topology
-from msa.triplets import Triplets
+from msa.triplets import sum_of_parts
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
@@ -148,10 +148,8 @@ class System:
 
     def sparse_sum(self, parts: Iterable[tuple[str, NDArray[np.intp], Array]]) -> sp.csc_array:
         """Sum of parts' matrices at mesh nodes on the unknowns, sparse, for a batch of one."""
-        found = Triplets()
-        for _, nodes, part in parts:
-            dofs, moves = self.dofs(nodes)
-            found.add(dofs[moves], dofs[moves], self.carried(nodes, part)[0][moves][:, moves])
+        arms, vertex = self.placed.arms[0], self.placed.structure.vertex_of_node
+        found = sum_of_parts((n, part[0], arms[n], vertex[n]) for _, n, part in parts)
         return sp.csc_array(found.matrix((self.topology.size, self.topology.size)))
 
     @cached_property

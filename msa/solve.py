@@ -24,6 +24,7 @@ from msa.trust import Unknowns
 from msa.undetermined import undetermined
 from strutwork.errors import ModelError, NumericalError
 from strutwork.outcome import Outcome, solve_poses
+from strutwork.stages import stage
 
 Array = NDArray[Any]
 Method = Literal["saddle_point", "null_space", "condensed", "sparse"]
@@ -192,9 +193,10 @@ def solve(
                 every[name] = np.full((system.poses, *array.shape[1:]), np.nan)
             every[name][part] = array
 
-    outcome = solve_poses(
-        run, system.poses, lambda: mechanisms_under(system, lambda part: _load(part, cases))
-    ).require_some()
+    with stage(f"solves for {system.topology.size:,} unknowns"):
+        outcome = solve_poses(
+            run, system.poses, lambda: mechanisms_under(system, lambda part: _load(part, cases))
+        ).require_some()
     batch = placed.batch
     return StaticSolution(
         placed,

@@ -52,12 +52,21 @@ def unjoined_nodes(placed: PlacedStructure) -> tuple[tuple[str, ...], ...]:
         ties.append((first.setdefault(int(vertex[n]), n), n))
     for element in structure.elements:
         ties += [(index[element.nodes[0]], index[n]) for n in element.nodes[1:]]
+    shared = set(pairs.ravel().tolist())
+    members: dict[int, list[int]] = {}
+    for n in sorted(shared):
+        members.setdefault(int(place[n]), []).append(n)
+    # a tie counts where both its ends stand at one place, or one of them on ground
+    local: dict[int, list[tuple[int, int]]] = {label: [] for label in members}
+    for a, b in ties:
+        ends = [int(place[n]) for n in (a, b) if n != ground]
+        if shared.issuperset({a, b} - {ground}) and len(set(ends)) == 1:
+            local[ends[0]].append((a, b))
     found = []
-    for label in sorted(set(place[pairs[:, 0]].tolist())):
-        here = np.flatnonzero(place == label).tolist()
-        near = {*here, ground}
-        piece = _labels(ground + 1, [t for t in ties if near.issuperset(t)])
-        pieces = {int(piece[n]): n for n in reversed(here)}
+    for label, here in sorted(members.items()):
+        number = {n: i for i, n in enumerate([*here, ground])}
+        piece = _labels(len(number), [(number[a], number[b]) for a, b in local[label]])
+        pieces = {int(piece[number[n]]): n for n in reversed(here)}
         if len(pieces) > 1:
             found.append(tuple(linkage.nodes[n] for n in sorted(pieces.values())))
     return tuple(found)

@@ -25,6 +25,7 @@ from msa.constraints import scales
 from msa.mass import mass_properties, total_mass
 from msa.sparse import row_groups, unit_rows
 from reports.near_mechanisms import near_mechanisms, warn_of_near
+from strutwork.stages import stage
 
 
 @dataclass(frozen=True)
@@ -127,15 +128,16 @@ def check_model(model: Model) -> ModelCheck:
         A density is missing, so that there is no mass; a motion that coordinates of few digits
         hold.
     """
-    near = near_motions(model.structure.linkage, model.placement)
-    warn_of_near(near)
-    return ModelCheck(
-        model,
-        degrees_of_freedom(model.placed),
-        mobility(model.structure.linkage, model.placement),
-        check_mass(model.placed),
-        near,
-    )
+    with stage(f"counts freedoms of {len(model.structure.linkage.joints):,} joints and supports"):
+        near = near_motions(model.structure.linkage, model.placement)
+        warn_of_near(near)
+        return ModelCheck(
+            model,
+            degrees_of_freedom(model.placed),
+            mobility(model.structure.linkage, model.placement),
+            check_mass(model.placed),
+            near,
+        )
 
 
 def degrees_of_freedom(placed: PlacedStructure) -> int:

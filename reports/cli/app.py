@@ -15,6 +15,7 @@ from reports.cli.choices import Objective, Ranges
 from reports.cli.ending import OUT_OF_RANGE, guarded
 from reports.cli.streams import show_every_character
 from reports.cli.usage import Commands, typed
+from reports.cli.watch import watched
 from strutwork import __version__
 from strutwork.names import visible
 
@@ -23,7 +24,7 @@ app = typer.Typer(
     cls=Commands,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
     epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
-    "3 a result cannot be written, 141 nobody reads the output any more.",
+    "3 a result cannot be written, 130 interrupted, 141 nobody reads the output any more.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -76,7 +77,8 @@ def main() -> None:
         warnings.showwarning = show
         # NumPy's words name no part of a model: `guarded` says what the reader can do
         warnings.filterwarnings("error", OUT_OF_RANGE, RuntimeWarning)
-        sys.exit(guarded(app))
+        with watched():
+            sys.exit(guarded(app))
 
 
 def _print_version(wanted: bool) -> None:

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from strutwork.errors import OutputError, StrutworkError
 from strutwork.files import write_error
+from strutwork.memory import out_of_memory
 
 #: Exit status where the model is wrong or cannot be solved.
 WRONG = 1
@@ -58,6 +59,9 @@ def guarded(program: Callable[[], object]) -> int:
             "Look for a quantity or an option out of all proportion to the others, such as a "
             "size in the wrong unit."
         )
+        return WRONG
+    except MemoryError as error:
+        _say(str(out_of_memory(error)))
         return WRONG
     except OSError as error:
         _drop_output()

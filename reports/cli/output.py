@@ -22,6 +22,9 @@ _HIDDEN = re.compile(
     "[\x7f-\x9f\xad\u0600-\u0605\u061c\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]"
 )
 
+#: Rows from which a table is written as plain text.
+LONG = 200
+
 #: Width of tables in a file or a pipe, characters.
 WIDE = 120
 
@@ -68,6 +71,24 @@ def table(
     for row in rows:
         made.add_row(*(Text(visible(show(entry))) for entry in row))
     return made
+
+
+def print_table(
+    out: Console, title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]
+) -> None:
+    """Print a table whose first column is a name and the others numbers; a long one as text.
+
+    Rich measures and wraps every cell, a millisecond a row; a long table is for searching and
+    has columns as wide as what stands in them.
+    """
+    if len(rows) <= LONG:
+        out.print(table(title, columns, rows))
+        return
+    cells = [list(columns), *([visible(show(entry)) for entry in row] for row in rows)]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    layout = f"{{:<{widths[0]}}}" + "".join(f"  {{:>{w}}}" for w in widths[1:]) + "\n"
+    out.print(title, markup=False, style="bold")
+    out.file.write("".join(layout.format(*row) for row in cells))
 
 
 def show(value: object) -> str:

@@ -12,6 +12,7 @@ from rich.progress import Progress as Bars
 
 from reports.cli.output import progress_console
 from strutwork.names import visible
+from strutwork.stages import stage
 from studies.progress import Lines, Progress
 
 
@@ -21,23 +22,28 @@ def shown(unit: str = "poses") -> Iterator[Callable[[str], Progress]]:
 
     `unit` is what is counted, in the plural.
     """
-    if not sys.stderr.isatty():
-        yield partial(Lines, unit=unit)
-        return
+    with stage("", silent=True):
+        if sys.stderr.isatty():
+            with _bars() as bars:
+                yield partial(_started, bars)
+        else:
+            yield partial(Lines, unit=unit)
+
+
+def _bars() -> Bars:
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),
     )
-    with Bars(*columns, console=progress_console(), transient=True) as bars:
+    return Bars(*columns, console=progress_console(), transient=True)
 
-        def started(label: str) -> Progress:
-            task = bars.add_task(visible(label), total=None)
 
-            def tell(done: int, total: int, /) -> None:
-                bars.update(task, completed=done, total=total)
+def _started(bars: Bars, label: str) -> Progress:
+    task = bars.add_task(visible(label), total=None)
 
-            return tell
+    def tell(done: int, total: int, /) -> None:
+        bars.update(task, completed=done, total=total)
 
-        yield started
+    return tell

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from machines.model_file import read_model
 from msa import axis_stiffness_blocked, axis_stiffness_free
-from reports.cli.output import console, print_json, table
+from reports.cli.output import console, print_json, print_table, table
 from reports.model_solution import ModelSolution, solve_model
 from reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
 
@@ -57,7 +57,7 @@ def _six(
         (name, *("not determined" if isnan(v) else v for v in six.tolist()))
         for name, six in values.items()
     ]
-    out.print(table(title, [what, *columns], rows))
+    print_table(out, title, [what, *columns], rows)
 
 
 def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float64]) -> None:

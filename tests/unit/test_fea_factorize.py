@@ -11,11 +11,13 @@ import scipy.sparse as sp
 import fea.factorize
 import fea.memory
 import fea.ordering
+import strutwork.memory
 from fea import factor_cholmod, factor_mumps, factor_superlu
 from fea.factorize import SOLVERS, factorize, installed_solvers
-from fea.memory import available_memory, foreseen_memory, require_memory
+from fea.memory import foreseen_memory, require_memory
 from fea.ordering import nested_dissection
 from strutwork.errors import ModelError, NumericalError
+from strutwork.memory import available_memory
 from tests.solids import frame
 
 INSTALLED = installed_solvers()
@@ -158,8 +160,8 @@ def test_available_memory_is_the_least_of_all_limits(
 ) -> None:
     info, limit, used = (tmp_path / n for n in ("meminfo", "max", "current"))
     info.write_text("MemTotal: 9 kB\nMemAvailable:    4000 kB\n")
-    monkeypatch.setattr(fea.memory, "MEMINFO", info)
-    monkeypatch.setattr(fea.memory, "CONTROL_GROUPS", ((limit, used),))
+    monkeypatch.setattr(strutwork.memory, "MEMINFO", info)
+    monkeypatch.setattr(strutwork.memory, "CONTROL_GROUPS", ((limit, used),))
     assert available_memory() == 4000 * 1024
     limit.write_text("max\n")
     used.write_text("5\n")
