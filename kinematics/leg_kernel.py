@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from strutwork.jit import jit
 
 Array = NDArray[Any]
 
@@ -20,7 +21,7 @@ ORTHOGONAL = 1e-13
 SWEEPS = 30
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _screws(p, leg, positions, frames, size, m):  # type: ignore[no-untyped-def]
     """Screws of a leg at the tool on (v / L, ω), as columns, beside an identity; rows of m."""
     first, last = p.start[leg], p.start[leg + 1]
@@ -42,7 +43,7 @@ def _screws(p, leg, positions, frames, size, m):  # type: ignore[no-untyped-def]
             m[i, last - first + c] = 1.0 if i == c else 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _largest(m, row, column, end):  # type: ignore[no-untyped-def]
     """Largest entry from `row` and `column` on, its row and its column."""
     best, at, which = 0.0, row, column
@@ -53,7 +54,7 @@ def _largest(m, row, column, end):  # type: ignore[no-untyped-def]
     return best, at, which
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _eliminate(m, end, width):  # type: ignore[no-untyped-def]
     """Gauss elimination of the columns before `end`, with complete pivoting.
 
@@ -78,7 +79,7 @@ def _eliminate(m, end, width):  # type: ignore[no-untyped-def]
     return row, doubtful
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _drive_rows(m, row, begin, drives, width):  # type: ignore[no-untyped-def]
     """Make the drives' columns of the rows from `row` on an identity; False near a singularity."""
     for k in range(drives):
@@ -102,7 +103,7 @@ def _drive_rows(m, row, begin, drives, width):  # type: ignore[no-untyped-def]
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-untyped-def]
     """Inverse Jacobians of q poses; see `leg_jacobians.legs_compiled`."""
     legs = p.passive.shape[0]
@@ -150,7 +151,7 @@ def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-un
         good[q] = sound
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _turned(a, size, c, d):  # type: ignore[no-untyped-def]
     """Turn two columns (rows of a) so that they become orthogonal; False where they were."""
     dot = 0.0
@@ -172,7 +173,7 @@ def _turned(a, size, c, d):  # type: ignore[no-untyped-def]
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _squares(a, size):  # type: ignore[no-untyped-def]
     for c in range(a.shape[0]):
         size[c] = 0.0
@@ -180,7 +181,7 @@ def _squares(a, size):  # type: ignore[no-untyped-def]
             size[c] += a[c, i] * a[c, i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def jacobi_values(matrices, values):  # type: ignore[no-untyped-def]
     """Singular values of (q, m, n) matrices, m ≥ n, by one-sided Jacobi (Hestenes 1958)."""
     count, rows, columns = matrices.shape

@@ -10,7 +10,6 @@ from fea.reduce_solid import reduce_solid
 from fea.solid import Solid
 from fea.superelement import Superelement
 from fea.superelement_file import (
-    CacheWarning,
     cached_superelement,
     fingerprint,
     read_superelement,
@@ -18,7 +17,7 @@ from fea.superelement_file import (
 )
 from meshes import block
 from msa.materials import Material
-from strutwork.errors import ModelError
+from strutwork.errors import CacheWarning, ModelError
 
 STEEL = Material.isotropic(200e9, 0.3, density=7800.0, name="steel")
 
@@ -76,7 +75,7 @@ def test_where_it_cannot_be_stored(tmp_path: Path) -> None:
     element = make(tmp_path)
     blocked = tmp_path / "file"
     blocked.write_text("a file where a folder should be")
-    with pytest.warns(CacheWarning, match="was not stored"):
+    with pytest.warns(CacheWarning, match="cannot be kept"):
         same(element, cached_superelement(["x"], lambda: element, blocked / "below"))
 
 
