@@ -158,10 +158,8 @@ def _stored(path: Path) -> Superelement | None:
     """What is stored, if it is there and whole."""
     try:
         path.lstat()
-    except (FileNotFoundError, NotADirectoryError):
-        return None
-    except OSError as error:
-        note_once(f"{path.parent}", f"{path.parent}: cannot be read ({reason(error)}).")
+    except OSError:
+        # where there is one that cannot be reached, storing fails too and says why
         return None
     try:
         return read_superelement(path)
