@@ -95,8 +95,7 @@ def test_a_disk_that_takes_no_more(
 
     monkeypatch.setattr("numba.core.caching.os.replace", full)
     with pytest.warns(CacheWarning, match=os.strerror(number)) as notes:
-        assert jit()(twice)(1.5) == 3.0
-        assert jit()(thrice)(1.5) == 4.5
+        assert [jit()(f)(1.5) for f in (twice, thrice)] == [3.0, 4.5]
     assert len(notes) == 1
     assert "NUMBA_CACHE_DIR or XDG_CACHE_HOME" in str(notes[0].message)
     assert not list(folder.iterdir())

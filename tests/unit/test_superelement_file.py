@@ -98,8 +98,8 @@ def test_a_disk_that_takes_no_more(
     monkeypatch.setattr(Path, "write_bytes", full)
     folder = tmp_path / "full"
     with pytest.warns(CacheWarning, match="XDG_CACHE_HOME") as notes:
-        same(element, cached_superelement(["x"], lambda: element, folder))
-        same(element, cached_superelement(["y"], lambda: element, folder))
+        made = [cached_superelement([name], lambda: element, folder) for name in "xy"]
+    assert made == [element, element]
     assert len(notes) == 1
     assert os.strerror(number) in str(notes[0].message)
     assert not list(folder.iterdir())
@@ -109,8 +109,8 @@ def test_without_a_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     element = make(tmp_path)
     monkeypatch.setattr(superelement_file, "user_cache", lambda: None)
     with pytest.warns(CacheWarning, match="there is no home folder") as notes:
-        same(element, cached_superelement(["x"], lambda: element))
-        same(element, cached_superelement(["x"], lambda: element))
+        made = [cached_superelement([name], lambda: element) for name in "xy"]
+    assert made == [element, element]
     assert len(notes) == 1
 
 
