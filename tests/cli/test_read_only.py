@@ -82,13 +82,13 @@ SLOW = pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "home"),
     [
-        ("frf", "none"),
+        pytest.param("frf", "none", marks=SLOW),
         pytest.param("frf", "missing", marks=SLOW),
         pytest.param("frf", "read-only", marks=SLOW),
         pytest.param("solve", "none", marks=SLOW),
         pytest.param("modes", "missing", marks=SLOW),
         pytest.param("map", "none", marks=SLOW),
-        pytest.param("tolerance", "none", marks=SLOW),
+        ("tolerance", "none"),
     ],
 )
 def test_read_only_installation(
