@@ -21,6 +21,7 @@ from fea.geometric_joints import (
 )
 from msa.assembly import System, system_of
 from msa.loads import LoadCase
+from msa.point_mass import mass_arm
 from msa.solve import Method, StaticSolution, solve
 from msa.stiffening import Stiffening
 from msa.structure import PlacedStructure
@@ -143,7 +144,7 @@ def _load_forces(system: System, case: LoadCase) -> Iterator[Force]:
     pull = np.asarray(case.gravity, dtype=float)
     for mass in structure.masses:
         weight = np.broadcast_to(mass.mass * pull, (system.poses, 3))
-        yield mass.node, weight, mass.offset
+        yield mass.node, weight, mass_arm(mass, placed)
     for element in structure.elements:
         if hasattr(element, "mass"):
             fall = np.tile(np.append(pull, np.zeros(3)), len(element.nodes))

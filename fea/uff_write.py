@@ -14,15 +14,13 @@ import pyuff
 from numpy.typing import NDArray
 
 from fea.uff import FUNCTION_NAMES, FrfRecord, ModeRecord, UniversalFile
+from fea.uff_names import with_fitted_names
 from fea.uff_read import read_universal
 from kinematics import DIRECTIONS
 from strutwork.errors import ModelError, NumericalError
 from strutwork.files import write_whole
 
 Array = NDArray[Any]
-
-#: Group names of data set 2467 have this many characters.
-LONGEST_NAME = 40
 
 #: Type of specific data in data set 58.
 SPECIFIC = {"displacement": 8, "velocity": 11, "acceleration": 12, "force": 13, "frequency": 18}
@@ -46,7 +44,8 @@ def write_universal(
     Functions are written as complex double with their frequencies: binary (58b) and exact, or
     as text with the 12 digits for values and 6 for frequencies that the format has. Modes have
     6 digits; complex ones only their translations, which is what pyuff carries. Nodes are
-    numbered; their names stand in groups of one node (2467).
+    numbered; their names stand in groups of one node (2467), longer ones than its 40 characters
+    as `fea.uff_names.fitted_names` says.
 
     Parameters
     ----------
@@ -64,12 +63,13 @@ def write_universal(
     Raises
     ------
     ModelError
-        Nothing to write, a node name that does not fit, a folder that cannot be written.
+        Nothing to write, or a folder that cannot be written.
     NumericalError
         What was written does not read back.
     """
     if not content.functions and not content.modes:
         raise ModelError(str(path), "would be empty.", "Give functions or modes.")
+    content = with_fitted_names(content)
     numbers = node_numbers(content)
     sets = [_units(), *_geometry(content, numbers)]
     sets += [_function(f, numbers, binary=not text) for f in content.functions]
@@ -84,24 +84,10 @@ def write_universal(
 
 
 def node_numbers(content: UniversalFile) -> dict[str, int]:
-    """Number of every node: its name where all names are numbers, else counted from one.
-
-    Raises
-    ------
-    ModelError
-        A name that does not fit the file.
-    """
+    """Number of every node: its name where all names are numbers, else counted from one."""
     names = content.nodes
-    if all(re.fullmatch(r"[1-9]\d{0,8}", name) for name in names):
+    if all(re.fullmatch(r"[1-9][0-9]{0,8}", name) for name in names):
         return {name: int(name) for name in names}
-    for name in names:
-        if len(name) > LONGEST_NAME or name != name.strip() or not name.isprintable() or not name:
-            raise ModelError(
-                f'node "{name}"',
-                f"has a name that does not fit into the {LONGEST_NAME} printable characters of a "
-                "universal file.",
-                "Give it a shorter name.",
-            )
     return {name: i for i, name in enumerate(names, 1)}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
+
+#: Below this many numbers a part, the calls of `gathered` cost more than they save.
+FEW = 1000
 
 
 def cross_matrix(vector: ArrayLike) -> Array:
@@ -20,6 +24,73 @@ def cross_matrix(vector: ArrayLike) -> Array:
     matrix[..., 1, 0], matrix[..., 1, 2] = v[..., 2], -v[..., 0]
     matrix[..., 2, 0], matrix[..., 2, 1] = -v[..., 1], v[..., 0]
     return matrix
+
+
+def vector(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
+    """Vectors of three coordinates that broadcast, (...) to (..., 3).
+
+    Each coordinate lies together in memory, as in all that is computed from such vectors:
+    operations run along the batch and not in threes.
+    """
+    parts = np.broadcast_arrays(x, y, z)
+    result = np.empty((*parts[0].shape, 3), np.result_type(float, *parts), order="F")
+    for k, part in enumerate(parts):
+        result[..., k] = part
+    return result
+
+
+def frame(x: Array, y: Array, z: Array) -> Array:
+    """Three vectors as columns, (..., 3) to (..., 3, 3); memory as in `vector`."""
+    parts = np.broadcast_arrays(x, y, z)
+    result = np.empty((*parts[0].shape, 3), np.result_type(float, *parts), order="F")
+    for k, part in enumerate(parts):
+        for i in range(3):
+            result[..., i, k] = part[..., i]
+    return result
+
+
+def dot(a: Array, b: Array) -> Array:
+    """Scalar products of vectors, (..., 3) to (...)."""
+    return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
+
+
+def cross(a: Array, b: Array) -> Array:
+    """Vector products, (..., 3); memory as in `vector`."""
+    return vector(
+        a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1],
+        a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2],
+        a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0],
+    )
+
+
+def turned(rotation: Array, points: Array) -> Array:
+    """Points of a body, (k, 3), turned by its rotations (..., 3, 3), (..., k, 3).
+
+    Memory as in `vector`.
+    """
+    batch = rotation.shape[:-2]
+    r = np.ascontiguousarray(np.moveaxis(rotation.reshape(-1, 3, 3), 0, -1))[:, None]
+    q = points[..., None]
+    # not by BLAS: a pose has the same digits alone as in a batch
+    result = r[:, :, 0] * q[:, 0] + r[:, :, 1] * q[:, 1] + r[:, :, 2] * q[:, 2]
+    return np.asarray(result.T.reshape(*batch, len(points), 3))
+
+
+def gathered(parts: Sequence[Array], item: int) -> Array:
+    """`parts`, whose last `item` axes are one item, side by side before those axes.
+
+    As numpy.stack, which copies items of three numbers one by one: this copies along the batch.
+    """
+    shape = np.broadcast_shapes(*(part.shape for part in parts))
+    batch, tail = shape[: len(shape) - item], shape[len(shape) - item :]
+    kind = np.result_type(*parts)
+    result = np.empty((*batch, len(parts), *tail), kind)
+    if result.size < FEW * len(parts):
+        return np.stack([np.broadcast_to(part, shape) for part in parts], axis=-1 - item)
+    for k, part in enumerate(parts):
+        for place in np.ndindex(*tail):
+            result[(..., k, *place)] = part[(..., *place)]
+    return result
 
 
 def angle(y: ArrayLike, x: ArrayLike) -> Array:
@@ -106,7 +177,7 @@ def axes_frame(axis: ArrayLike, second_axis: ArrayLike | None = None, part: str 
     """
     axis = np.asarray(axis)
     axis = axis if axis.dtype.kind in "fc" else axis.astype(float)
-    length = np.sqrt((axis * axis).sum(-1, keepdims=True))
+    length = np.sqrt(dot(axis, axis))[..., None]
     if np.any(np.abs(length) < 1e-300):
         raise ModelError(part, "has an axis of zero length.", "Give the axis a direction.")
     z = axis / length
@@ -115,9 +186,9 @@ def axes_frame(axis: ArrayLike, second_axis: ArrayLike | None = None, part: str 
         second = np.where(along_x, np.array([0.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
     else:
         second = np.asarray(second_axis)
-    x = second - (second * z).sum(-1, keepdims=True) * z
-    length = np.sqrt((x * x).sum(-1, keepdims=True))
-    size = np.sqrt((np.abs(second) ** 2).sum(-1, keepdims=True))
+    x = second - dot(second, z)[..., None] * z
+    length = np.sqrt(dot(x, x))[..., None]
+    size = np.sqrt((dot(second, np.conj(second))).real)[..., None]
     if np.any(np.abs(length) <= 1e-9 * size):
         raise ModelError(
             part,
@@ -125,8 +196,7 @@ def axes_frame(axis: ArrayLike, second_axis: ArrayLike | None = None, part: str 
             "Give a second axis that is not parallel to the axis.",
         )
     x = x / length
-    x, z = np.broadcast_arrays(x, z)
-    return np.stack([x, np.cross(z, x), z], axis=-1)
+    return frame(x, cross(z, x), z)
 
 
 def tangent_rotation(normal: ArrayLike, roll: ArrayLike) -> Array:

@@ -86,8 +86,11 @@ class Jacobians:
         plain = ~ranked & ~lost
         if drives == 6:
             result[plain] = np.linalg.inv(finite[plain])
-        else:
-            result[plain] = np.linalg.pinv(finite[plain], rcond=SINGULAR)
+        elif plain.any():
+            # turning drives at the arm of the machine, as the least rates are
+            arm = self.length[plain][..., None] ** self._rotary
+            weighted = np.linalg.pinv(arm[..., None] * finite[plain], rcond=SINGULAR)
+            result[plain] = weighted * arm[..., None, :]
         if lost.any():
             _, values, right = np.linalg.svd(_scaled(finite[lost], self.driven, self.length[lost]))
             count = values.shape[-1]
@@ -100,6 +103,11 @@ class Jacobians:
         if self.spaces is not None:
             result[ranked] = self.spaces.forward
         return result
+
+    @property
+    def _rotary(self) -> Array:
+        """1 for a drive that turns, else 0, (a,)."""
+        return np.array([float(direction.startswith("r")) for _, direction in self.driven])
 
     @cached_property
     def parallel(self) -> Mask:

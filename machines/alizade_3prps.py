@@ -8,6 +8,7 @@ from math import radians
 import numpy as np
 
 from kinematics import Body, Joint, angle, axes_frame
+from kinematics.frames import dot
 from machines.legs import Leg, LegPlacement
 from machines.radial import Radial
 from machines.three_legs import ThreeLegs
@@ -80,7 +81,7 @@ class Alizade3PRPS(ThreeLegs):
         """Length and elevation of the line from the hinge to the joint centre."""
         hinge = seats.at(self.base_radius, 0.0)
         span = seats.points - hinge
-        square = (span * span).sum(-1)
+        square = dot(span, span)
         none = np.asarray(square.real < 1e-18)
         length = np.sqrt(np.where(none, 1.0, square))
         link = np.where(none[..., None], -seats.outward, span / length[..., None])

@@ -8,6 +8,7 @@ from math import radians, sqrt
 import numpy as np
 
 from kinematics import Body, Joint, angle
+from kinematics.frames import dot
 from machines.legs import Leg, LegPlacement, square_root
 from machines.radial import Radial
 from machines.three_legs import ThreeLegs
@@ -89,7 +90,7 @@ class Eclipse3PPRS(ThreeLegs):
         hinge = seats.at(self.base_radius, top)
         foot = seats.at(self.base_radius, top - self.column_length)
         link = seats.points - hinge
-        link = link / np.sqrt((link * link).sum(-1, keepdims=True))
+        link = link / np.sqrt(dot(link, link))[..., None]
         return LegPlacement(
             positions={
                 "centre": np.zeros_like(seats.points),

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, rotation_x
+from kinematics.frames import cross, dot, frame, gathered, turned
 from machines.dimensions import check_proportions
 from machines.legs import square_root
 from machines.limits import Limit, joint_limits
@@ -202,21 +203,19 @@ class HexelHexapod:
             then across it, rad, and its length, m. Poses whose joint centres are not below the
             fixed platform are marked; their positions are finite and without meaning.
         """
-        ends = poses.position[..., None, :] + np.einsum(
-            "...ij,kj->...ki", poses.rotation, self.seats
-        )
+        ends = poses.position[..., None, :] + turned(poses.rotation, self.seats)
         span = ends - self.feet
         above = span[..., 2].real >= 0.0
-        length, _ = square_root((span * span).sum(-1), 1.0)
+        length, _ = square_root(dot(span, span), 1.0)
         down = np.array([0.0, 0.0, -1.0])
         line = np.where(above[..., None], down, span / length[..., None])
         tangent, inward = self._tangent, self._inward
-        drop, aside = -line[..., 2], (line * inward).sum(-1)
+        drop, aside = -line[..., 2], dot(line, inward)
         swing = angle(aside, drop)
-        sway = angle((line * tangent).sum(-1), np.sqrt(drop * drop + aside * aside))
+        sway = angle(dot(line, tangent), np.sqrt(drop * drop + aside * aside))
         ball = np.broadcast_to(np.eye(3), (*span.shape[:-1], 3, 3))
         yoke, ram = self._frames(line)
-        frames = np.stack([yoke, ram, ball], axis=-3)
+        frames = [part[..., k, :, :] for k in range(len(LEGS)) for part in (yoke, ram, ball)]
         middle = self.feet + 0.5 * span
         positions = {TOOL: poses.position}
         for k, i in enumerate(LEGS):
@@ -233,11 +232,11 @@ class HexelHexapod:
                 (leg(i, "ram"), "z"),
             )
         ]
-        values = np.stack([swing, sway, length], axis=-1)
+        values = [part[..., k] for k in range(len(LEGS)) for part in (swing, sway, length)]
         return Placement(
-            np.stack([positions[n] for n in self.linkage.nodes], axis=-2),
-            frames.reshape(*span.shape[:-2], 18, 3, 3),
-            values.reshape(*span.shape[:-2], 18),
+            gathered([positions[n] for n in self.linkage.nodes], 1),
+            gathered(frames, 2),
+            gathered(values, 0),
             tuple(names),
             np.where(above.any(axis=-1), above.argmax(axis=-1) + 1, 0).astype(np.int8),
             tuple(f"leg {i}: its joint on the platform is not below the fixed one" for i in LEGS),
@@ -257,8 +256,7 @@ class HexelHexapod:
     def _frames(self, line: Array) -> tuple[Array, Array]:
         """Axes of universal and prismatic joints, (..., 6, 3, 3); `line` points down the leg."""
         first = np.broadcast_to(self._tangent, line.shape)
-        second = np.cross(first, line)
-        second = second / np.sqrt((second * second).sum(-1, keepdims=True))
-        yoke = np.stack([first, np.cross(second, first), second], axis=-1)
-        ram = np.stack([second, np.cross(line, second), line], axis=-1)
-        return yoke, ram
+        second = cross(first, line)
+        second = second / np.sqrt(dot(second, second))[..., None]
+        yoke = frame(first, cross(second, first), second)
+        return yoke, frame(second, cross(line, second), line)

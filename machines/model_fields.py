@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 from pydantic_core import PydanticCustomError, core_schema
 
 from strutwork import units
 from strutwork.errors import UnitError
+from strutwork.names import is_hidden, visible
 from strutwork.units import Dimension
 
 
@@ -78,7 +79,21 @@ class Table(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-Name = Annotated[str, Field(min_length=1, max_length=100)]
+def _shown(name: str) -> str:
+    """A name that shows all of itself, so that two that look alike are alike."""
+    if any(is_hidden(c) for c in name):
+        raise PydanticCustomError(
+            "range",
+            "{problem}",
+            {
+                "problem": f'"{visible(name)}" holds a character that is not shown.',
+                "remedy": "Leave out control characters, ends of lines and marks of direction.",
+            },
+        )
+    return name
+
+
+Name = Annotated[str, Field(min_length=1, max_length=100), AfterValidator(_shown)]
 Direction = Literal["x", "y", "z", "rx", "ry", "rz"]
 Pair = tuple[Name, Name]
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kinematics import Body, Joint, angle, axes_frame
+from kinematics.frames import dot
 from machines.legs import Leg, LegPlacement, square_root
 from machines.radial import Radial
 from machines.three_legs import ThreeLegs
@@ -103,7 +104,7 @@ class Proposed3PPRS(ThreeLegs):
         elevation = angle(np.where(missing, 0.0, seats.height), reach)
         foot = seats.at(slider, 0.0)
         link = seats.points - foot
-        link = link / np.sqrt((link * link).sum(-1, keepdims=True))
+        link = link / np.sqrt(dot(link, link))[..., None]
         return LegPlacement(
             positions={
                 "centre": np.zeros_like(seats.points),

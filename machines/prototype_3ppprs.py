@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import Body, Joint, angle
+from kinematics.frames import dot, frame
 from machines.azulay_dynamic import Platform
 from machines.legs import Leg, LegPlacement, full, seat, square_root
 from machines.limits import Limit, joint_limits
@@ -224,7 +225,7 @@ class Prototype3PPPRS(ThreeLegs):
         tangent = np.stack([-np.sin(turn), np.cos(turn), zero], axis=-1)
         return Radial(
             points,
-            np.asarray((points * outward).sum(-1)),
+            dot(points, outward),
             np.broadcast_to(deviation, points.shape[:-1]),
             points[..., 2],
             np.broadcast_to(outward, points.shape),
@@ -236,16 +237,16 @@ class Prototype3PPPRS(ThreeLegs):
         """The tangential stage goes abreast of the joint centre, the radial one behind it."""
         rise = seats.height - self.hinge_height
         reach, missing = square_root(self.link_length**2 - rise * rise, self.link_length)
-        abreast = (seats.points * seats.tangent).sum(-1)
+        abreast = dot(seats.points, seats.tangent)
         hinge = seats.radius + reach
         shift = abreast[..., None] * seats.tangent
         table = seats.at(self.base_radius, self.stage_height) + shift
         foot = seats.at(hinge, self.hinge_height) + shift
         link = seats.points - foot
-        link = link / np.sqrt((link * link).sum(-1, keepdims=True))
+        link = link / np.sqrt(dot(link, link))[..., None]
         elevation = angle(np.where(missing, 0.0, rise), reach)
-        along_tangent = np.stack([seats.up, seats.outward, seats.tangent], axis=-1)
-        along_radius = np.stack([seats.tangent, seats.up, seats.outward], axis=-1)
+        along_tangent = frame(seats.up, seats.outward, seats.tangent)
+        along_radius = frame(seats.tangent, seats.up, seats.outward)
         return LegPlacement(
             positions={
                 "centre": np.zeros_like(seats.points),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import angle
+from kinematics.frames import frame, vector
 
 Array = NDArray[Any]
 
@@ -44,11 +45,10 @@ class Radial:
         square = x * x + y * y
         on_axis = np.asarray(square.real < 1e-18)
         radius = np.sqrt(np.where(on_axis, 1.0, square))
-        zero = np.zeros_like(x)
         cosine = np.where(on_axis, 1.0, x) / radius
         sine = np.where(on_axis, 0.0, y) / radius
-        outward = np.stack([cosine, sine, zero], axis=-1)
-        tangent = np.stack([-sine, cosine, zero], axis=-1)
+        outward = vector(cosine, sine, 0.0)
+        tangent = vector(-sine, cosine, 0.0)
         turn = angle(np.where(on_axis, 0.0, y), np.where(on_axis, 1.0, x))
         return cls(points, np.where(on_axis, 0.0, radius), turn, z, outward, tangent, on_axis)
 
@@ -60,14 +60,15 @@ class Radial:
     @property
     def guide_frame(self) -> Array:
         """Axes outward, tangent, up as columns, (..., 3, 3, 3)."""
-        return np.stack([self.outward, self.tangent, self.up], axis=-1)
+        return frame(self.outward, self.tangent, self.up)
 
     @property
     def hinge_frame(self) -> Array:
         """Axes outward, down, tangent: a positive turn about z lifts a link that points inward."""
-        return np.stack([self.outward, -self.up, self.tangent], axis=-1)
+        return frame(self.outward, -self.up, self.tangent)
 
     def at(self, radius: Array | float, height: Array | float) -> Array:
         """Points in the legs' planes at a radius and height, (..., 3, 3)."""
         r, h = np.broadcast_arrays(radius, height)
-        return np.asarray(r[..., None] * self.outward + h[..., None] * self.up)
+        # the third coordinate of outward is zero, that of up one
+        return vector(r * self.outward[..., 0], r * self.outward[..., 1], h)

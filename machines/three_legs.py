@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, axes_frame
+from kinematics.frames import cross, dot, gathered, turned
 from machines.dimensions import check_proportions
 from machines.legs import CENTRE, SEAT, Leg, LegPlacement, full, seat
 from machines.limits import Limit, joint_limits
@@ -260,8 +261,7 @@ class ThreeLegs(ABC):
         Placement
             Poses that no assembly of the legs can take are marked with a reason.
         """
-        arms = np.einsum("...ij,kj->...ki", poses.rotation, self.seats)
-        points = poses.position[..., None, :] + arms
+        points = poses.position[..., None, :] + turned(poses.rotation, self.seats)
         radial = self.radial(points)
         legs = self.place_legs(radial)
         nodes = {CENTRE: np.zeros_like(poses.position), TOOL: poses.position}
@@ -280,9 +280,9 @@ class ThreeLegs(ABC):
         faults = {"its joint centre lies on the axis of the guide": radial.on_axis, **legs.faults}
         status, reasons = _status(faults)
         return Placement(
-            np.stack([nodes[n] for n in self.linkage.nodes], axis=-2),
-            np.stack([frames[j.name] for j in self.linkage.joints], axis=-3),
-            np.stack(list(values.values()), axis=-1),
+            gathered([nodes[n] for n in self.linkage.nodes], 1),
+            gathered([frames[j.name] for j in self.linkage.joints], 2),
+            gathered(list(values.values()), 0),
             tuple(values),
             status,
             reasons,
@@ -290,16 +290,16 @@ class ThreeLegs(ABC):
 
     def _swing(self, rotation: Array, link: Array) -> Array:
         """Angle of each last link from its neutral direction, rad, (..., 3)."""
-        neutral = np.einsum("...ij,kj->...ki", rotation, self.neutral)
-        cross = np.cross(neutral, -link)
-        return angle(np.sqrt((cross * cross).sum(-1)), -(neutral * link).sum(-1))
+        neutral = turned(rotation, self.neutral)
+        across = cross(neutral, -link)
+        return angle(np.sqrt(dot(across, across)), -dot(neutral, link))
 
 
 def _status(
     faults: Mapping[str, NDArray[np.bool_]],
 ) -> tuple[NDArray[np.int8], tuple[str, ...]]:
     """Code of the first fault of each pose, and the reasons the codes stand for."""
-    masks = np.stack([mask[..., i] for mask in faults.values() for i in range(3)], axis=-1)
+    masks = gathered([mask[..., i] for mask in faults.values() for i in range(3)], 0)
     reasons = tuple(f"leg {i}: {reason}" for reason in faults for i in (1, 2, 3))
     first = np.where(masks.any(axis=-1), masks.argmax(axis=-1) + 1, 0)
     return first.astype(np.int8), reasons

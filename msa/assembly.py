@@ -24,6 +24,7 @@ from kinematics import (
 )
 from msa.beam import fixed_end_loads
 from msa.loads import LoadCase
+from msa.point_mass import mass_weight
 from msa.structure import PlacedStructure, rigid_map
 from msa.topology import Topology
 from msa.triplets import Triplets
@@ -260,10 +261,8 @@ class System:
                     )
                 loads[:, structure.mesh_index[node], :, m] += wrench
             for mass in structure.masses if case.gravity is not None else ():
-                weight = mass.mass * np.asarray(case.gravity)
-                node_index = structure.mesh_index[mass.node]
-                loads[:, node_index, :3, m] += weight
-                loads[:, node_index, 3:, m] += np.cross(mass.offset, weight)
+                at = structure.mesh_index[mass.node]
+                loads[:, at, :, m] += mass_weight(mass, case.gravity, self.placed)
             for element in structure.elements if case.gravity is not None else ():
                 if hasattr(element, "mass"):
                     # a rigid translation of its nodes is one of the whole element

@@ -9,9 +9,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from kinematics import axes_frame
 from msa.assembly import System, system_of
 from msa.beam import to_global
+from msa.point_mass import mass_axes
 from msa.structure import PlacedStructure, rigid_map
 from strutwork.errors import ModelError
 
@@ -158,14 +158,9 @@ def mass_contributions(system: System) -> list[tuple[str, NDArray[np.intp], Arra
         matrix = point_mass_matrix(
             item.mass, np.asarray(item.inertia, dtype=float), np.asarray(item.offset, dtype=float)
         )
-        if item.axes is not None:
-            corner, along, side = (placed.positions[:, structure.mesh_index[n]] for n in item.axes)
-            up = np.cross(along - corner, side - corner)
-            turn = np.zeros((system.poses, 6, 6))
-            turn[:, :3, :3] = turn[:, 3:, 3:] = axes_frame(up, along - corner, item.node)
-            whole = turn @ matrix @ np.swapaxes(turn, -1, -2)
-        else:
-            whole = np.broadcast_to(matrix, (system.poses, 6, 6))
+        turn = np.zeros((system.poses, 6, 6))
+        turn[:, :3, :3] = turn[:, 3:, 3:] = mass_axes(item, placed)
+        whole = turn @ matrix @ np.swapaxes(turn, -1, -2)
         found.append((f"mass at {item.node}", np.array([structure.mesh_index[item.node]]), whole))
     for element in structure.elements:
         if hasattr(element, "mass"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any, Literal
 
@@ -20,6 +21,7 @@ from msa.saddle_point import solve_saddle_point
 from msa.sparse import SPARSE_FROM, solve_sparse
 from msa.structure import PlacedStructure
 from msa.trust import Unknowns
+from msa.undetermined import undetermined
 from strutwork.errors import ModelError, NumericalError
 from strutwork.outcome import Outcome, solve_poses
 
@@ -50,7 +52,8 @@ class StaticSolution:
     displacements : (..., n, 6, m)
         Of the mesh nodes, global axes, m and rad.
     joint_forces : (..., j, 6, m)
-        On the second node of every joint, joint axes, N and N·m.
+        On the second node of every joint, joint axes, N and N·m. Where `undetermined`, one of
+        many that balance the load: `joint_force` masks them.
     beam_forces : (..., b, 2, 6, m)
         On the beam at its first and second end, local beam axes, N and N·m.
     strain_energy : (..., m)
@@ -88,11 +91,27 @@ class StaticSolution:
         return np.asarray(self.displacements[..., index[node], :, self._case(case)])
 
     def joint_force(self, joint: str, case: str) -> Array:
-        """Force on the second node of a joint in joint axes, (..., 6), N and N·m."""
+        """Force on the second node of a joint in joint axes, (..., 6), N and N·m.
+
+        A masked array where a direction is `undetermined`, else a plain one.
+        """
         index = self.placed.structure.linkage.joint_index
         if joint not in index:
             raise ModelError("solution", f'has no joint "{joint}".', "Name a joint.")
-        return np.asarray(self.joint_forces[..., index[joint], :, self._case(case)])
+        force = np.asarray(self.joint_forces[..., index[joint], :, self._case(case)])
+        open_ = self.undetermined[..., index[joint], :]
+        return np.ma.masked_array(force, open_) if np.any(open_) else force
+
+    @cached_property
+    def undetermined(self) -> NDArray[np.bool_]:
+        """Joint directions whose force rigid parts alone leave open, (..., j, 6)."""
+        result = np.zeros(self.joint_forces.shape[:-1], dtype=bool)
+        if self.placed.batch == ():
+            return undetermined(self.placed)
+        solved = np.nonzero(self.outcome.solved)
+        if len(solved[0]):
+            result[solved] = undetermined(self.placed[solved])
+        return result
 
     def _case(self, case: str) -> int:
         if case not in self.cases:
@@ -102,7 +121,7 @@ class StaticSolution:
         return self.cases.index(case)
 
     def to_dict(self) -> dict[str, Any]:
-        """Nested dictionaries by case and part, single pose only; SI."""
+        """Nested dictionaries by case and part, single pose only; SI. Undetermined: None."""
         if self.placed.batch != ():
             raise ModelError("solution", "has several poses.", "Choose one: solve(placed[i], …).")
         structure = self.placed.structure
@@ -114,7 +133,9 @@ class StaticSolution:
                     for i, node in enumerate(structure.linkage.nodes)
                 },
                 "joint_forces": {
-                    joint.name: self.joint_forces[j, :, m].tolist()
+                    joint.name: np.ma.masked_array(
+                        self.joint_forces[j, :, m], self.undetermined[j]
+                    ).tolist()
                     for j, joint in enumerate(structure.linkage.joints)
                 },
                 "beam_forces": {

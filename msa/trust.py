@@ -10,7 +10,7 @@ digits as the condition leaves.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -81,6 +81,18 @@ class _State:
     share: Array
     change: Array
 
+    def at(self, poses: Any) -> _State:
+        """A copy at some poses."""
+        return _State(*(np.array(v[poses]) for v in self._values()))
+
+    def put(self, poses: Any, state: _State) -> None:
+        """Take the values of another state at some poses."""
+        for mine, value in zip(self._values(), state._values(), strict=True):
+            mine[poses] = value
+
+    def _values(self) -> tuple[Array, ...]:
+        return tuple(getattr(self, f.name) for f in fields(self))
+
 
 def solve_trusted(system: System, inverse: Inverse, load: Array, gaps: Array) -> Unknowns:
     """Solve by an approximate inverse and refine until the error is known to be small.
@@ -134,15 +146,22 @@ def _extended(
     u, multipliers = (x.astype(wide) for x in start)
     load, gaps = load.astype(wide), gaps.astype(wide)
     state = _start(system, (u, multipliers), load, gaps)
+    ended = state.at(slice(None))
+    left = np.arange(system.poses)
     before = np.full(system.poses, np.inf)
     for _ in range(STEPS):
-        state = _corrected(system, inverse, state, load, gaps, index)
-        change = state.change
+        state = _corrected(system, inverse, state, load[left], gaps[left], index[left])
         # a correction that does not halve shows the last digits that can be had
-        if not np.any((change > ENOUGH) & (change < 0.5 * before)):
+        going = (state.change > ENOUGH) & (state.change < 0.5 * before)
+        ended.put(left, state)
+        if not np.any(going):
             break
-        before = change
-    return state
+        before = state.change[going]
+        # one pose that takes many steps does not keep the others
+        if not np.all(going):
+            system = system_of(system.placed[np.flatnonzero(going)])
+            left, state = left[going], state.at(going)
+    return ended
 
 
 def _start(system: System, solution: tuple[Array, Array], load: Array, gaps: Array) -> _State:

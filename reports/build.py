@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -12,6 +11,7 @@ from reports.content import Chapter, Page
 from reports.data_files import DataFile
 from reports.machine_study import Teller
 from reports.page import render
+from reports.report_folder import PAGE, require_ours, write_set
 from strutwork import __version__
 from strutwork.errors import ModelError
 
@@ -26,8 +26,6 @@ HEXAPOD = "hexel-hexapod"
 
 #: A machine of which nothing is printed to stand beside.
 PROTOTYPE = "prototype-3ppprs"
-
-PAGE = "report.html"
 
 
 @dataclass(frozen=True)
@@ -58,7 +56,7 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
         A machine of the catalogue, "azulay-2014" for the comparison of its four machines, or
         the path of a model file.
     folder : Path
-        Made when missing. Files of an earlier report of the same name are replaced.
+        Made when missing. An earlier report in it is replaced, all of it; other files stay.
     progress : callable, optional
         Given the name of a part of the work, returns what is told how far it is.
 
@@ -69,12 +67,25 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
     Raises
     ------
     ModelError
-        No such machine or file, a wrong model, or a folder that cannot be written.
+        No such machine or file, a wrong model.
+    OutputError
+        A folder that cannot be written, or that holds files of the same name and no manifest.
     StrutworkError
-        A model that cannot be solved. Whatever is raised, nothing is written.
+        A model that cannot be solved. Whatever is raised, an earlier report stays as it is.
     """
+    folder = Path(folder)
+    # before minutes of work, and not after them
+    require_ours(folder, (PAGE,))
     page, files = _contents(target, progress)
-    return _write(Path(folder), render(page), files)
+    text = render(page)
+    write_set(
+        folder,
+        {
+            **{file.name: file.write for file in files},
+            PAGE: lambda path: path.write_text(text, encoding="utf-8"),
+        },
+    )
+    return WrittenReport(folder / PAGE, tuple(folder / file.name for file in files))
 
 
 def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFile, ...]]:
@@ -123,30 +134,3 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
     footer = f"Made by Strutwork {__version__}. This page needs no network."
     files = tuple(f for chapter in chapters for f in chapter.files)
     return Page(title, subtitle, chapters, footer), files
-
-
-def _write(folder: Path, page: str, files: Sequence[DataFile]) -> WrittenReport:
-    """Write everything beside the folder first, then put it in place."""
-    existed = folder.exists()
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(prefix=".report-", dir=folder) as name:
-            staged = Path(name)
-            for file in files:
-                file.write(staged / file.name)
-            (staged / PAGE).write_text(page, encoding="utf-8")
-            for file in files:
-                (staged / file.name).replace(folder / file.name)
-            # the page last: where it is, its data are
-            report = (staged / PAGE).replace(folder / PAGE)
-    except BaseException as error:
-        if not existed and folder.is_dir() and not any(folder.iterdir()):
-            folder.rmdir()
-        if isinstance(error, OSError):
-            raise ModelError(
-                str(folder),
-                f"cannot be written ({error.strerror}).",
-                "Choose a folder you may write to.",
-            ) from error
-        raise
-    return WrittenReport(report, tuple(folder / file.name for file in files))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -12,7 +11,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from strutwork.csv_rows import RowWriter
 from strutwork.errors import NumericalError
+from studies.netcdf import netcdf_bytes
 
 
 @dataclass(frozen=True)
@@ -37,12 +38,12 @@ class DataFile:
 def csv_file(
     name: str, what: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
 ) -> DataFile:
-    """A table with a line of headings; missing numbers are empty."""
+    """A table with a line of headings; missing numbers are empty, names are no formulas."""
     lines = [[_entry(name, value) for value in row] for row in rows]
 
     def write(path: Path) -> None:
-        with path.open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream, lineterminator="\n")
+        with path.open("w", encoding="utf-8", errors="backslashreplace", newline="") as stream:
+            writer = RowWriter(stream)
             writer.writerow(columns)
             writer.writerows(lines)
 
@@ -63,12 +64,17 @@ def json_file(name: str, what: str, value: Any) -> DataFile:
         raise NumericalError(
             name, "would hold a number that is not finite.", "Check the model."
         ) from None
-    return DataFile(name, what, lambda path: path.write_text(text + "\n", encoding="utf-8"))
+    # halves of pairs, as in file names that are no UTF-8, become the escapes that JSON has for them
+    return DataFile(
+        name,
+        what,
+        lambda path: path.write_text(text + "\n", encoding="utf-8", errors="backslashreplace"),
+    )
 
 
 def netcdf_file(name: str, what: str, dataset: xr.Dataset) -> DataFile:
     """A dataset as NetCDF-4."""
-    return DataFile(name, what, lambda path: dataset.to_netcdf(path, engine="h5netcdf"))
+    return DataFile(name, what, lambda path: path.write_bytes(netcdf_bytes(dataset)))
 
 
 def _entry(name: str, value: Any) -> Any:

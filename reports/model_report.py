@@ -16,6 +16,7 @@ from reports.content import Chapter
 from reports.model_check import check_model
 from reports.model_solution import solve_model
 from reports.vibration_study import has_mass, study_model_vibration
+from strutwork.names import visible
 
 
 def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
@@ -32,7 +33,8 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
     chapters = [summary_chapter(model, check, solution), structure_chapter(model)]
     chapters.append(check_chapter(check))
     content: dict[str, Any] = {"title": model.title}
-    settings = {"model file": path.name}
+    file, stem = visible(path.name), visible(path.stem)
+    settings = {"model file": file}
     if solution is not None:
         settings["solver"] = solution.statics.method
         if model.cases:
@@ -49,9 +51,9 @@ def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:
         study = study_model_vibration(model, "vibration")
         chapters.append(vibration_chapter(study))
         content["vibration"] = study.to_dict()
-    chapters.append(closing_chapter(path.name, settings, content, chapters))
+    chapters.append(closing_chapter(file, settings, content, chapters))
     return (
-        model.title or path.stem,
-        f"Analysis of the model file {path.name}",
+        visible(model.title or stem, lines=True),
+        f"Analysis of the model file {file}",
         tuple(chapters),
     )

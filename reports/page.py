@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import textwrap
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -13,6 +14,9 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from reports.content import Page
+
+#: Longest line of a name in a plot, characters.
+LINE = 40
 
 
 def render(page: Page) -> str:
@@ -55,8 +59,12 @@ def embedded(value: Any) -> Markup:
 
 
 def plain(text: str) -> str:
-    """A name as plotly shows it literally: plotly reads a subset of HTML in its texts."""
-    return escape(text, quote=False)
+    """A name as plotly shows it literally, long ones on several lines.
+
+    Plotly reads a subset of HTML in its texts, and fields as in `%{x}` in its templates.
+    """
+    lines = textwrap.wrap(text, LINE, drop_whitespace=False) if len(text) > LINE else [text]
+    return "<br>".join(escape(line, quote=False).replace("%{", "%&#123;") for line in lines)
 
 
 @cache

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from strutwork.names import visible
+
 
 class StrutworkError(Exception):
     """Base of all errors raised on purpose.
@@ -14,6 +16,8 @@ class StrutworkError(Exception):
         What is wrong with it, with the value found.
     remedy : str
         What the reader can do about it.
+
+    As text, hidden characters of names are written out: a message acts on no terminal.
     """
 
     def __init__(self, part: str, problem: str, remedy: str = "") -> None:
@@ -23,12 +27,16 @@ class StrutworkError(Exception):
         super().__init__(part, problem, remedy)
 
     def __str__(self) -> str:
-        text = f"{self.part}: {self.problem}" if self.part else self.problem
-        return f"{text}\n{self.remedy}" if self.remedy else text
+        text = f"{visible(self.part)}: {self.problem}" if self.part else self.problem
+        return visible(f"{text}\n{self.remedy}" if self.remedy else text, lines=True)
 
 
 class ModelError(StrutworkError):
     """The description of the structure or the study is wrong."""
+
+
+class OutputError(ModelError):
+    """A result that cannot be written: the folder, the disk or standard output refuses."""
 
 
 class UnitError(ModelError):

@@ -2,23 +2,42 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from strutwork.errors import ModelError
+from strutwork.errors import OutputError
+from strutwork.staging import staging, sync
+
+_REMEDIES = {
+    errno.ENOSPC: "Free some space, or choose a folder on another disk.",
+    errno.EDQUOT: "Free some of your quota, or choose a folder on another disk.",
+    errno.EFBIG: "Raise the limit on the size of a file (ulimit -f), or write less.",
+    errno.EIO: "The disk fails: choose a folder on another one.",
+    errno.ENAMETOOLONG: "Choose a shorter name.",
+}
+
+
+def write_error(where: Path | str, error: OSError) -> OutputError:
+    """What a failed write is to its reader: where, why, and what to do."""
+    why = error.strerror or str(error) or type(error).__name__
+    remedy = _REMEDIES.get(error.errno or 0, "Choose a folder you may write to.")
+    return OutputError(str(where), f"cannot be written ({why}).", remedy)
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
-    """Let `write` fill a temporary neighbour of `path`, then put it in place at once.
+    """Let `write` fill a temporary file beside `path`, then put it in place at once.
+
+    The file is on the disk before it gets its name, so that after a power failure there is the
+    old file or the new one. The folder is not waited for: the old one may be back then.
 
     Parameters
     ----------
     path : Path
-        The file to make; its folder is made when missing.
+        The file to make; its folder is made when missing. A link is followed.
     write : callable
-        Receives the temporary path and writes everything there.
+        Receives the temporary path, of the same name, and writes everything there.
 
     Returns
     -------
@@ -27,31 +46,30 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
 
     Raises
     ------
-    ModelError
-        The folder cannot be made or written.
+    OutputError
+        The folder cannot be made or written, the disk is full, or `path` is no ordinary file.
     """
     path = Path(path)
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, name = tempfile.mkstemp(
-            prefix=f".{path.stem}-", suffix=path.suffix, dir=path.parent
-        )
+        target = path.resolve()
+        if target.exists() and not target.is_file():
+            # a device would be replaced by a file, where the rights suffice
+            kind = "a folder" if target.is_dir() else "a device or a pipe"
+            raise OutputError(
+                str(path), f"cannot be written (it is {kind}).", "Name an ordinary file."
+            )
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with staging(target.parent) as folder:
+            temporary = folder / target.name
+            write(temporary)
+            sync(temporary)
+            # whatever the library made it, it gets the permissions of an ordinary new file
+            mask = os.umask(0)
+            os.umask(mask)
+            temporary.chmod(0o666 & ~mask)
+            temporary.replace(target)
     except OSError as error:
-        raise ModelError(
-            str(path), f"cannot be written ({error.strerror}).", "Choose a folder you may write to."
-        ) from error
-    os.close(handle)
-    temporary = Path(name)
-    try:
-        write(temporary)
-        # mkstemp makes the file private; give it the permissions of an ordinary new file
-        mask = os.umask(0)
-        os.umask(mask)
-        temporary.chmod(0o666 & ~mask)
-        temporary.replace(path)
-    except BaseException:
-        temporary.unlink(missing_ok=True)
-        raise
+        raise write_error(path, error) from error
     return path
 
 

@@ -19,6 +19,13 @@ _NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*(.*?)\s*
 _TOKEN = re.compile(r"\s*(\*\*|[*/^()·]|[+-]?\d+|[^\W\d_][^\W\d]*|[°%])")
 _LONGEST = 80
 
+#: Largest magnitude of a quantity in SI units, and of a length, m. Beyond them products of a few
+#: quantities leave the range of doubles, and nothing that is built comes near.
+LARGEST, LONGEST = 1e30, 1e9
+
+#: Magnitudes below these, SI, count as 0, for the same reason.
+SMALLEST, SHORTEST = 1e-60, 1e-30
+
 #: Powers of m, kg, s and rad.
 Powers = tuple[int, int, int, int]
 
@@ -89,12 +96,13 @@ def quantity(value: object, dimension: Dimension, field: str) -> float:
     Returns
     -------
     float
-        In SI units, finite.
+        In SI units; 0 for less than `SMALLEST`, or than `SHORTEST` m.
 
     Raises
     ------
     UnitError
-        Not a number, not finite, an unknown unit, or a unit of another dimension.
+        Not a number, not finite, beyond `LARGEST` or, as a length, beyond `LONGEST`, an unknown
+        unit, or a unit of another dimension.
     """
     if isinstance(value, str):
         return _from_text(value, dimension, field)
@@ -104,9 +112,20 @@ def quantity(value: object, dimension: Dimension, field: str) -> float:
         number = float(value)
     except OverflowError:
         number = float("inf")
+    return _in_range(number, value, dimension, field)
+
+
+def _in_range(number: float, value: object, dimension: Dimension, field: str) -> float:
     if not isfinite(number):
         raise UnitError(field, f"{shown(value)} is not a finite number.", _hint(dimension))
-    return number
+    length = dimension.powers == LENGTH.powers
+    largest, smallest = (LONGEST, SHORTEST) if length else (LARGEST, SMALLEST)
+    if abs(number) > largest:
+        limit = f"{largest:g} {dimension.unit}".strip()
+        raise UnitError(
+            field, f"{shown(value)} is beyond {limit}, the largest that counts.", _hint(dimension)
+        )
+    return number if abs(number) >= smallest else 0.0
 
 
 def _from_text(text: str, dimension: Dimension, field: str) -> float:
@@ -130,9 +149,7 @@ def _from_text(text: str, dimension: Dimension, field: str) -> float:
         number = float(Decimal(digits) * factor)
     except (DecimalException, OverflowError):
         number = float("inf")
-    if not isfinite(number):
-        raise UnitError(field, f"{shown(text)} is not a finite number.", _hint(dimension))
-    return number
+    return _in_range(number, text, dimension, field)
 
 
 def _hint(dimension: Dimension) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,9 +11,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
 from studies.filters import PoseStatus
+from studies.netcdf import netcdf_bytes
 
 _UNITS = {"direction": ("N/m", "N m/rad")}
 
@@ -27,9 +28,8 @@ def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
     ModelError
         The folder cannot be written.
     """
-    return write_whole(
-        Path(path), lambda part: dataset.to_netcdf(part, engine="h5netcdf", format="NETCDF4")
-    )
+    content = netcdf_bytes(dataset)
+    return write_whole(Path(path), lambda part: part.write_bytes(content))
 
 
 def read_netcdf(path: Path) -> xr.Dataset:
@@ -65,7 +65,7 @@ def write_csv(path: Path, dataset: xr.Dataset) -> Path:
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
+            writer = RowWriter(file)
             writer.writerow([dim, *columns])
             writer.writerows(
                 [i, *(_cell(c[i]) for c in columns.values())] for i in range(dataset.sizes[dim])
@@ -99,7 +99,7 @@ def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
+            writer = RowWriter(file)
             writer.writerow(head)
             for index in np.ndindex(*(len(p) for p in places)):
                 where = [_cell(p[i]) for p, i in zip(places, index, strict=True)]

@@ -12,6 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol, TextIO
 
+from strutwork.names import visible
+
 #: Work shorter than this is not worth a word, s.
 PATIENCE = 2.0
 
@@ -81,6 +83,6 @@ class Lines:
         elif done > self._first:
             text += f", about {elapsed * (total - done) / (done - self._first):.0f} s left"
         stream = sys.stderr if self.stream is None else self.stream
-        stream.write(text + "\n")
+        stream.write(visible(text) + "\n")
         stream.flush()
         self._spoke, self._due = not finished, now + INTERVAL

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any, Literal
 
+from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
 
@@ -92,8 +92,8 @@ def write_published(folder: Path, table: str, rows: Iterable[PublishedRow]) -> P
 
     def write(path: Path) -> None:
         with path.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(content)
+            writer = RowWriter(file)
+            writer.writerow(COLUMNS)
+            writer.writerows([row[c] for c in COLUMNS] for row in content)
 
     return write_whole(Path(folder) / file_name(table), write)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -24,6 +23,7 @@ from overconstraint import (
     limit_vector,
 )
 from overconstraint.sensitivity import given_size
+from strutwork.csv_rows import RowWriter
 from strutwork.files import write_whole
 
 Array = NDArray[Any]
@@ -237,7 +237,7 @@ def write_table(path: Path, study: ToleranceStudy) -> Path:
 
     def write(part: Path) -> None:
         with part.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
+            writer = RowWriter(file)
             writer.writerow(head)
             for p, q in np.ndindex(*study.worst.value.shape):
                 quantity, limit = study.quantities[q], float(study.limit[q])

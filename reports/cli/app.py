@@ -7,17 +7,23 @@ from __future__ import annotations
 
 import sys
 import warnings
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
-from strutwork import StrutworkError, __version__
+from reports.cli.choices import Objective, Ranges
+from reports.cli.ending import guarded
+from reports.cli.streams import show_every_character
+from reports.cli.usage import Commands, typed
+from strutwork import __version__
+from strutwork.names import visible
 
 app = typer.Typer(
     name="strutwork",
+    cls=Commands,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
-    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage.",
+    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
+    "3 a result cannot be written, 141 nobody reads the output any more.",
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
@@ -48,44 +54,27 @@ Preload = Annotated[
     str | None,
     typer.Option(
         "--preload",
+        callback=typed,
         metavar="CASE",
         help="Load case under which it vibrates, for the file's preload.",
     ),
 ]
 
 
-class Objective(StrEnum):
-    """What an allocation of tolerances aims at."""
-
-    UNIFORM = "uniform"
-    COST = "cost"
-
-
-class Ranges(StrEnum):
-    """Joints whose ranges a pose must keep."""
-
-    ALL = "all"
-    REVOLUTE = "revolute"
-    NONE = "none"
-
-
 def main() -> None:
     """Run the program: the console script."""
+    show_every_character()
     said: set[str] = set()
 
     def show(message: Warning | str, *_: object, **__: object) -> None:
         # the steps of one command may warn of the same thing
         if str(message) not in said:
-            sys.stderr.write(f"Warning: {message}\n")
+            sys.stderr.write(f"Warning: {visible(str(message), lines=True)}\n")
         said.add(str(message))
 
     with warnings.catch_warnings():
         warnings.showwarning = show
-        try:
-            app()
-        except StrutworkError as error:
-            sys.stderr.write(f"Error: {error}\n")
-            sys.exit(1)
+        sys.exit(guarded(app))
 
 
 def _print_version(wanted: bool) -> None:
@@ -227,7 +216,9 @@ def frf(
     target: Target,
     given: Annotated[
         str,
-        typer.Option("--input", metavar="NODE:DIR", help="Where the force acts, as in TCP:x."),
+        typer.Option(
+            "--input", callback=typed, metavar="NODE:DIR", help="Where the force acts, as in TCP:x."
+        ),
     ],
     low: Annotated[
         float | None,
@@ -236,7 +227,9 @@ def frf(
     high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
-        typer.Option("--output", metavar="NODE:DIR", help="What moves; the input by default."),
+        typer.Option(
+            "--output", callback=typed, metavar="NODE:DIR", help="What moves; the input by default."
+        ),
     ] = None,
     lines: Annotated[
         int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
@@ -309,6 +302,7 @@ def tolerance(
     limit: Annotated[
         list[str] | None,
         typer.Option(
+            callback=typed,
             metavar="[JOINT:]KIND=VALUE",
             help="A force limit beside the file's, as in --limit radial_force=2kN. Repeatable.",
         ),
@@ -387,9 +381,18 @@ def report(
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
     ] = None,
+    verify: Annotated[
+        bool,
+        typer.Option("--verify", help="Compare the report in the folder TARGET with its manifest."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
     from reports.cli import report as work
 
+    if verify:
+        if out is not None:
+            raise typer.BadParameter("--verify writes nothing: leave --out out.")
+        work.verify(target, json)
+        return
     work.run(target, out, json)

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from fea import Port
-from reports.cli.output import console, print_json, table
+from reports.cli.output import console, print_json, table, tell
 from reports.covering_band import covering_band
 from reports.vibration import APART, TargetResponse, target_response, vibration_target
 from strutwork.errors import ModelError
+from strutwork.names import visible
 
 
 def run(
@@ -33,19 +33,19 @@ def run(
         if band is None:
             raise ModelError("frequency band", "has no elastic mode to cover.", "Give a band.")
         if stop:
-            sys.stderr.write(f"Note: {stop}\n")
+            tell(f"Note: {stop}")
     found = target_response(target, *ports, band, lines)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if out is not None and found.is_relative:
-        sys.stderr.write("Note: a universal file knows no motion between two nodes: CSV only.\n")
+        tell("Note: a universal file knows no motion between two nodes: CSV only.")
     if not found.least.certified:
-        sys.stderr.write("Warning: the proof of the minimum was not finished.\n")
+        tell("Warning: the proof of the minimum was not finished.")
     if json:
         print_json(found.to_dict() | ({"data": written} if written else {}))
         return
     _print(found, band)
     for path in written:
-        console().print(f"Written: {path}", markup=False, soft_wrap=True)
+        console().print(f"Written: {visible(path)}", markup=False, soft_wrap=True)
 
 
 def _print(found: TargetResponse, band: tuple[float, float]) -> None:

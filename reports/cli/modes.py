@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import numpy as np
 
-from reports.cli.output import console, print_json, table
+from reports.cli.output import console, print_json, table, tell
 from reports.vibration import TargetModes, target_modes, vibration_target
+from strutwork.names import visible
 
 _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
@@ -27,13 +27,13 @@ def run(
     found = target_modes(vibration_target(name, modal_ratio, loss_factor, preload), count)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if found.modes.note:
-        sys.stderr.write(f"Note: {found.modes.note}\n")
+        tell(f"Note: {found.modes.note}")
     if json:
         print_json(found.to_dict() | ({"data": written} if written else {}))
         return
     _print(found)
     for path in written:
-        console().print(f"Written: {path}", markup=False, soft_wrap=True)
+        console().print(f"Written: {visible(path)}", markup=False, soft_wrap=True)
 
 
 def _print(found: TargetModes) -> None:

@@ -11,6 +11,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemaini
 from rich.progress import Progress as Bars
 
 from reports.cli.output import progress_console
+from strutwork.names import visible
 from studies.progress import Lines, Progress
 
 
@@ -24,7 +25,7 @@ def shown(unit: str = "poses") -> Iterator[Callable[[str], Progress]]:
         yield partial(Lines, unit=unit)
         return
     columns = (
-        TextColumn("{task.description}"),
+        TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),
@@ -32,7 +33,7 @@ def shown(unit: str = "poses") -> Iterator[Callable[[str], Progress]]:
     with Bars(*columns, console=progress_console(), transient=True) as bars:
 
         def started(label: str) -> Progress:
-            task = bars.add_task(label, total=None)
+            task = bars.add_task(visible(label), total=None)
 
             def tell(done: int, total: int, /) -> None:
                 bars.update(task, completed=done, total=total)

@@ -7,6 +7,8 @@ from pathlib import Path
 from reports.build import write_report
 from reports.cli.output import console, print_json
 from reports.cli.progress import shown
+from reports.manifest import verify_report
+from strutwork.names import visible
 
 
 def run(target: str, out: str | None, json: bool) -> None:
@@ -18,5 +20,15 @@ def run(target: str, out: str | None, json: bool) -> None:
         print_json({"report": str(written.report), "data": [str(p) for p in written.data]})
         return
     printed = console()
-    printed.print(f"Report: {written.report}", markup=False, soft_wrap=True)
+    printed.print(f"Report: {visible(str(written.report))}", markup=False, soft_wrap=True)
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)
+
+
+def verify(folder: str, json: bool) -> None:
+    """Compare a report with its manifest and say that it is whole."""
+    found = verify_report(Path(folder))
+    if json:
+        print_json({"report": folder, "files": len(found.files), "whole": True})
+        return
+    whole = f"Whole: {visible(folder)}, {len(found.files)} files"
+    console().print(whole, markup=False, soft_wrap=True)

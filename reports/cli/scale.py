@@ -10,6 +10,7 @@ from rich.console import Console
 
 from reports.cli.output import console, print_json, table
 from strutwork.errors import ModelError
+from strutwork.names import visible
 from strutwork.units import ANGLE, quantity
 from studies.assembly_scale import AssemblyScale, assembly_scale
 from studies.dataset_files import write_long_csv, write_netcdf
@@ -69,7 +70,7 @@ def run(
         _print(screen, machine, found)
         _print_size(screen, machine, size, granite=granite)
         for path in result["data"]:
-            screen.print(path, markup=False, soft_wrap=True)
+            screen.print(visible(path), markup=False, soft_wrap=True)
 
 
 def _lengths(band: tuple[float, float], count: int) -> list[float]:

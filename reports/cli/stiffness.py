@@ -12,6 +12,7 @@ from machines import GridMachine, Machine, NamedMachine, named_machine, roll_ang
 from reports.cli.output import console, print_json, table
 from reports.cli.progress import shown
 from strutwork.errors import ModelError
+from strutwork.names import visible
 from studies import (
     Filters,
     hemisphere,
@@ -155,4 +156,4 @@ def _print(result: dict[str, Any]) -> None:
         columns = ["axis", "mean", "deviation", "worst", "median", "best"]
         out.print(table(f"Stiffness in N/µm, {words}", columns, rows))
     for path in result["data"]:
-        out.print(path, markup=False, soft_wrap=True)
+        out.print(visible(path), markup=False, soft_wrap=True)

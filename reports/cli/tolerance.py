@@ -16,6 +16,7 @@ from overconstraint import joint_quantities
 from reports.cli.output import console, print_json, show, table
 from reports.cli.progress import shown
 from reports.cli.tolerance_limits import parsed_limits
+from strutwork.names import visible
 from studies.dataset_files import write_netcdf
 from studies.tolerance_result import ToleranceStudy, write_table
 from studies.tolerance_study import StudyOptions, tolerance_study
@@ -110,7 +111,7 @@ def _print(
     for note in notes:
         out.print(note, markup=False, highlight=False)
     for path in result["data"]:
-        out.print(path, markup=False, soft_wrap=True)
+        out.print(visible(path), markup=False, soft_wrap=True)
 
 
 def _joints(study: ToleranceStudy, title: str, rows: Sequence[dict[str, Any]]) -> Table:

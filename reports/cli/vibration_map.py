@@ -13,6 +13,7 @@ from reports.cli.output import console, print_json, table
 from reports.cli.progress import shown
 from reports.cli.stiffness import RANGES
 from strutwork.errors import ModelError
+from strutwork.names import visible
 from studies import Filters, dynamic_map, hemisphere, write_csv, write_netcdf
 
 
@@ -108,4 +109,4 @@ def _print(result: dict[str, Any]) -> None:
     ]
     out.print(table("Vibration over the check points", ["", *names], rows))
     for path in result["data"]:
-        out.print(path, markup=False, soft_wrap=True)
+        out.print(visible(path), markup=False, soft_wrap=True)

@@ -42,5 +42,5 @@ def test_folder_that_is_a_file(
     blocked = tmp_path / "blocked"
     blocked.write_text("", encoding="utf-8")
     run = strutwork("report", write(SAMPLE), "-o", blocked, "--json")
-    assert (run.status, run.out) == (1, "")
+    assert (run.status, run.out) == (3, "")
     assert "blocked" in run.err

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from machines.model_file import parse_model, read_model
+from msa import LoadCase, solve
 from reports.model_check import check_model
 from reports.model_solution import solve_model
 from strutwork.errors import NumericalError
@@ -33,6 +34,23 @@ def test_a_door_on_two_rigid_hinges_keeps_what_is_determined() -> None:
     }
     assert set(found["undetermined_reactions"]) == {"g1", "g2"}
     assert found["near_mechanisms"] == []
+
+
+def test_python_masks_what_is_not_determined() -> None:
+    model = read_model(str(MODELS / "door.toml"))
+    found = solve(model.placed, model.cases)
+    name = model.cases[0].name
+    hinge = found.joint_force("h1", name)
+    assert isinstance(hinge, np.ma.MaskedArray)
+    assert hinge.mask.tolist() == [True] * 5 + [False]
+    assert found.to_dict()[name]["joint_forces"]["h1"] == [None] * 5 + [0.0]
+    # where all is determined nothing is masked
+    guide = read_model(str(MODELS / "skew_guide.toml")).placed
+    pushed = solve(guide, [LoadCase("push", wrenches=(("TCP", (0.0, 0, 1, 0, 0, 0)),))])
+    force = pushed.joint_force("guide", "push")
+    assert not isinstance(force, np.ma.MaskedArray)
+    # the guide's own axes turn about its z: the load is across it
+    assert np.hypot(*force[:2]) == pytest.approx(1.0, rel=1e-9)
 
 
 def test_an_unrelated_node_changes_nothing() -> None:

@@ -7,6 +7,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from kinematics import angle, axes_frame, cross_matrix, rotation_y, rotation_z, tangent_rotation
+from kinematics.frames import cross, dot, frame, gathered, turned, vector
 from strutwork.errors import ModelError
 
 # round-off of a few products of numbers of order one
@@ -91,3 +92,31 @@ def test_angle_carries_the_derivative_of_a_complex_step() -> None:
     np.testing.assert_allclose(angle(y, x).imag / step, 1.0, rtol=1e-14)
     np.testing.assert_allclose(angle(y, x).real, turns, rtol=1e-14)
     assert angle(1.0, 1.0) == pytest.approx(np.pi / 4, rel=1e-15)
+
+
+@pytest.mark.parametrize("batch", [(), (7,), (3, 400)])
+@pytest.mark.parametrize("kind", [float, complex])
+def test_vectors_along_the_batch_are_numpys(batch: tuple[int, ...], kind: type) -> None:
+    random = np.random.default_rng(4)
+    a, b = (random.normal(size=(*batch, 3)) + 0.1 * kind(1) for _ in range(2))
+    np.testing.assert_array_equal(vector(a[..., 0], a[..., 1], a[..., 2]), a)
+    np.testing.assert_array_equal(cross(a, b), np.cross(a, b))
+    np.testing.assert_allclose(dot(a, b), (a * b).sum(-1), rtol=1e-13, atol=1e-14)
+    np.testing.assert_array_equal(frame(a, b, a), np.stack([a, b, a], axis=-1))
+    rotation = random.normal(size=(*batch, 3, 3)) * kind(1)
+    points = random.normal(size=(4, 3))
+    found = turned(rotation, points)
+    np.testing.assert_allclose(found, np.einsum("...ij,kj->...ki", rotation, points), atol=1e-13)
+    parts = [frame(a, b, a), np.eye(3), rotation]
+    whole = np.stack([np.broadcast_to(part, rotation.shape) for part in parts], axis=-3)
+    found = gathered(parts, 2)
+    np.testing.assert_array_equal(found, whole)
+    assert found.flags.c_contiguous
+
+
+def test_a_turned_point_has_the_same_digits_alone_as_in_a_batch() -> None:
+    random = np.random.default_rng(4)
+    rotation, points = random.normal(size=(1001, 3, 3)), random.normal(size=(6, 3))
+    whole = turned(rotation, points)
+    for k in (0, 500, 1000):
+        np.testing.assert_array_equal(turned(rotation[k], points), whole[k])

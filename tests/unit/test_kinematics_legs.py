@@ -10,6 +10,7 @@ import pytest
 
 from kinematics import Body, Joint, Linkage, Placement, Poses, jacobians
 from kinematics.leg_chains import leg_chains
+from kinematics.motion_spaces import motion_spaces
 from kinematics.singular_values import FEW, singular_values
 from machines import (
     Alizade3PRPS,
@@ -133,14 +134,26 @@ def test_what_is_no_machine_of_legs_goes_by_all_rows() -> None:
         with pytest.raises(ModelError, match="does not fall into legs"):
             jacobians(linkage, at, "legs")
         assert np.isfinite(jacobians(linkage, at).inverse).all()
+
+
+def test_a_leg_with_more_drives_than_it_needs_has_the_least_rates() -> None:
+    """Leg by leg, and as the null space of all rows has them at the same arm of turning drives."""
     nine = Prototype3PPPRS()
-    found = jacobians(nine.linkage, nine.place(nine.home()))
-    assert found.inverse.shape == (9, 6)
+    placement = placed(nine)
+    found = jacobians(nine.linkage, placement, "legs")
+    assert found.inverse.shape == (*placement.batch, 9, 6)
+    assert found.by_rank is None
+    spaces = motion_spaces(nine.linkage, placement, found.length)
+    # both well conditioned, entries of some tens
+    np.testing.assert_allclose(found.inverse, spaces.inverse, atol=1e-11)
+    np.testing.assert_allclose(found.forward, spaces.forward, atol=1e-11)
+    assert not spaces.serial.any()
+    assert not spaces.parallel.any()
     # more drives than freedoms: no singularity, and the least rates
-    assert not found.singular
+    assert not found.singular.any()
     rotary = [direction.startswith("r") for _, direction in found.driven]
-    arm = np.where(rotary, found.length, 1.0)[:, None]
-    least = np.linalg.pinv(found.forward / arm.T) / arm
+    arm = np.where(rotary, found.length[:, None], 1.0)[..., None]
+    least = np.linalg.pinv(found.forward / np.swapaxes(arm, -1, -2)) / arm
     np.testing.assert_allclose(found.inverse, least, atol=1e-9)
 
 
@@ -171,3 +184,13 @@ def test_singular_values_are_lapacks(shape: tuple[int, int]) -> None:
     size = np.maximum(expected[:, :1], 1e-300)
     np.testing.assert_allclose(found / size, expected / size, rtol=0, atol=1e-13)
     assert (np.diff(found, axis=-1) <= 0).all()
+
+
+def test_the_least_singular_value_keeps_its_size_beside_columns_of_any_scale() -> None:
+    """A column far smaller than the others has its own digits, and any unit of all is as good."""
+    random = np.random.default_rng(5)
+    near = np.linalg.qr(random.normal(size=(FEW, 6, 6)))[0]
+    scales = np.array([1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
+    for unit in (1e-100, 1.0, 1e100):
+        found = singular_values(unit * near * scales) / unit
+        np.testing.assert_allclose(found, np.broadcast_to(scales, found.shape), rtol=1e-12)

@@ -9,7 +9,18 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from msa import Material, PlacedStructure, PointMass, rectangle, rigid_map, rod, system_of
+from kinematics import DIRECTIONS
+from msa import (
+    LoadCase,
+    Material,
+    PlacedStructure,
+    PointMass,
+    rectangle,
+    rigid_map,
+    rod,
+    solve,
+    system_of,
+)
 from msa.mass import (
     local_mass,
     mass_contributions,
@@ -138,6 +149,25 @@ def test_a_point_mass_turns_with_the_nodes_that_carry_its_axes() -> None:
         np.testing.assert_allclose(
             found.inertia[pose], turn @ np.array(inertia) @ turn.T, atol=1e-14
         )
+
+
+def test_the_weight_of_a_mass_acts_at_its_centre_in_every_pose() -> None:
+    turns = Rotation.from_euler("zyx", [[0.0, 0.0, 0.0], [0.7, 0.2, -0.4]]).as_matrix()
+    model = Model("o")
+    corners = {"o": (0.0, 0, 0), "x": (0.3, 0, 0), "y": (0.1, 0.2, 0)}
+    model.nodes(**{n: turns @ np.array(p) for n, p in corners.items()})
+    model.ground(g=(0.0, 0.0, 0.0))
+    model.rigid("body", "o", "x", "y")
+    model.joint("mount", "bushing", ("g", "o"), stiffness=dict.fromkeys(DIRECTIONS, 1e6))
+    offset, gravity = (0.02, 0.05, -0.03), (1.0, 2.0, -9.81)
+    model.masses.append(PointMass("o", 4.0, offset=offset, axes=("o", "x", "y")))
+    placed = model.place()
+    found = solve(placed, [LoadCase("weight", gravity=gravity)])
+    force = 4.0 * np.array(gravity)
+    for pose, turn in enumerate(turns):
+        moved = found.displacement("o", "weight")[pose]
+        np.testing.assert_allclose(moved[:3], force / 1e6, rtol=1e-9)
+        np.testing.assert_allclose(moved[3:], np.cross(turn @ offset, force) / 1e6, rtol=1e-9)
 
 
 def two_beams_and_a_mass(mass: str = "consistent") -> Model:

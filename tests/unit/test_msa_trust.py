@@ -151,6 +151,33 @@ def test_a_wrong_inverse_is_corrected_or_withheld() -> None:
         solve_trusted(system, off(1.5), load, empty)  # type: ignore[arg-type]
 
 
+def test_poses_that_are_sure_are_not_solved_again() -> None:
+    """Only the pose whose inverse is poor takes many steps; all are right."""
+    one = chain([1e6, 1e9, 1e6])
+    lengths = np.array([1.0, 1.5, 2.0, 3.0])
+    places = lengths[:, None, None] * one.placement.positions
+    frames = np.broadcast_to(np.eye(3), (4, 3, 3, 3))
+    system = system_of(one.structure.at(Placement(places, frames, np.zeros((4, 0)))))
+    share = np.array([1e-9, 1e-9, 3e-2, 1e-9])[:, None, None]
+    inverse = np.linalg.inv(system.stiffness) * (1 + share)
+    load = np.zeros((4, 18, 1))
+    load[:, 13] = 1.0
+    handed: list[int] = []
+
+    def apply(force: np.ndarray, gap: np.ndarray, poses: object) -> tuple[np.ndarray, np.ndarray]:
+        handed.append(len(force))
+        return inverse[poses] @ force, gap
+
+    found = solve_trusted(system, apply, load, np.zeros((4, 0, 1)))
+    exact = np.linalg.solve(system.stiffness, load)
+    np.testing.assert_allclose(found.displacements, exact, rtol=1e-9, atol=1e-16)
+    assert np.all(found.error <= TRUSTED)
+    # the first solution, its correction, then steps that the good poses leave at once
+    assert handed[:2] == [4, 4]
+    assert len(handed) > 6
+    assert handed[-4:] == [1, 1, 1, 1]
+
+
 def test_perturbed_solutions_are_out_of_balance() -> None:
     """Along the softest motion a wrong answer hides from the residual, not from the correction."""
     placed = chain([1.0, 1e9, 1e9])

@@ -1,0 +1,58 @@
+"""Names as they may be shown: nothing in them acts on a terminal or turns a line around."""
+
+from __future__ import annotations
+
+import unicodedata
+
+#: Joiners without which words of some scripts and some signs fall apart; they turn nothing.
+_JOINERS = "\u200c\u200d"
+
+#: Controls, formats (bidirectional ones among them), halves of pairs, and ends of lines.
+_HIDDEN = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
+
+_SHORT = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
+
+
+def is_hidden(character: str) -> bool:
+    r"""Whether a character shows nothing and may act on what shows the others.
+
+    >>> is_hidden("\x1b"), is_hidden("\u202e"), is_hidden("ö")
+    (True, True, False)
+    """
+    return unicodedata.category(character) in _HIDDEN and character not in _JOINERS
+
+
+def visible(text: str, *, lines: bool = False) -> str:
+    r"""The text with its hidden characters written out, as in a Python string.
+
+    Parameters
+    ----------
+    text : str
+        Bytes of a file name that are no UTF-8 (`surrogateescape`) come out as `\xff`.
+    lines : bool
+        Whether ends of lines stay, as in a message of several lines.
+
+    Returns
+    -------
+    str
+        Encodes as UTF-8.
+
+    >>> print(visible("\x1b[2Jtip\n"))
+    \x1b[2Jtip\n
+    """
+    # most texts hold nothing hidden
+    if text.isprintable():
+        return text
+    return "".join(_written(c) if is_hidden(c) and not (lines and c == "\n") else c for c in text)
+
+
+def _written(character: str) -> str:
+    code = ord(character)
+    if character in _SHORT:
+        return _SHORT[character]
+    # what stands for a byte that is no UTF-8 shows the byte
+    if 0xDC80 <= code <= 0xDCFF:
+        code -= 0xDC00
+    if code < 0x100:
+        return f"\\x{code:02x}"
+    return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
