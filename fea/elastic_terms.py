@@ -14,6 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fea.sfepy_home import import_sfepy
 from fea.solid import Solid
 from msa.materials import Material
 from strutwork.errors import NumericalError
@@ -42,6 +43,7 @@ def sfepy() -> SimpleNamespace:
     """
     printing = np.get_printoptions()
     with contextlib.redirect_stdout(io.StringIO()), _quiet():
+        import_sfepy()
         from sfepy.base.base import output  # noqa: PLC0415
 
         output.set_output(quiet=True)

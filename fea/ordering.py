@@ -18,10 +18,10 @@ except ImportError:  # factorisations have orders of their own too, SuperLU's wi
     pymetis = None
 
 try:
-    from numba import njit
+    from strutwork.jit import jit
 except ImportError:  # the same code runs without numba, slower
 
-    def njit(*_: Any, **__: Any) -> Any:  # type: ignore[no-redef]
+    def jit(*, contract: bool = False) -> Any:  # noqa: ARG001
         """Leave the function as it is."""
         return lambda function: function
 
@@ -99,7 +99,7 @@ def _alike(pattern: sp.csr_array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return group, np.argsort(group, kind="stable")
 
 
-@njit(cache=True, nogil=True)
+@jit()
 def _counts(starts, neighbours, order, weight):  # type: ignore[no-untyped-def]
     """Rows below the diagonal in each column of the factor, weighted, in elimination order."""
     n = order.size

@@ -22,15 +22,15 @@ TOLERANCE = 1e-6
 WAITING = 4096
 
 try:
-    from numba import njit
+    from strutwork.jit import jit
 except ImportError:  # the same code runs without numba, slower
 
-    def njit(*_: Any, **__: Any) -> Any:  # type: ignore[no-redef]
+    def jit(*, contract: bool = False) -> Any:  # noqa: ARG001
         """Leave the function as it is."""
         return lambda function: function
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _magnitude(omega, products, square, viscous, eta, moving, alpha):  # type: ignore[no-untyped-def]
     """|H|² and its first two derivatives by ω."""
     h0 = h1 = h2 = 0.0 + 0.0j
@@ -56,7 +56,7 @@ def _magnitude(omega, products, square, viscous, eta, moving, alpha):  # type: i
     return f0, f1, f2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _cell_bound(low, high, f0, f1, products, square, viscous, eta, moving, alpha):  # type: ignore[no-untyped-def]
     """Bound of |H|² over a cell from its value and slope in the middle.
 
@@ -83,7 +83,7 @@ def _cell_bound(low, high, f0, f1, products, square, viscous, eta, moving, alpha
     return min(size * size, f0 + abs(f1) * half + half * half * (first**2 + size * second))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _largest(products, square, viscous, eta, moving, alpha, low, high, starts, tolerance):  # type: ignore[no-untyped-def]
     """Place, magnitude and certified bound of the maximum over [low, high]."""
     best, place = -1.0, low
@@ -143,7 +143,7 @@ def _largest(products, square, viscous, eta, moving, alpha, low, high, starts, t
     return place, np.sqrt(max(value, best)), bound
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def largest_magnitudes(products, square, viscous, eta, moving, alpha, low, high, tolerance):  # type: ignore[no-untyped-def]
     """Largest |H| over a band for stacks of modal sums.
 

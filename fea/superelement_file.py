@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import io
-import os
-import warnings
 import zipfile
 from collections.abc import Callable, Iterable
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fea.superelement import Superelement
-from strutwork import __version__
-from strutwork.errors import ModelError
+from strutwork.cache_folder import note_once, reason, user_cache
+from strutwork.errors import ModelError, StrutworkError
 from strutwork.files import write_whole
+from strutwork.source_digest import source_digest
 
 Array = NDArray[Any]
 
@@ -27,14 +27,18 @@ LARGEST = 8 * 2**30
 _ARRAYS = ("positions", "local_stiffness", "local_mass", "shapes", "fixed_frequencies")
 _MARK = b"strutwork superelement 1\n"
 
-
-class CacheWarning(UserWarning):
-    """A stored superelement that could not be used and was made anew."""
+#: The code that makes superelements: packages of our own by their sources, others by version.
+_OWN = ("strutwork", "kinematics", "meshes", "msa", "fea")
+_OTHERS = ("numpy", "scipy", "sfepy")
 
 
 def fingerprint(parts: Iterable[Any]) -> str:
-    """Name of a content: arrays by type, shape and bytes, everything else by its `repr`."""
-    digest = hashlib.sha256(__version__.encode())
+    """Name of a content, and of the code that makes something of it.
+
+    Arrays count by type, shape and bytes, everything else by its `repr`.
+    """
+    digest = hashlib.sha256(source_digest(*_OWN).encode())
+    digest.update(repr([version(name) for name in _OTHERS]).encode())
     for part in parts:
         if isinstance(part, np.ndarray):
             digest.update(f"{part.dtype.str}{part.shape}".encode())
@@ -104,10 +108,10 @@ def read_superelement(path: Path) -> Superelement:
         ) from error
 
 
-def cache_folder() -> Path:
-    """Where superelements are kept: `$XDG_CACHE_HOME/strutwork`, else `~/.cache/strutwork`."""
-    base = os.environ.get("XDG_CACHE_HOME")
-    return (Path(base) if base else Path.home() / ".cache") / "strutwork" / "superelements"
+def cache_folder() -> Path | None:
+    """Where superelements are kept: `superelements` in `user_cache`; None where that is nowhere."""
+    user = user_cache()
+    return None if user is None else user / "superelements"
 
 
 def cached_superelement(
@@ -130,17 +134,43 @@ def cached_superelement(
     Warns
     -----
     CacheWarning
-        A stored file was damaged, or the folder cannot be written; the result is good.
+        Once a process each: a stored file cannot be read or is damaged; the folder cannot be
+        written. The result is good.
     """
-    path = (folder or cache_folder()) / f"{fingerprint(content)}.superelement"
-    if path.exists():
-        try:
-            return read_superelement(path)
-        except ModelError as error:
-            warnings.warn(f"{error.part}: {error.problem} It is made anew.", CacheWarning, 2)
+    folder = cache_folder() if folder is None else folder
+    if folder is None:
+        _note_not_kept("there is no home folder")
+        return make()
+    path = folder / f"{fingerprint(content)}.superelement"
+    stored = _stored(path)
+    if stored is not None:
+        return stored
     element = make()
     try:
         write_superelement(element, path)
-    except ModelError as error:
-        warnings.warn(f"superelement {element.name} was not stored: {error}", CacheWarning, 2)
+    except (StrutworkError, OSError) as error:
+        why = error.problem if isinstance(error, StrutworkError) else f"{reason(error)}."
+        _note_not_kept(f"{folder} {why.rstrip('.')}")
     return element
+
+
+def _stored(path: Path) -> Superelement | None:
+    """What is stored, if it is there and whole."""
+    try:
+        path.lstat()
+    except OSError:
+        # where there is one that cannot be reached, storing fails too and says why
+        return None
+    try:
+        return read_superelement(path)
+    except ModelError as error:
+        note_once(str(path), f"{error.part}: {error.problem} It is made anew.")
+        return None
+
+
+def _note_not_kept(why: str) -> None:
+    note_once(
+        f"superelements: {why}",
+        f"superelements cannot be kept for later runs: {why}. The results are the same; each run "
+        "reduces the solids anew. Set XDG_CACHE_HOME to a folder that takes files.",
+    )

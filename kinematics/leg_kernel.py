@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from strutwork.jit import jit
 
 Array = NDArray[Any]
 
@@ -22,7 +23,7 @@ SWEEPS = 30
 NOTHING = 1e-150
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _screws(p, leg, positions, frames, size, m):  # type: ignore[no-untyped-def]
     """Screws of a leg at the tool on (v / L, ω), as columns of m."""
     first, last = p.start[leg], p.start[leg + 1]
@@ -41,7 +42,7 @@ def _screws(p, leg, positions, frames, size, m):  # type: ignore[no-untyped-def]
             m[3, c], m[4, c], m[5, c] = 0.0, 0.0, 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _largest(m, row, column, end):  # type: ignore[no-untyped-def]
     """Largest entry from `row` and `column` on, its row and its column."""
     best, at, which = 0.0, row, column
@@ -52,7 +53,7 @@ def _largest(m, row, column, end):  # type: ignore[no-untyped-def]
     return best, at, which
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _eliminate(m, end, order):  # type: ignore[no-untyped-def]
     """Gauss elimination of the columns before `end`, with complete pivoting.
 
@@ -82,7 +83,7 @@ def _eliminate(m, end, order):  # type: ignore[no-untyped-def]
     return row, doubtful
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _reciprocal(m, row, order, begin, drives, y, z):  # type: ignore[no-untyped-def]
     """Wrenches that do no work on the eliminated screws, beside their work on the drives.
 
@@ -106,7 +107,7 @@ def _reciprocal(m, row, order, begin, drives, y, z):  # type: ignore[no-untyped-
             y[k, d] = work
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _solve(y, count, width):  # type: ignore[no-untyped-def]
     """Make the first `count` columns of as many rows an identity; False near a singularity."""
     for k in range(count):
@@ -130,7 +131,7 @@ def _solve(y, count, width):  # type: ignore[no-untyped-def]
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _least(y, count, drives, gram, rates):  # type: ignore[no-untyped-def]
     """Least rates of more drives than wrenches: Dᵀ (D Dᵀ)⁻¹ Yᵀ; False near a singularity.
 
@@ -153,7 +154,7 @@ def _least(y, count, drives, gram, rates):  # type: ignore[no-untyped-def]
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _rates_of_leg(p, leg, positions, frames, size, work):  # type: ignore[no-untyped-def]
     """Rates of a leg's drives per tool motion on (v / L, ω); False near a singularity."""
     m, order, y, z, gram, rates = work
@@ -176,7 +177,7 @@ def _rates_of_leg(p, leg, positions, frames, size, work):  # type: ignore[no-unt
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-untyped-def]
     """Inverse Jacobians of q poses; see `leg_jacobians.legs_compiled`."""
     m, order = np.empty((6, 12)), np.empty(6, dtype=np.int64)
@@ -207,7 +208,7 @@ def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-un
         good[q] = sound
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _rounds(columns):  # type: ignore[no-untyped-def]
     """Each pair of columns once, (rounds, pairs of a round, 2): a tournament's circle.
 
@@ -225,7 +226,7 @@ def _rounds(columns):  # type: ignore[no-untyped-def]
     return pairs
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _sweep(a, size, pairs, tangent):  # type: ignore[no-untyped-def]
     """Turn each pair of columns (rows of a) so that it becomes orthogonal; False where all were."""
     rotated = False
@@ -260,7 +261,7 @@ def _sweep(a, size, pairs, tangent):  # type: ignore[no-untyped-def]
     return rotated
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _squares(a, size):  # type: ignore[no-untyped-def]
     for c in range(a.shape[0]):
         size[c] = 0.0
@@ -268,7 +269,7 @@ def _squares(a, size):  # type: ignore[no-untyped-def]
             size[c] += a[c, i] * a[c, i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _longest(a, begin):  # type: ignore[no-untyped-def]
     """Largest square of the rows from `begin` on, and which row it is."""
     best, at = -1.0, begin
@@ -281,7 +282,7 @@ def _longest(a, begin):  # type: ignore[no-untyped-def]
     return best, at
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def _triangle(a, m):  # type: ignore[no-untyped-def]
     """R of a Gram-Schmidt elimination of the rows of a, the longest first, into rows of m.
 
@@ -313,7 +314,7 @@ def _triangle(a, m):  # type: ignore[no-untyped-def]
                 a[c, i] -= dot * a[k, i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def jacobi_values(matrices, values):  # type: ignore[no-untyped-def]
     """Singular values of (q, m, n) matrices, m ≥ n, by one-sided Jacobi (Hestenes 1958)."""
     count, rows, columns = matrices.shape

@@ -9,12 +9,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from msa.kernel_assembly import assemble, axes_and_pivots
 from msa.kernel_loops import LANES, close_loops, loops_residual, told
 from msa.program import Program
+from strutwork.jit import jit
 
 Array = NDArray[Any]
 
@@ -22,7 +22,7 @@ Array = NDArray[Any]
 VANISHED = 1e-12
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _eliminate(p, matrix, factor, inverse, scaled, smallest):  # type: ignore[no-untyped-def]
     """L D Lᵀ of K in place; pivots' inverses (c, w), zero where the pivot has vanished."""
     factor[:] = 0.0
@@ -51,7 +51,7 @@ def _eliminate(p, matrix, factor, inverse, scaled, smallest):  # type: ignore[no
                     factor[target, w] -= scaled[w] * factor[other, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _tool_loads(p, point, axis, pivot, entry, load):  # type: ignore[no-untyped-def]
     """Unit wrenches at the tool on the coordinates, (c, 6, w); zero but for the last ones."""
     load[:] = 0.0
@@ -77,7 +77,7 @@ def _tool_loads(p, point, axis, pivot, entry, load):  # type: ignore[no-untyped-
                 load[i, d, w] += entry[e, w] * load[c, d, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _solve_one(p, factor, inverse, load, x, force):  # type: ignore[no-untyped-def]
     """Solve K x = f, (c, w), for one wrench in which all six parts take part."""
     count = p.diagonal.shape[0]
@@ -106,7 +106,7 @@ def _solve_one(p, factor, inverse, load, x, force):  # type: ignore[no-untyped-d
                 x[c, w] -= factor[slot, w] * inverse[c, w] * x[row, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
     """Largest residual of K x = f as a share of f, (w); r holds f on entry."""
     count = p.diagonal.shape[0]
@@ -133,7 +133,7 @@ def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
             share[w] = max(share[w], told(one, np.inf))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _compliance(p, factor, inverse, load, result):  # type: ignore[no-untyped-def]
     """C = Yᵀ D⁻¹ Y with L Y = loads; only the tool's coordinates take part, (6, 6, w)."""
     if p.tool_touches.shape[0] > 0:
@@ -152,7 +152,7 @@ def _compliance(p, factor, inverse, load, result):  # type: ignore[no-untyped-de
                     result[i, j, w] += load[c, i, w] * load[c, j, w] * inverse[c, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore[no-untyped-def]
     """Tool compliance of the poses start to stop.
 

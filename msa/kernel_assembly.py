@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from msa.kernel_loops import LANES, parted
+from strutwork.jit import jit
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def axes_and_pivots(p, point, frame, axis, pivot):  # type: ignore[no-untyped-def]
     """Direction and pivot of every coordinate: axis, pivot (c, 3, w)."""
     for c in range(p.axis_joint.shape[0]):
@@ -24,7 +24,7 @@ def axes_and_pivots(p, point, frame, axis, pivot):  # type: ignore[no-untyped-de
                     axis[c, k, w] = p.axis_sign[c] * frame[j, k, d, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _element_axes(p, item, point, frame, ends, local, length):  # type: ignore[no-untyped-def]
     """Ends (2, 3, w), local axes as rows (3, 3, w) and length (w) of a beam element."""
     beam = p.item_beam[item]
@@ -65,7 +65,7 @@ def _element_axes(p, item, point, frame, ends, local, length):  # type: ignore[n
         local[1, 2, w] = ux * y - uy * x
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _strains(p, t, axis, pivot, ends, local, length, strain):  # type: ignore[no-untyped-def]
     """The six deformations of a beam element per unit of one coordinate, (6, w).
 
@@ -106,7 +106,7 @@ def _strains(p, t, axis, pivot, ends, local, length, strain):  # type: ignore[no
         strain[5, w] = second * ty + chord_z
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _followed(p, item, entry, strain, reduced):  # type: ignore[no-untyped-def]
     """An item's deformations per unit of its independent coordinates, from those of all."""
     s = p.spread
@@ -128,7 +128,7 @@ def _followed(p, item, entry, strain, reduced):  # type: ignore[no-untyped-def]
     return reduced
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _add_links(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
     """Add springs and elastic joints that carry nothing to K."""
     _, _, _, strain, reduced, stress = work
@@ -156,7 +156,7 @@ def _add_links(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def
                         matrix[slot, w] += stress[a, w] * motion[j, a, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def assemble(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
     """Stiffness K on the independent coordinates, by slots, (k, w)."""
     point, frame, axis, pivot = geometry

@@ -8,7 +8,8 @@ from it is told.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from strutwork.jit import jit
 
 #: Poses in step: every scalar operation is one over a row of lanes that the processor does at
 #: once. 64 lanes of a hundred-dof frame still fit a second-level cache.
@@ -21,13 +22,13 @@ SNAP = 1e-13
 CANCELLED = 1e-14
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@jit()
 def told(value, instead):  # type: ignore[no-untyped-def]
     """The value, or `instead` of NaN, which would hide in comparisons."""
     return instead if np.isnan(value) else value
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def parted(p, c, ends, nodes, joint, geometry, strain):  # type: ignore[no-untyped-def]
     """Motion of a second node against a first per unit of coordinate c, (6, w).
 
@@ -74,7 +75,7 @@ def parted(p, c, ends, nodes, joint, geometry, strain):  # type: ignore[no-untyp
                 )
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _closing_rows(p, geometry, store, strain):  # type: ignore[no-untyped-def]
     """Rows of all loops on scaled coordinates, one loop after another, (s, w)."""
     q = p.loops
@@ -95,7 +96,7 @@ def _closing_rows(p, geometry, store, strain):  # type: ignore[no-untyped-def]
                         store[at, w] = size * strain[d, w]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def _reflect(rows, height, known, width, factor, pivots, pivot, rest):  # type: ignore[no-untyped-def]
     """Make the first `known` columns of the rows triangular, in place.
 
@@ -131,7 +132,7 @@ def _reflect(rows, height, known, width, factor, pivots, pivot, rest):  # type: 
                 rest[w] = max(rest[w], told(size, np.inf))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def close_loops(p, geometry, store, entry, work, smallest, rest):  # type: ignore[no-untyped-def]
     """Shares of independent in dependent coordinates, by entries (x, w).
 
@@ -177,7 +178,7 @@ def close_loops(p, geometry, store, entry, work, smallest, rest):  # type: ignor
                     entry[at, w] = 0.0 if abs(x) < SNAP * largest[w] else x * outward / inward
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "nsz"})
+@jit(contract=True)
 def loops_residual(p, store, entry, x, share, total, size):  # type: ignore[no-untyped-def]
     """Raise `share` (w) to the largest miss of a closing row, of the largest terms of its loop.
 

@@ -2,7 +2,8 @@
 
 say() { printf '%s\n' "$*" >&2; }
 
-# Debian packages $2... because $1 is missing; without root rights the reader is told what to run.
+# Debian packages $2... because $1 is missing. At a terminal the reader is asked; else root installs
+# them, as a build does, but sudo is used only where STRUTWORK_INSTALL=yes says so.
 debian_install() {
     missing=$1
     shift
@@ -13,17 +14,40 @@ debian_install() {
     fi
     if [ "$(id -u)" -eq 0 ]; then
         as_root='env'
-    elif command -v sudo >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
+    elif command -v sudo >/dev/null 2>&1; then
         as_root='sudo'
     else
-        say "$missing is missing, and installing it takes root rights. Run as root, then try again:"
-        say "    apt-get update && apt-get install -y $*"
-        exit 1
+        not_installed "$missing is missing, and installing it takes root rights." "$@"
+    fi
+    if [ "${STRUTWORK_INSTALL:-}" = yes ]; then
+        :
+    elif [ "${STRUTWORK_INSTALL:-}" = no ]; then
+        not_installed "$missing is missing, and STRUTWORK_INSTALL=no." "$@"
+    elif [ -t 0 ] && [ -t 2 ]; then
+        say "$missing is missing. It comes with the Debian packages: $*"
+        if [ "$as_root" = sudo ]; then how=' with sudo'; else how=''; fi
+        printf 'Install them%s? [y/N] ' "$how" >&2
+        read -r answer || answer=''
+        case $answer in
+            [yY] | [yY][eE][sS]) ;;
+            *) not_installed "Nothing was installed." "$@" ;;
+        esac
+    elif [ "$as_root" = sudo ]; then
+        not_installed "$missing is missing, and without a terminal to ask at, sudo is not used." "$@"
     fi
     say "Installing $missing (Debian packages: $*) ..."
     $as_root apt-get update -qq >/dev/null
     $as_root env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y -qq --no-install-recommends "$@" >/dev/null
+}
+
+# End with the reason $1 and what to run for the Debian packages $2...
+not_installed() {
+    say "$1 Run this as root, then try again:"
+    shift
+    say "    apt-get update && apt-get install -y $*"
+    say "STRUTWORK_INSTALL=yes lets this script do it, with sudo where you are not root."
+    exit 1
 }
 
 # A Python of version 3.11 or newer: $PYTHON when set, else the first found.

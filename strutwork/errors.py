@@ -81,3 +81,7 @@ class ProportionWarning(ModelWarning):
 
 class PoseWarning(UserWarning):
     """Some poses of a batch have no answer; the message counts them by reason."""
+
+
+class CacheWarning(UserWarning):
+    """Something that is kept for later runs cannot be kept or read; the result is not affected."""
