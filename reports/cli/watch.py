@@ -90,7 +90,8 @@ def _watch(ear: socket.socket, done: threading.Event) -> None:
 
 
 def _say(at: Stage, now: float) -> None:
-    if at.silent:
+    # that work goes on without a word of what it is helps who waits at a terminal only
+    if at.silent or (not at.what and not sys.stderr.isatty()):
         return
     try:
         text = at.line(now)

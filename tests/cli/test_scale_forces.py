@@ -31,7 +31,7 @@ def test_scale_in_json_tables_and_files(strutwork: Program, tmp_path: Path) -> N
     [
         (("eclipse-3pprs",), "mit-ss1"),
         (("mit-ss1", "--from", "2", "--to", "1"), "from 2 to 1 m"),
-        (("mit-ss1", "--from", "0"), "above zero"),
+        (("mit-ss1", "--from", "0"), "--from of at least"),
         (("mit-ss1", "--tilt", "3 mm"), "an angle"),
         (("mit-ss1", "--tilt", "-3e-4"), "positive"),
         (("mit-ss1", "--width-ratio", "0"), "width"),
