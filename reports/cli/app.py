@@ -11,7 +11,7 @@ from typing import Annotated
 
 import typer
 
-from reports.cli.choices import Objective, Ranges
+from reports.cli.choices import Json, Loss, ModelFile, Objective, Preload, Ranges, Ratio, Target
 from reports.cli.ending import OUT_OF_RANGE, guarded
 from reports.cli.streams import show_every_character
 from reports.cli.usage import Commands, typed
@@ -30,36 +30,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-ModelFile = Annotated[str, typer.Argument(metavar="FILE", help="A model file (TOML).")]
-Json = Annotated[
-    bool, typer.Option("--json", help="Print one JSON object, in SI units, and nothing else.")
-]
-
-Target = Annotated[
-    str,
-    typer.Argument(
-        metavar="FILE_OR_MACHINE", help="A model file, or a machine: NAME or NAME:VARIANT."
-    ),
-]
-Ratio = Annotated[
-    float | None,
-    typer.Option("--modal-ratio", help="Damping ratio of every mode, for the file's damping."),
-]
-Loss = Annotated[
-    float | None,
-    typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
-]
-
-Preload = Annotated[
-    str | None,
-    typer.Option(
-        "--preload",
-        callback=typed,
-        metavar="CASE",
-        help="Load case under which it vibrates, for the file's preload.",
-    ),
-]
 
 
 def main() -> None:

@@ -1,8 +1,13 @@
-"""Words that options take."""
+"""Arguments and options that several commands share, and the words that options take."""
 
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from reports.cli.usage import typed
 
 
 class Objective(StrEnum):
@@ -18,3 +23,34 @@ class Ranges(StrEnum):
     ALL = "all"
     REVOLUTE = "revolute"
     NONE = "none"
+
+
+ModelFile = Annotated[str, typer.Argument(metavar="FILE", help="A model file (TOML).")]
+Json = Annotated[
+    bool, typer.Option("--json", help="Print one JSON object, in SI units, and nothing else.")
+]
+
+Target = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE_OR_MACHINE", help="A model file, or a machine: NAME or NAME:VARIANT."
+    ),
+]
+Ratio = Annotated[
+    float | None,
+    typer.Option("--modal-ratio", help="Damping ratio of every mode, for the file's damping."),
+]
+Loss = Annotated[
+    float | None,
+    typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
+]
+
+Preload = Annotated[
+    str | None,
+    typer.Option(
+        "--preload",
+        callback=typed,
+        metavar="CASE",
+        help="Load case under which it vibrates, for the file's preload.",
+    ),
+]
