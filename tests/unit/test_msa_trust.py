@@ -9,7 +9,7 @@ from kinematics import GROUND, Body, Joint, Linkage, Placement
 from machines.model_file import parse_model
 from msa import LoadCase, PlacedStructure, Structure, solve, system_of, tool_compliance
 from msa.nodal import unbalanced
-from msa.trust import TRUSTED, solve_trusted
+from msa.trust import HELD, TRUSTED, solve_trusted
 from strutwork.errors import MechanismError, NumericalError
 
 METHODS = ["saddle_point", "null_space", "condensed", "sparse"]
@@ -83,6 +83,39 @@ def test_stiffness_contrast(stiffness: list[float], method: str) -> None:
     exact = chain_compliance(stiffness)
     assert found[1, 1] == pytest.approx(exact, rel=1e-8)
     assert found[0, 0] == pytest.approx(float(sum(1 / Fraction(k) for k in stiffness)), rel=1e-7)
+
+
+@pytest.mark.parametrize(
+    "seeds", [range(20), pytest.param(range(20, 400), marks=pytest.mark.slow)], ids=["few", "many"]
+)
+def test_random_chains_are_right_and_never_refused(seeds: range) -> None:
+    """Two to 24 blocks, stiffness contrast up to 1e12, arms of a centimetre to ten metres.
+
+    Compliance to 1e-8, which every displacement is held to; forces, which are one everywhere, to
+    the 1e-6 of `HELD`.
+    """
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        n, contrast = int(rng.integers(2, 25)), rng.uniform(0, 12)
+        stiffness = [float(10 ** rng.uniform(12 - contrast, 12)) for _ in range(n)]
+        step = float(10 ** rng.uniform(-2, 1))
+        one = chain(stiffness)
+        at = one.placement
+        placed = one.structure.at(Placement(step * at.positions, at.frames, at.values))
+        tip = one.structure.linkage.nodes[-1]
+        exact = sum(
+            (1 + (Fraction(step) * (n - i)) ** 2) / Fraction(k) for i, k in enumerate(stiffness)
+        )
+        for method in METHODS:
+            found = solve(placed, [LoadCase("push", ((tip, (0.0, 1.0, 0, 0, 0, 0)),))], method)  # type: ignore[arg-type]
+            moved = found.displacement(tip, "push")[1]
+            assert moved == pytest.approx(float(exact), rel=1e-8), seed
+            assert np.abs(found.joint_forces[:, 1, 0]) == pytest.approx(1.0, rel=HELD), seed
+            # moments grow with the arm: held to the largest of them
+            turning = [step * (n - i) for i in range(n)]
+            assert np.abs(found.joint_forces[:, 5, 0]) == pytest.approx(
+                turning, abs=HELD * max(1.0, n * step)
+            ), seed
 
 
 def test_beyond_extended_precision_it_is_right_or_withheld() -> None:
