@@ -69,10 +69,11 @@ def _small_files() -> None:
         ("map", "proposed-3pprs", "--lattice", "1"),
         ("tolerance", "mit-ss1", "--samples", "100"),
         ("modes", "examples/03_tripod.toml", "-n", "2"),
-        ("scale", "mit-ss1", "--lengths", "2"),
-        ("report", MODEL),
+        # what these write goes through the same two functions
+        pytest.param(("scale", "mit-ss1", "--lengths", "2"), marks=pytest.mark.slow),
+        pytest.param(("report", MODEL), marks=pytest.mark.slow),
     ],
-    ids=lambda arguments: arguments[0],
+    ids=["map", "tolerance", "modes", "scale", "report"],
 )
 def test_a_full_disk(tmp_path: Path, arguments: tuple[str, ...]) -> None:
     # once without the limit, which also fills the caches
@@ -84,7 +85,7 @@ def test_a_full_disk(tmp_path: Path, arguments: tuple[str, ...]) -> None:
     assert not [p for p in tmp_path.rglob("*") if p.is_file() and p.parent.name != "good"]
 
 
-@pytest.mark.parametrize("out", ["/dev/full", MODEL])
+@pytest.mark.parametrize("out", [pytest.param("/dev/full", marks=pytest.mark.slow), MODEL])
 def test_an_output_that_is_no_folder(out: str) -> None:
     for command in (("tolerance", "mit-ss1", "--samples", "100"), ("report", MODEL)):
         status, said = run(*command, "-o", out)

@@ -209,6 +209,7 @@ def test_code_does_not_outlive_a_changed_callee(tmp_path: Path) -> None:
     assert new.name != old.name
 
 
+@pytest.mark.slow
 def test_eight_processes_on_a_cold_cache(tmp_path: Path) -> None:
     home = tiny(tmp_path / "site")
     children = [start(home) for _ in range(8)]
