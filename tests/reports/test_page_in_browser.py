@@ -31,7 +31,7 @@ OVERFLOW = """
 """
 
 
-@pytest.mark.parametrize("width", WIDTHS)
+@pytest.mark.parametrize("width", [WIDTHS[0], pytest.param(WIDTHS[1], marks=pytest.mark.slow)])
 def test_page_is_drawn_quiet_and_offline(
     browser: Browser, any_report: WrittenReport, width: int
 ) -> None:
@@ -52,9 +52,19 @@ def test_page_is_drawn_quiet_and_offline(
     assert any_report.report.resolve().as_uri() in browser.requests
 
 
+#: Drawing in software takes a minute for these; the others show the same kinds of views.
+LONG_VIEWS = ["comparison", "machine", "tolerance"]
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["prototype", "model", "planar", "hexapod"]
+    + [pytest.param(kind, marks=pytest.mark.slow) for kind in LONG_VIEWS],
+)
 def test_three_dimensional_views_show_something(
-    browser: Browser, any_report: WrittenReport
+    browser: Browser, kind: str, request: pytest.FixtureRequest
 ) -> None:
+    any_report: WrittenReport = request.getfixturevalue(f"{kind}_report")
     browser.open(any_report.report, WIDTHS[0])
     solids = browser.evaluate(
         "[...document.querySelectorAll('figure.plot')]"
