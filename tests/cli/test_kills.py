@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from fea.superelement_file import read_superelement
 from reports.manifest import verify_report
 from strutwork.staging import PREFIX
 from studies.chunks import ChunkStore
@@ -36,6 +37,22 @@ for number in range(40):
     store.write(number, {"a": np.full(50_000, float(number))})
 """
 
+#: Reduces twenty small solids, each stored in the cache; read back, each is whole or not there.
+SUPERELEMENTS = """
+import sys
+from pathlib import Path
+from fea.interface import Interface
+from fea.reduce_solid import reduce_solid
+from fea.solid import Solid
+from meshes import block
+from msa.materials import Material
+steel = Material.isotropic(200e9, 0.3, density=7800.0, name="steel")
+ends = [Interface("a", "-z"), Interface("b", "+z")]
+for number in range(1, 21):
+    bar = Solid(block((0.2, 0.2, 0.1 * number), (2, 2, 5)), {"solid": steel}, order=1, name="bar")
+    reduce_solid(bar, ends, modes=6, folder=Path(sys.argv[1]))
+"""
+
 
 def _content(folder: Path) -> dict[str, bytes]:
     return {p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
@@ -57,6 +74,11 @@ def _chunks_whole(folder: Path) -> None:
         assert path.exists() == (ChunkStore(folder, "key").read(number) is not None)
 
 
+def _superelements_whole(folder: Path) -> None:
+    for path in folder.glob("*.superelement"):
+        read_superelement(path)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "whole"),
@@ -66,8 +88,9 @@ def _chunks_whole(folder: Path) -> None:
         ((*PROGRAM, "scale", "mit-ss1", "--lengths", "2", "-o"), _tables_whole),
         ((*PROGRAM, "tolerance", "mit-ss1", "--samples", "100", "-o"), _tables_whole),
         ((sys.executable, "-c", CHUNKS), _chunks_whole),
+        ((sys.executable, "-c", SUPERELEMENTS), _superelements_whole),
     ],
-    ids=["report", "map", "scale", "tolerance", "chunks"],
+    ids=["report", "map", "scale", "tolerance", "chunks", "superelements"],
 )
 def test_killed_at_random_moments(
     tmp_path: Path, command: tuple[str, ...], whole: Callable[[Path], None]
