@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement
-from msa import Beam, Material, Structure, tube
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement
+from strutwork.msa import Beam, Material, Structure, tube
 
 Array = NDArray[Any]
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
-from msa import Beam, Material, PlacedStructure, Structure, rod
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.msa import Beam, Material, PlacedStructure, Structure, rod
 
 Array = NDArray[Any]
 

@@ -24,8 +24,8 @@ from benchmarks.measure import (
     require,
     shown,
 )
-from kinematics import Placement, Poses, jacobians
-from machines import (
+from strutwork.kinematics import Placement, Poses, jacobians
+from strutwork.machines import (
     Alizade3PRPS,
     Eclipse3PPRS,
     Glozman3PRRS,

@@ -21,9 +21,9 @@ from benchmarks.measure import (
     require,
     shown,
 )
-from fea import ModalRatio, Port, minimum_dynamic_stiffness, modal_model, modes
-from fea.lowest import natural_frequencies
-from kinematics import DIRECTIONS
+from strutwork.fea import ModalRatio, Port, minimum_dynamic_stiffness, modal_model, modes
+from strutwork.fea.lowest import natural_frequencies
+from strutwork.kinematics import DIRECTIONS
 
 DOCUMENT = DOCUMENTS / "performance-vibration.md"
 

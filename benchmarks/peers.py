@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from benchmarks.frame import SECTION, STEEL
-from msa import Structure
+from strutwork.msa import Structure
 
 Array = NDArray[Any]
 

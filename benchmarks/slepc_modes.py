@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 #: Residual of the inverted operator's eigenpair beside its eigenvalue: that of
-#: `fea.large_modes.RESIDUAL`, which this Python may not be able to import.
+#: `strutwork.fea.large_modes.RESIDUAL`, which this Python may not be able to import.
 TOLERANCE = 1e-7
 
 

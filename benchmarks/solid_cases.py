@@ -8,11 +8,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.solid import Solid
-from fea.solid_matrices import solid_matrices
-from meshes.l_frame import l_frame
-from meshes.mesh import Mesh
-from msa import Material
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import solid_matrices
+from strutwork.meshes.l_frame import l_frame
+from strutwork.meshes.mesh import Mesh
+from strutwork.msa import Material
 
 #: Cells along an arm, through its thickness, and across.
 SIZES = {"smallest": (12, 4, 4), "22k": (33, 11, 10), "92k": (54, 18, 17), "300k": (81, 27, 25)}

@@ -24,11 +24,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from benchmarks.solid_cases import SIZES, deck, frame_mesh, frame_pencil
-from fea.block_krylov import KrylovOptions, krylov_reduction
-from fea.block_krylov_damping import MatrixDamping
-from fea.factorize import factorize, installed_solvers
-from fea.large_modes import lowest_modes
-from fea.petsc import petsc_environment, petsc_python
+from strutwork.fea.block_krylov import KrylovOptions, krylov_reduction
+from strutwork.fea.block_krylov_damping import MatrixDamping
+from strutwork.fea.factorize import factorize, installed_solvers
+from strutwork.fea.large_modes import lowest_modes
+from strutwork.fea.petsc import petsc_environment, petsc_python
 from strutwork.files import write_text
 
 #: `benchmarks.measure` is no part of an engine's run: what it imports would count.

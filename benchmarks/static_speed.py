@@ -30,11 +30,11 @@ from benchmarks.measure import (
     shown,
     wall_rate,
 )
-from kinematics import Poses
-from machines.catalogue import CATALOGUE, Machine
-from msa import PlacedStructure, system_of, tool_compliance
-from msa.compiled import compiled_compliance, program_of
-from msa.tool import ToolMethod
+from strutwork.kinematics import Poses
+from strutwork.machines.catalogue import CATALOGUE, Machine
+from strutwork.msa import PlacedStructure, system_of, tool_compliance
+from strutwork.msa.compiled import compiled_compliance, program_of
+from strutwork.msa.tool import ToolMethod
 
 Array = NDArray[Any]
 
@@ -164,7 +164,8 @@ def machine_rows(poses: int) -> list[Row]:
 def million_poses_memory(poses: int) -> float:
     """Peak memory, GB, of a process that does a million poses of the frame."""
     code = (
-        "from benchmarks.frame import *; from msa import tool_compliance; import resource\n"
+        "import resource\n"
+        "from benchmarks.frame import *; from strutwork.msa import tool_compliance\n"
         f"s, x = three_legged_frame(); p = poses_of(s, x, {poses})\n"
         f"c = tool_compliance(s.at(p)); assert c.shape == ({poses}, 6, 6)\n"
         "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"

@@ -28,7 +28,7 @@ from benchmarks.measure import (
     require,
     shown,
 )
-from overconstraint import (
+from strutwork.overconstraint import (
     Responses,
     allocate,
     distribution,

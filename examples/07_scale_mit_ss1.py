@@ -3,11 +3,11 @@
 Run it where the package is installed: `python examples/07_scale_mit_ss1.py`.
 """
 
-from kinematics import DIRECTIONS
-from studies.mit_ss1_scale import mit_ss1_scale
-from studies.removal_rate import removal_exponents
-from studies.scale import LAWS
-from studies.similarity import JointScaling
+from strutwork.kinematics import DIRECTIONS
+from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.studies.removal_rate import removal_exponents
+from strutwork.studies.scale import LAWS
+from strutwork.studies.similarity import JointScaling
 
 # bearings chosen one size smaller than similarity would: a law of one's own beside the thesis's
 laws = (*LAWS, JointScaling(0.5, name="half a power"))

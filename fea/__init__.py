@@ -1,21 +1,21 @@
 """Vibration: modes, frequency response and dynamic stiffness."""
 
-from fea.complex_modes import ComplexModes, complex_modes
-from fea.coupled import PartDamping
-from fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
-from fea.dynamic_stiffness import (
+from strutwork.fea.complex_modes import ComplexModes, complex_modes
+from strutwork.fea.coupled import PartDamping
+from strutwork.fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
+from strutwork.fea.dynamic_stiffness import (
     MinimumDynamicStiffness,
     blocked_dynamic_stiffness,
     minimum_dynamic_stiffness,
     worst_direction,
 )
-from fea.frf import FrequencyResponse, frequency_response
-from fea.geometric import axial_forces
-from fea.level_set import exceeds, level_crossings
-from fea.modal import ModalModel, modal_model
-from fea.modes import Modes, modes
-from fea.ports import Port
-from fea.preload import preloaded
+from strutwork.fea.frf import FrequencyResponse, frequency_response
+from strutwork.fea.geometric import axial_forces
+from strutwork.fea.level_set import exceeds, level_crossings
+from strutwork.fea.modal import ModalModel, modal_model
+from strutwork.fea.modes import Modes, modes
+from strutwork.fea.ports import Port
+from strutwork.fea.preload import preloaded
 
 __all__ = [
     "ComplexModes",

@@ -21,11 +21,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.block_krylov_basis import EnergyBasis
-from fea.block_krylov_damping import MatrixDamping
-from fea.block_krylov_model import KrylovModel, SmallModel
-from fea.factorize import Factor, factorize
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.block_krylov_basis import EnergyBasis
+from strutwork.fea.block_krylov_damping import MatrixDamping
+from strutwork.fea.block_krylov_model import KrylovModel, SmallModel
+from strutwork.fea.factorize import Factor, factorize
 
 Array = NDArray[Any]
 Solve = Callable[[Array], Array]
@@ -58,7 +58,7 @@ class KrylovOptions:
         Whether the structure has rigid-body modes: the first expansion then lies at a small
         negative ω².
     solver : str, optional
-        As `fea.factorize.factorize`.
+        As `strutwork.fea.factorize.factorize`.
     most : int
         Vectors at which it gives up.
 

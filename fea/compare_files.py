@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.comparison import Comparison, FunctionPair
-from fea.frac_scale import frac_with_scale
-from fea.pairing import ModeSet, pair_modes
-from fea.same_nodes import same_nodes
-from fea.uff import MOTIONS, FrfRecord, ModeRecord, UniversalFile
 from strutwork.errors import ModelError
+from strutwork.fea.comparison import Comparison, FunctionPair
+from strutwork.fea.frac_scale import frac_with_scale
+from strutwork.fea.pairing import ModeSet, pair_modes
+from strutwork.fea.same_nodes import same_nodes
+from strutwork.fea.uff import MOTIONS, FrfRecord, ModeRecord, UniversalFile
 
 Array = NDArray[Any]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from fea.frac_scale import FracScale
+from strutwork.fea.frac_scale import FracScale
 
 
 @dataclass(frozen=True)

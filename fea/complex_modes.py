@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.coupled import AnyDamping
-from fea.eigen import solve_eigen
-from fea.poles import find_poles
-from fea.reduction import reduce_system
-from fea.validity import warn_beyond
-from msa.assembly import system_of
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.poles import find_poles
+from strutwork.fea.reduction import reduce_system
+from strutwork.fea.validity import warn_beyond
+from strutwork.msa.assembly import system_of
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 
@@ -53,7 +53,7 @@ class ComplexModes:
 def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10) -> ComplexModes:
     """Damped modes of a structure at one pose.
 
-    From (K + iD + sC + s²M) φ = 0 (`fea.poles`); of each pair of eigenvalues the
+    From (K + iD + sC + s²M) φ = 0 (`strutwork.fea.poles`); of each pair of eigenvalues the
     one in the upper half plane is taken, where the sign of iD is that of a decay. A rigid-body
     motion is a mode at zero; one that dashpots drag also creeps to rest, and its decay stands
     as a second, real mode.

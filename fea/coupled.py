@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
-from fea.eigen import Eigen
-from fea.reduction import Reduced
-from kinematics import DIRECTIONS
-from msa.assembly import System
 from strutwork.errors import ModelError
+from strutwork.fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
+from strutwork.fea.eigen import Eigen
+from strutwork.fea.reduction import Reduced
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa.assembly import System
 
 Array = NDArray[Any]
 

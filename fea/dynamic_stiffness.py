@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.damping import Damping, LossFactor, modal_ratios
-from fea.modal import ModalModel, modal_model
-from fea.peak import TOLERANCE, largest_magnitudes
-from fea.ports import Port
-from fea.validity import warn_beyond
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.damping import Damping, LossFactor, modal_ratios
+from strutwork.fea.modal import ModalModel, modal_model
+from strutwork.fea.peak import TOLERANCE, largest_magnitudes
+from strutwork.fea.ports import Port
+from strutwork.fea.validity import warn_beyond
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.reduction import Reduced
-from msa.assembly import System
-from msa.diagnosis import mechanism_error
-from msa.null_space import symmetric_product
 from strutwork.errors import ModelError
+from strutwork.fea.reduction import Reduced
+from strutwork.msa.assembly import System
+from strutwork.msa.diagnosis import mechanism_error
+from strutwork.msa.null_space import symmetric_product
 from strutwork.stages import stage
 
 Array = NDArray[Any]

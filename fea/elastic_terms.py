@@ -14,10 +14,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.sfepy_home import import_sfepy
-from fea.solid import Solid
-from msa.materials import Material
 from strutwork.errors import NumericalError
+from strutwork.fea.sfepy_home import import_sfepy
+from strutwork.fea.solid import Solid
+from strutwork.msa.materials import Material
 
 Array = NDArray[Any]
 GEOMETRIES = {"hexahedron": "3_8", "tetra": "3_4"}

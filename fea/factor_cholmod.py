@@ -9,9 +9,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.factor import Factor, NotPositiveError, complex_too
-from fea.ordering import Ordering
 from strutwork.errors import NumericalError
+from strutwork.fea.factor import Factor, NotPositiveError, complex_too
+from strutwork.fea.ordering import Ordering
 
 Array = NDArray[Any]
 

@@ -10,9 +10,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.factor import Factor, complex_too, singular
-from fea.ordering import Ordering
 from strutwork.errors import NumericalError
+from strutwork.fea.factor import Factor, complex_too, singular
+from strutwork.fea.ordering import Ordering
 
 Array = NDArray[Any]
 

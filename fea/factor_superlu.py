@@ -10,8 +10,8 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import SuperLU, splu
 
-from fea.factor import Factor, complex_too, singular
-from fea.ordering import Ordering
+from strutwork.fea.factor import Factor, complex_too, singular
+from strutwork.fea.ordering import Ordering
 
 Array = NDArray[Any]
 Solve = Callable[[Array], Array]

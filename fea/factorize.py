@@ -8,10 +8,10 @@ from types import ModuleType
 import numpy as np
 import scipy.sparse as sp
 
-from fea import factor_cholmod, factor_mumps, factor_pardiso, factor_superlu, ordering
-from fea.factor import Factor, NotPositiveError, singular
-from fea.memory import foreseen_memory, require_memory
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea import factor_cholmod, factor_mumps, factor_pardiso, factor_superlu, ordering
+from strutwork.fea.factor import Factor, NotPositiveError, singular
+from strutwork.fea.memory import foreseen_memory, require_memory
 from strutwork.stages import stage
 
 __all__ = ["SOLVERS", "Factor", "factorize", "installed_solvers"]

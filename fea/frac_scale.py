@@ -12,8 +12,8 @@ from scipy.interpolate import CubicSpline
 from scipy.optimize import minimize_scalar
 from scipy.signal import correlate
 
-from fea.assurance import frac
 from strutwork.errors import ModelError
+from strutwork.fea.assurance import frac
 
 Array = NDArray[Any]
 

@@ -9,17 +9,17 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea.coupled import AnyDamping, PartDamping, damped_matrices, is_coupled
-from fea.damping import LossFactor
-from fea.eigen import Eigen, solve_eigen
-from fea.modal import modal_model_of
-from fea.ports import Port
-from fea.reduction import Reduced, reduce_system
-from fea.rounding import uncoupled
-from fea.validity import warn_beyond
-from msa.assembly import system_of
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.coupled import AnyDamping, PartDamping, damped_matrices, is_coupled
+from strutwork.fea.damping import LossFactor
+from strutwork.fea.eigen import Eigen, solve_eigen
+from strutwork.fea.modal import modal_model_of
+from strutwork.fea.ports import Port
+from strutwork.fea.reduction import Reduced, reduce_system
+from strutwork.fea.rounding import uncoupled
+from strutwork.fea.validity import warn_beyond
+from strutwork.msa.assembly import system_of
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 
@@ -42,7 +42,7 @@ class FrequencyResponse:
         Hz.
     receptance : (..., f, o, i)
         Complex, m/N and the like, peak per peak; zero between ports that do not answer one
-        another but for rounding (`fea.rounding`).
+        another but for rounding (`strutwork.fea.rounding`).
     outputs, inputs : tuple of Port
     static_compliance : (..., o, i)
         At zero frequency; infinite where a rigid-body mode takes part.

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import characteristic_lengths
-from msa.assembly import System, system_of
-from msa.beam import to_global
-from msa.solve import StaticSolution
-from msa.stiffening import Stiffening
-from msa.structure import PlacedStructure, rigid_map
 from strutwork.errors import ModelError
+from strutwork.kinematics import characteristic_lengths
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.beam import to_global
+from strutwork.msa.solve import StaticSolution
+from strutwork.msa.stiffening import Stiffening
+from strutwork.msa.structure import PlacedStructure, rigid_map
 
 Array = NDArray[Any]
 
@@ -64,7 +64,8 @@ def local_geometric_stiffness(length: Array, properties: Array) -> Array:
 def axial_forces(solution: StaticSolution, case: str) -> Array:
     """Mean axial force of every beam element in a load case, N, tension positive, (..., s).
 
-    The mean of the two ends of the whole beam; `fea.preloaded` takes what acts along it too.
+    The mean of the two ends of the whole beam; `strutwork.fea.preloaded` takes what acts along it
+    too.
     """
     if case not in solution.cases:
         raise ModelError("preload", f'no case "{case}".', "Cases: " + ", ".join(solution.cases))

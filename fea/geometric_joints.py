@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import cross_matrix
-from msa.assembly import System
-from msa.structure import rigid_map
+from strutwork.kinematics import cross_matrix
+from strutwork.msa.assembly import System
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 

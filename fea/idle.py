@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import system_of
-from msa.constraints import free_unknowns
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError
+from strutwork.msa.assembly import system_of
+from strutwork.msa.constraints import free_unknowns
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

@@ -13,8 +13,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.structure import rigid_map
 from strutwork.errors import ModelError
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 Vector = tuple[float, float, float]

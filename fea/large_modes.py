@@ -9,10 +9,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.block_krylov_basis import EnergyBasis
-from fea.factorize import Factor, factorize
-from fea.petsc import Ranks, slepc_modes
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.block_krylov_basis import EnergyBasis
+from strutwork.fea.factorize import Factor, factorize
+from strutwork.fea.petsc import Ranks, slepc_modes
 
 Array = NDArray[Any]
 
@@ -94,7 +94,8 @@ def lowest_modes(
     floating : bool
         Whether the structure has rigid-body modes.
     solver : str, optional
-        As `fea.factorize.factorize`, or "slepc": the work is shared by processes under MPI.
+        As `strutwork.fea.factorize.factorize`, or "slepc": the work is shared by processes under
+        MPI.
     counted : bool
         Prove by Sylvester's law of inertia that none was missed; costs another factorisation.
     ranks : Ranks, optional

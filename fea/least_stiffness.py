@@ -8,22 +8,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.coupled import AnyDamping, PartDamping, is_coupled
-from fea.damping import Damping, modal_ratios
-from fea.dynamic_stiffness import check_band, minimum_of
-from fea.eigen import Eigen, solve_eigen
-from fea.frf import response_at
-from fea.modal import ModalModel, modal_model_of
-from fea.peak import TOLERANCE, largest_magnitudes
-from fea.pole_peak import PoleSum, largest_on_band
-from fea.pole_residue import pole_model
-from fea.ports import Port
-from fea.reduction import Reduced, reduce_system
-from fea.rounding import UNCOUPLED, uncoupled
-from fea.validity import warn_beyond
-from msa.assembly import system_of
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.coupled import AnyDamping, PartDamping, is_coupled
+from strutwork.fea.damping import Damping, modal_ratios
+from strutwork.fea.dynamic_stiffness import check_band, minimum_of
+from strutwork.fea.eigen import Eigen, solve_eigen
+from strutwork.fea.frf import response_at
+from strutwork.fea.modal import ModalModel, modal_model_of
+from strutwork.fea.peak import TOLERANCE, largest_magnitudes
+from strutwork.fea.pole_peak import PoleSum, largest_on_band
+from strutwork.fea.pole_residue import pole_model
+from strutwork.fea.ports import Port
+from strutwork.fea.reduction import Reduced, reduce_system
+from strutwork.fea.rounding import UNCOUPLED, uncoupled
+from strutwork.fea.validity import warn_beyond
+from strutwork.msa.assembly import system_of
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 
@@ -148,7 +148,7 @@ def least_dynamic_stiffness(
 def _static(reduced: Reduced, eigen: Eigen, given: Port, output: Port) -> tuple[float | None, bool]:
     ports = list(dict.fromkeys([given, output]))
     i, o = ports.index(given), ports.index(output)
-    from fea.damping import ModalRatio  # noqa: PLC0415 - any kind serves: H(0) has no damping
+    from strutwork.fea.damping import ModalRatio  # noqa: PLC0415 - any kind serves: H(0) has no damping
 
     model = modal_model_of(reduced, eigen, ports, ModalRatio(0.0))
     if model.mobility_of_rigid_modes[0, o, i] != 0:

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig
 
-from fea.modal import ModalModel
 from strutwork.errors import ModelError
+from strutwork.fea.modal import ModalModel
 
 Array = NDArray[Any]
 

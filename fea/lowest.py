@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.eigen import MASSLESS, solve_eigen
-from fea.modes import CHUNK, lowest
-from fea.reduction import Reduced, reduce_system
-from msa.assembly import system_of
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError
+from strutwork.fea.eigen import MASSLESS, solve_eigen
+from strutwork.fea.modes import CHUNK, lowest
+from strutwork.fea.reduction import Reduced, reduce_system
+from strutwork.msa.assembly import system_of
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 
@@ -40,7 +40,7 @@ def natural_frequencies(placed: PlacedStructure, count: int = 10) -> tuple[Array
     frequencies : (..., count)
         Hz, ascending; infinite where a pose has fewer.
     vectors : (..., c, count)
-        Mass-normalised, in the coordinates of `fea.reduction.reduce_system`.
+        Mass-normalised, in the coordinates of `strutwork.fea.reduction.reduce_system`.
 
     Raises
     ------

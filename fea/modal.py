@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.damping import Damping
-from fea.eigen import Eigen, solve_eigen
-from fea.ports import STILL, Port, port_motions
-from fea.reduction import Reduced, reduce_system
-from msa.assembly import system_of
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError
+from strutwork.fea.damping import Damping
+from strutwork.fea.eigen import Eigen, solve_eigen
+from strutwork.fea.ports import STILL, Port, port_motions
+from strutwork.fea.reduction import Reduced, reduce_system
+from strutwork.msa.assembly import system_of
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

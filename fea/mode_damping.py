@@ -7,14 +7,14 @@ import warnings
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from fea.coupled import AnyDamping, PartDamping, is_coupled
-from fea.damping import modal_ratios
-from fea.eigen import Array, Eigen, solve_eigen
-from fea.modes import Modes
-from fea.poles import find_poles
-from fea.reduction import Reduced, reduce_system
-from msa.assembly import system_of
 from strutwork.errors import UnverifiedWarning
+from strutwork.fea.coupled import AnyDamping, PartDamping, is_coupled
+from strutwork.fea.damping import modal_ratios
+from strutwork.fea.eigen import Array, Eigen, solve_eigen
+from strutwork.fea.modes import Modes
+from strutwork.fea.poles import find_poles
+from strutwork.fea.reduction import Reduced, reduce_system
+from strutwork.msa.assembly import system_of
 
 #: Parts of a pole below this share of it are rounding.
 REAL = 1e-9

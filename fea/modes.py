@@ -9,17 +9,17 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.eigen import Eigen, solve_eigen
-from fea.geometric import pulled
-from fea.participation import PRELOAD, effective_mass, energy_shares
-from fea.reduction import reduce_system
-from fea.sparse_modes import SPARSE_FROM, lanczos_suits, sparse_modes
-from fea.sparse_reduction import reduce_sparse
-from fea.validity import warn_beyond
-from msa.assembly import System, system_of
-from msa.mass import mass_matrix, sparse_mass
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.eigen import Eigen, solve_eigen
+from strutwork.fea.geometric import pulled
+from strutwork.fea.participation import PRELOAD, effective_mass, energy_shares
+from strutwork.fea.reduction import reduce_system
+from strutwork.fea.sparse_modes import SPARSE_FROM, lanczos_suits, sparse_modes
+from strutwork.fea.sparse_reduction import reduce_sparse
+from strutwork.fea.validity import warn_beyond
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.mass import mass_matrix, sparse_mass
+from strutwork.msa.structure import PlacedStructure
 from strutwork.outcome import Outcome, solve_poses
 from strutwork.stages import stage
 
@@ -114,7 +114,7 @@ def modes(
         Number of modes, rigid-body modes included.
     preload : (..., s) or None
         Axial force in every beam element, N, tension positive, in place of the preload that
-        `fea.preloaded` takes from a load case.
+        `strutwork.fea.preloaded` takes from a load case.
     method : "dense" or "sparse", optional
         All modes by LAPACK, or the lowest by shift-invert Lanczos. Default: sparse for a single
         pose with more than `SPARSE_FROM` independent coordinates.

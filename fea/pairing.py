@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
-from fea.assurance import in_span, mac, subspace_mac
-from fea.comparison import Comparison, ModePair
 from strutwork.errors import ModelError
+from strutwork.fea.assurance import in_span, mac, subspace_mac
+from strutwork.fea.comparison import Comparison, ModePair
 
 Array = NDArray[Any]
 

@@ -8,9 +8,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from msa.assembly import System
-from msa.mass import mass_properties
-from msa.structure import rigid_map
+from strutwork.msa.assembly import System
+from strutwork.msa.mass import mass_properties
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 

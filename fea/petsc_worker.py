@@ -1,8 +1,8 @@
 """Eigen and static solutions by PETSc and SLEPc under MPI: a program of its own.
 
-Run by `fea.petsc` as `mpiexec -n RANKS python petsc_worker.py FOLDER`, on any Python that has
-petsc4py, slepc4py and NumPy, which need not be the one that asks. Every rank reads its
-rows of the matrices; the first writes the answer.
+Run by `strutwork.fea.petsc` as `mpiexec -n RANKS python petsc_worker.py FOLDER`, on any Python that
+has petsc4py, slepc4py and NumPy, which need not be the one that asks. Every rank reads its rows of
+the matrices; the first writes the answer.
 """
 
 from __future__ import annotations

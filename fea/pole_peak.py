@@ -1,7 +1,7 @@
 """Exact largest magnitude of a sum over poles on a band, with its certificate.
 
-As in `fea.peak`, with poles anywhere in the plane: cells of the frequency axis whose bound by
-Taylor's theorem lies below the largest value known are dropped, the others halved.
+As in `strutwork.fea.peak`, with poles anywhere in the plane: cells of the frequency axis whose
+bound by Taylor's theorem lies below the largest value known are dropped, the others halved.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.peak import TOLERANCE
+from strutwork.fea.peak import TOLERANCE
 
 Array = NDArray[Any]
 

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea.coupled import AnyDamping
-from fea.eigen import Eigen
-from fea.poles import find_poles
-from fea.ports import Port, port_motions
-from fea.reduction import Reduced
+from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.eigen import Eigen
+from strutwork.fea.poles import find_poles
+from strutwork.fea.ports import Port, port_motions
+from strutwork.fea.reduction import Reduced
 
 Array = NDArray[Any]
 

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fea.coupled import AnyDamping, damped_matrices
-from fea.eigen import Array, Eigen
-from fea.reduction import Reduced
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.coupled import AnyDamping, damped_matrices
+from strutwork.fea.eigen import Array, Eigen
+from strutwork.fea.reduction import Reduced
 
 #: Dashpots that resist a motion by less than this share of the largest do not resist it.
 DRAG = 1e-10

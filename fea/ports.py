@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.reduction import Reduced
-from kinematics import DIRECTIONS
 from strutwork.errors import ModelError
+from strutwork.fea.reduction import Reduced
+from strutwork.kinematics import DIRECTIONS
 
 Array = NDArray[Any]
 

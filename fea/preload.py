@@ -11,24 +11,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.geometric import segment_parts
-from fea.geometric_beam import POINTS, beam_geometric_stiffness, gauss_points
-from fea.geometric_joints import (
+from strutwork.errors import ModelWarning
+from strutwork.fea.geometric import segment_parts
+from strutwork.fea.geometric_beam import POINTS, beam_geometric_stiffness, gauss_points
+from strutwork.fea.geometric_joints import (
     Part,
     cluster_parts,
     element_parts,
     joint_parts,
     spring_parts,
 )
-from kinematics import DIRECTIONS
-from msa.assembly import System, system_of
-from msa.loads import LoadCase
-from msa.point_mass import mass_arm
-from msa.solve import Method, StaticSolution, solve
-from msa.stiffening import Stiffening
-from msa.structure import PlacedStructure
-from msa.undetermined import undetermined
-from strutwork.errors import ModelWarning
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.loads import LoadCase
+from strutwork.msa.point_mass import mass_arm
+from strutwork.msa.solve import Method, StaticSolution, solve
+from strutwork.msa.stiffening import Stiffening
+from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.undetermined import undetermined
 
 Array = NDArray[Any]
 
@@ -61,7 +61,7 @@ def preloaded(
         At a batch of poses.
     case : LoadCase
     method : str, optional
-        Of `msa.solve`.
+        Of `strutwork.msa.solve`.
 
     Returns
     -------
@@ -71,7 +71,7 @@ def preloaded(
     Raises
     ------
     StrutworkError
-        As `msa.solve`.
+        As `strutwork.msa.solve`.
 
     Warns
     -----

@@ -8,15 +8,15 @@ from typing import Literal
 
 import numpy as np
 
-from fea.factorize import SOLVERS, installed_solvers
-from fea.interface import Interface, tie
-from fea.memory import require_solid
-from fea.solid import Solid
-from fea.solid_matrices import solid_matrices
-from fea.superelement import Superelement, superelement
-from fea.superelement_file import cached_superelement
-from fea.tied_solid import TiedSolid, tied_solid
 from strutwork.errors import ModelError
+from strutwork.fea.factorize import SOLVERS, installed_solvers
+from strutwork.fea.interface import Interface, tie
+from strutwork.fea.memory import require_solid
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import solid_matrices
+from strutwork.fea.superelement import Superelement, superelement
+from strutwork.fea.superelement_file import cached_superelement
+from strutwork.fea.tied_solid import TiedSolid, tied_solid
 
 
 def tied(

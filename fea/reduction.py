@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.geometric import geometric_stiffness, largest_work
-from fea.stability import check_stable, motions_left_free, without_elastic_work
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System
-from msa.constraints import free_unknowns, scales
-from msa.mass import mass_matrix
-from msa.null_space import closing_rows, joint_coordinates, symmetric_product
-from msa.structure import rigid_map
 from strutwork.errors import ModelError
+from strutwork.fea.geometric import geometric_stiffness, largest_work
+from strutwork.fea.stability import check_stable, motions_left_free, without_elastic_work
+from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.memory import require_dense
+from strutwork.msa.assembly import System
+from strutwork.msa.constraints import free_unknowns, scales
+from strutwork.msa.mass import mass_matrix
+from strutwork.msa.null_space import closing_rows, joint_coordinates, symmetric_product
+from strutwork.msa.structure import rigid_map
 from strutwork.stages import stage
 
 Array = NDArray[Any]

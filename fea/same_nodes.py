@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from fea.uff import UniversalFile
+from strutwork.fea.uff import UniversalFile
 
 Array = NDArray[Any]
 

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.connectivity import check_connectivity
-from meshes.mesh import Mesh
-from meshes.quality import check_quality
-from msa.materials import Material
 from strutwork.errors import ModelError
+from strutwork.meshes.connectivity import check_connectivity
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.quality import check_quality
+from strutwork.msa.materials import Material
 
 Array = NDArray[Any]
 #: The kinds of cell whose geometry SfePy maps.
@@ -102,8 +102,8 @@ class Solid:
                 raise ModelError(
                     self._part,
                     f"its mesh has cells of type {kind!r}.",
-                    f"Use {' or '.join(KINDS)} (`meshes.order.linear` keeps the corners) and "
-                    "order=2 for quadratic displacements.",
+                    f"Use {' or '.join(KINDS)} (`strutwork.meshes.order.linear` keeps the corners) "
+                    "and order=2 for quadratic displacements.",
                 )
         if len(kinds) > 1:
             raise ModelError(

@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.solid_matrices import SolidMatrices
-from fea.solid_modes import SolidModes
-from fea.solid_static import SolidStatic
-from fea.solid_stress import nodal_stresses, von_mises
-from meshes.boundary import boundary
-from meshes.gltf import GltfPart, write_gltf
-from meshes.mesh import Patch
-from meshes.surfaces import Surface, surface_of
 from strutwork.errors import ModelError
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.fea.solid_modes import SolidModes
+from strutwork.fea.solid_static import SolidStatic
+from strutwork.fea.solid_stress import nodal_stresses, von_mises
 from strutwork.files import write_whole
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.gltf import GltfPart, write_gltf
+from strutwork.meshes.mesh import Patch
+from strutwork.meshes.surfaces import Surface, surface_of
 
 Array = NDArray[Any]
 #: Dark blue over green to yellow, even in lightness and for the colour blind; red, green,

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea.solid_matrices import SolidMatrices
-from meshes.surface_integrals import nodal_area_vectors
 from strutwork.errors import ModelError
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.meshes.surface_integrals import nodal_area_vectors
 
 Array = NDArray[Any]
 

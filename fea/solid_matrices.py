@@ -10,13 +10,13 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.elastic_terms import Assembler, assembler
-from fea.solid import Solid
-from meshes.mesh import Mesh
-from meshes.order import quadratic
-from meshes.surface_integrals import nodal_areas
-from meshes.transform import renumbered
 from strutwork.errors import ModelError
+from strutwork.fea.elastic_terms import Assembler, assembler
+from strutwork.fea.solid import Solid
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.order import quadratic
+from strutwork.meshes.surface_integrals import nodal_areas
+from strutwork.meshes.transform import renumbered
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

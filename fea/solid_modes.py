@@ -10,10 +10,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.large_modes import lowest_modes
-from fea.solid_matrices import SolidMatrices
-from fea.solid_supports import Supports, free_rigid_motions, supports
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.large_modes import lowest_modes
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.fea.solid_supports import Supports, free_rigid_motions, supports
 
 Array = NDArray[Any]
 
@@ -34,7 +34,7 @@ class SolidModes:
         Share of each mode in rigid motion along x, y, z and about the centre of mass, kg and
         kg m².
     residual : float
-        Largest of the flexible modes, as `fea.large_modes.LargeModes` defines it.
+        Largest of the flexible modes, as `strutwork.fea.large_modes.LargeModes` defines it.
     solver : str
         Which ran.
     """
@@ -81,7 +81,7 @@ def solid_modes(
     """Lowest modes.
 
     Supports are imposed by removing their degrees of freedom; the eigenproblem is that of
-    `fea.large_modes.lowest_modes`. Rigid-body modes are the exact rigid motions that the
+    `strutwork.fea.large_modes.lowest_modes`. Rigid-body modes are the exact rigid motions that the
     supports leave, and as many as the stiffness has.
 
     Parameters
@@ -90,9 +90,9 @@ def solid_modes(
     count : int
         Rigid-body modes included.
     held : Supports or mapping or None
-        As for `fea.solid_supports.supports`, all held still.
+        As for `strutwork.fea.solid_supports.supports`, all held still.
     solver : str or None
-        As for `fea.large_modes.lowest_modes`.
+        As for `strutwork.fea.large_modes.lowest_modes`.
 
     Returns
     -------

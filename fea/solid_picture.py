@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from fea.solid_fields import SurfaceField
 from strutwork.errors import NumericalError
+from strutwork.fea.solid_fields import SurfaceField
 from strutwork.files import write_whole
 
 

@@ -10,10 +10,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
 
-from fea.factorize import factorize
-from fea.solid_matrices import SolidMatrices
-from fea.solid_supports import Supports, require_held, supports
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.factorize import factorize
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.fea.solid_supports import Supports, require_held, supports
 
 Array = NDArray[Any]
 #: Largest residual that is accepted, as a share of the forces.
@@ -89,9 +89,9 @@ def solve_solid(
     loads : (3n,) or (3n, m)
         N.
     held : Supports or mapping
-        As for `fea.solid_supports.supports`. Displaced supports act in every load case.
+        As for `strutwork.fea.solid_supports.supports`. Displaced supports act in every load case.
     solver : str or None
-        Which factorisation (`fea.factorize`); by default the best installed.
+        Which factorisation (`strutwork.fea.factorize`); by default the best installed.
 
     Returns
     -------

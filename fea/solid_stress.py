@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.elastic_terms import elasticity
-from fea.solid_matrices import SolidMatrices
-from meshes.cells import CellType
 from strutwork.errors import ModelError
+from strutwork.fea.elastic_terms import elasticity
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.meshes.cells import CellType
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea.solid_matrices import SolidMatrices
 from strutwork.errors import InconsistentConstraintsError, MechanismError, ModelError
+from strutwork.fea.solid_matrices import SolidMatrices
 
 Array = NDArray[Any]
 AXES = "xyz"

@@ -11,11 +11,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from fea.factorize import Factor, factorize
-from fea.sparse_reduction import SparseReduced
-from fea.stability import critical_factor_sparse, unstable
-from msa.diagnosis import mechanism_error
 from strutwork.errors import MechanismError, ModelError, NumericalError
+from strutwork.fea.factorize import Factor, factorize
+from strutwork.fea.sparse_reduction import SparseReduced
+from strutwork.fea.stability import critical_factor_sparse, unstable
+from strutwork.msa.diagnosis import mechanism_error
 
 Array = NDArray[Any]
 

@@ -11,18 +11,18 @@ from numpy.typing import NDArray
 from scipy.linalg import qr
 from scipy.sparse.csgraph import connected_components
 
-from fea.eigen import rigid_modes
-from fea.factorize import factorize
-from fea.geometric import largest_work
-from fea.stability import motions_left_free
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System
-from msa.constraints import free_unknowns, scales
-from msa.mass import sparse_mass
-from msa.null_space import closing_rows
-from msa.sparse import sparse_rows
-from msa.structure import rigid_map
 from strutwork.errors import ModelError
+from strutwork.fea.eigen import rigid_modes
+from strutwork.fea.factorize import factorize
+from strutwork.fea.geometric import largest_work
+from strutwork.fea.stability import motions_left_free
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.msa.assembly import System
+from strutwork.msa.constraints import free_unknowns, scales
+from strutwork.msa.mass import sparse_mass
+from strutwork.msa.null_space import closing_rows
+from strutwork.msa.sparse import sparse_rows
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 

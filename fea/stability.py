@@ -10,10 +10,10 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh
 
-from fea.factorize import factorize
-from kinematics import mobility
-from msa.assembly import System
 from strutwork.errors import NumericalError
+from strutwork.fea.factorize import factorize
+from strutwork.kinematics import mobility
+from strutwork.msa.assembly import System
 
 Array = NDArray[Any]
 

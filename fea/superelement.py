@@ -21,9 +21,9 @@ import scipy.linalg as sla
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
 
-from fea.tied_solid import StaticSolver, TiedSolid
-from msa.structure import PlacedStructure, rigid_map
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.tied_solid import StaticSolver, TiedSolid
+from strutwork.msa.structure import PlacedStructure, rigid_map
 
 Array = NDArray[Any]
 

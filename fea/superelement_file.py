@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.superelement import Superelement
 from strutwork.cache_folder import note_once, reason, user_cache
 from strutwork.errors import ModelError, StrutworkError
+from strutwork.fea.superelement import Superelement
 from strutwork.files import write_whole
 from strutwork.source_digest import source_digest
 
@@ -28,7 +28,13 @@ _ARRAYS = ("positions", "local_stiffness", "local_mass", "shapes", "fixed_freque
 _MARK = b"strutwork superelement 1\n"
 
 #: The code that makes superelements: packages of our own by their sources, others by version.
-_OWN = ("strutwork", "kinematics", "meshes", "msa", "fea")
+_OWN = (
+    "strutwork",
+    "strutwork.kinematics",
+    "strutwork.meshes",
+    "strutwork.msa",
+    "strutwork.fea",
+)
 _OTHERS = ("numpy", "scipy", "sfepy")
 
 

@@ -11,10 +11,10 @@ import scipy.linalg as sla
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.factorize import factorize
-from fea.interface import TiedPatch
-from msa.structure import rigid_map
 from strutwork.errors import MechanismError, ModelError, NumericalError
+from strutwork.fea.factorize import factorize
+from strutwork.fea.interface import TiedPatch
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 

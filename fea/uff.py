@@ -10,11 +10,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea.frf import FrequencyResponse
-from fea.modes import Modes
-from fea.ports import Port
-from kinematics import DIRECTIONS
 from strutwork.errors import ModelError
+from strutwork.fea.frf import FrequencyResponse
+from strutwork.fea.modes import Modes
+from strutwork.fea.ports import Port
+from strutwork.kinematics import DIRECTIONS
 
 Array = NDArray[Any]
 

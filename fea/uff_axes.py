@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.uff_sets import DataSet, Records
 from strutwork.errors import ModelError
+from strutwork.fea.uff_sets import DataSet, Records
 
 Array = NDArray[Any]
 

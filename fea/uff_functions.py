@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.uff import FrfRecord, Motion
-from fea.uff_geometry import Geometry
-from fea.uff_sets import Columns, DataSet, head_and_body, number, numbers_of
-from fea.uff_units import FileUnits, frequency_scale, motion_of, named, response_scale
-from kinematics import DIRECTIONS
 from strutwork.errors import ModelError
+from strutwork.fea.uff import FrfRecord, Motion
+from strutwork.fea.uff_geometry import Geometry
+from strutwork.fea.uff_sets import Columns, DataSet, head_and_body, number, numbers_of
+from strutwork.fea.uff_units import FileUnits, frequency_scale, motion_of, named, response_scale
+from strutwork.kinematics import DIRECTIONS
 
 Array = NDArray[Any]
 

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.uff_axes import CARTESIAN, GLOBAL, Axes, axes_of, systems_18, systems_2420
-from fea.uff_sets import DataSet, Records
 from strutwork.errors import ModelError
+from strutwork.fea.uff_axes import CARTESIAN, GLOBAL, Axes, axes_of, systems_18, systems_2420
+from strutwork.fea.uff_sets import DataSet, Records
 
 Array = NDArray[Any]
 

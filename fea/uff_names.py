@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from hashlib import sha256
 
-from fea.uff import UniversalFile
+from strutwork.fea.uff import UniversalFile
 from strutwork.names import visible
 
 #: Group names of data set 2467 have this many characters.

@@ -11,13 +11,13 @@ import stat
 from collections.abc import Mapping
 from pathlib import Path
 
-from fea.uff import UniversalFile
-from fea.uff_functions import RawFunction, named_functions, raw_function
-from fea.uff_geometry import Geometry
-from fea.uff_sets import DataSet, data_sets
-from fea.uff_shapes import RawMode, global_modes, raw_mode
-from fea.uff_units import FileUnits, file_units
 from strutwork.errors import ModelError
+from strutwork.fea.uff import UniversalFile
+from strutwork.fea.uff_functions import RawFunction, named_functions, raw_function
+from strutwork.fea.uff_geometry import Geometry
+from strutwork.fea.uff_sets import DataSet, data_sets
+from strutwork.fea.uff_shapes import RawMode, global_modes, raw_mode
+from strutwork.fea.uff_units import FileUnits, file_units
 
 #: A larger file is refused, bytes.
 MAX_BYTES = 200_000_000

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.assurance import mac
-from fea.uff import ModeRecord
-from fea.uff_geometry import Geometry
-from fea.uff_sets import DataSet, Records
 from strutwork.errors import ModelError
+from strutwork.fea.assurance import mac
+from strutwork.fea.uff import ModeRecord
+from strutwork.fea.uff_geometry import Geometry
+from strutwork.fea.uff_sets import DataSet, Records
 
 Array = NDArray[Any]
 

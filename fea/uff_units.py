@@ -9,9 +9,9 @@ from itertools import product
 
 import numpy as np
 
-from fea.uff import Motion
-from fea.uff_sets import DataSet, Records
 from strutwork.errors import ModelError
+from strutwork.fea.uff import Motion
+from strutwork.fea.uff_sets import DataSet, Records
 
 #: Powers of m, kg, s; an angle is a number.
 Powers = tuple[int, int, int]

@@ -13,12 +13,12 @@ import numpy as np
 import pyuff
 from numpy.typing import NDArray
 
-from fea.uff import FUNCTION_NAMES, FrfRecord, ModeRecord, UniversalFile
-from fea.uff_names import with_fitted_names
-from fea.uff_read import read_universal
-from kinematics import DIRECTIONS
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.uff import FUNCTION_NAMES, FrfRecord, ModeRecord, UniversalFile
+from strutwork.fea.uff_names import with_fitted_names
+from strutwork.fea.uff_read import read_universal
 from strutwork.files import write_whole
+from strutwork.kinematics import DIRECTIONS
 
 Array = NDArray[Any]
 
@@ -45,7 +45,7 @@ def write_universal(
     as text with the 12 digits for values and 6 for frequencies that the format has. Modes have
     6 digits; complex ones only their translations, which is what pyuff carries. Nodes are
     numbered; their names stand in groups of one node (2467), longer ones than its 40 characters
-    as `fea.uff_names.fitted_names` says.
+    as `strutwork.fea.uff_names.fitted_names` says.
 
     Parameters
     ----------

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import warnings
 
-from msa.structure import PlacedStructure
 from strutwork.errors import ValidityWarning
+from strutwork.msa.structure import PlacedStructure
 
 
 def limits(placed: PlacedStructure) -> dict[str, float]:

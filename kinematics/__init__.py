@@ -1,7 +1,7 @@
 """Kinematics: joints, linkages, placements, their constraint rows and what follows from them."""
 
-from kinematics.forward import FoundPoses, forward_kinematics
-from kinematics.frames import (
+from strutwork.kinematics.forward import FoundPoses, forward_kinematics
+from strutwork.kinematics.frames import (
     angle,
     axes_frame,
     cross_matrix,
@@ -10,15 +10,15 @@ from kinematics.frames import (
     rotation_z,
     tangent_rotation,
 )
-from kinematics.jacobians import Jacobians, jacobians
-from kinematics.joint import DIRECTIONS, JOINT_TYPES, Joint, State
-from kinematics.linkage import GROUND, Body, Linkage
-from kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
-from kinematics.mechanism import Mechanism, Poses, drive_values
-from kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
-from kinematics.near_mechanism import NearMechanism, near_motions
-from kinematics.placement import Placement, check_coincidence
-from kinematics.rows import (
+from strutwork.kinematics.jacobians import Jacobians, jacobians
+from strutwork.kinematics.joint import DIRECTIONS, JOINT_TYPES, Joint, State
+from strutwork.kinematics.linkage import GROUND, Body, Linkage
+from strutwork.kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
+from strutwork.kinematics.mechanism import Mechanism, Poses, drive_values
+from strutwork.kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
+from strutwork.kinematics.near_mechanism import NearMechanism, near_motions
+from strutwork.kinematics.placement import Placement, check_coincidence
+from strutwork.kinematics.rows import (
     ConstraintRows,
     body_references,
     characteristic_length,

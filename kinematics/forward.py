@@ -8,8 +8,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics.jacobians import jacobians
-from kinematics.mechanism import Mechanism, Poses, drive_values
 from strutwork.errors import (
     ModelError,
     NumericalError,
@@ -17,6 +15,8 @@ from strutwork.errors import (
     StrutworkError,
     UnreachableError,
 )
+from strutwork.kinematics.jacobians import jacobians
+from strutwork.kinematics.mechanism import Mechanism, Poses, drive_values
 
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]

@@ -9,13 +9,13 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics.leg_jacobians import legs_compiled
-from kinematics.linkage import Linkage
-from kinematics.motion_spaces import MotionSpaces, motion_spaces
-from kinematics.placement import Placement
-from kinematics.rows import characteristic_lengths, constraint_rows
-from kinematics.singular_values import singular_values
 from strutwork.errors import ModelError
+from strutwork.kinematics.leg_jacobians import legs_compiled
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.motion_spaces import MotionSpaces, motion_spaces
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.rows import characteristic_lengths, constraint_rows
+from strutwork.kinematics.singular_values import singular_values
 
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]

@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.joint import DIRECTIONS
-from kinematics.linkage import Linkage
+from strutwork.kinematics.joint import DIRECTIONS
+from strutwork.kinematics.linkage import Linkage
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

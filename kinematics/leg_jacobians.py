@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.leg_chains import LegChains, leg_chains
-from kinematics.linkage import Linkage
-from kinematics.placement import Placement
-from kinematics.singular_values import compiled
+from strutwork.kinematics.leg_chains import LegChains, leg_chains
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.singular_values import compiled
 
 Array = NDArray[Any]
 
@@ -47,7 +47,7 @@ def legs_compiled(
     chains = chains_of(linkage)
     if chains is None:
         return None
-    from kinematics.leg_kernel import leg_rows  # noqa: PLC0415 - numba is slow to import
+    from strutwork.kinematics.leg_kernel import leg_rows  # noqa: PLC0415 - numba is slow to import
 
     count = placement.batch[0]
     inverse = np.zeros((count, len(linkage.driven), 6))

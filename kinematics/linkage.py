@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.joint import DIRECTIONS, Joint, State
 from strutwork.errors import ModelError
+from strutwork.kinematics.joint import DIRECTIONS, Joint, State
 
 #: Name of the body that does not move.
 GROUND = "ground"

@@ -9,9 +9,9 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics.linkage import Linkage
-from kinematics.placement import Placement
 from strutwork.errors import ModelError
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.placement import Placement
 
 Array = NDArray[Any]
 

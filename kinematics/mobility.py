@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.joint import DIRECTIONS, State
-from kinematics.linkage import Linkage
-from kinematics.placement import Placement, check_coincidence
-from kinematics.rigid_graph import decompose
-from kinematics.rigid_spaces import rigid_graph, stress_states
-from kinematics.rows import (
+from strutwork.errors import ModelError
+from strutwork.kinematics.joint import DIRECTIONS, State
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.placement import Placement, check_coincidence
+from strutwork.kinematics.rigid_graph import decompose
+from strutwork.kinematics.rigid_spaces import rigid_graph, stress_states
+from strutwork.kinematics.rows import (
     ConstraintRows,
     body_references,
     characteristic_length,
     constraint_rows,
 )
-from kinematics.sparse_basis import sparse_basis
-from strutwork.errors import ModelError
+from strutwork.kinematics.sparse_basis import sparse_basis
 
 Array = NDArray[Any]
 

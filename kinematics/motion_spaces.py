@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.linkage import Linkage
-from kinematics.placement import Placement
-from kinematics.rows import constraint_rows
-from kinematics.second_order import lost_twists
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.rows import constraint_rows
+from strutwork.kinematics.second_order import lost_twists
 
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.joint import State
-from kinematics.linkage import Linkage
-from kinematics.mobility import RANK_TOLERANCE, FreeMotion, free_motions
-from kinematics.placement import Placement
-from kinematics.rigid_graph import decompose
-from kinematics.rigid_spaces import rigid_graph
-from kinematics.rows import characteristic_length, constraint_rows
+from strutwork.kinematics.joint import State
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.mobility import RANK_TOLERANCE, FreeMotion, free_motions
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.rigid_graph import decompose
+from strutwork.kinematics.rigid_spaces import rigid_graph
+from strutwork.kinematics.rows import characteristic_length, constraint_rows
 
 Array = NDArray[Any]
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.linkage import Linkage
 from strutwork.errors import ModelError, UnreachableError
+from strutwork.kinematics.linkage import Linkage
 
 #: Nodes of a joint must coincide to this many metres.
 COINCIDENCE = 1e-9

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.sparse_basis import sparse_basis
+from strutwork.kinematics.sparse_basis import sparse_basis
 
 Array = NDArray[Any]
 Ints = NDArray[np.intp]

@@ -8,8 +8,8 @@ import numpy as np
 import scipy.linalg as sl
 from numpy.typing import NDArray
 
-from kinematics.rigid_graph import Block, Blocks, RigidGraph
-from kinematics.rows import ConstraintRows, body_references
+from strutwork.kinematics.rigid_graph import Block, Blocks, RigidGraph
+from strutwork.kinematics.rows import ConstraintRows, body_references
 
 Array = NDArray[Any]
 Ints = NDArray[np.intp]

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.joint import DIRECTIONS
-from kinematics.linkage import Linkage
-from kinematics.placement import Placement
+from strutwork.kinematics.joint import DIRECTIONS
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.placement import Placement
 
 Array = NDArray[Any]
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics.rows import ConstraintRows, body_references
+from strutwork.kinematics.rows import ConstraintRows, body_references
 
 Array = NDArray[Any]
 

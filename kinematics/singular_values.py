@@ -18,7 +18,7 @@ FEW = 256
 def compiled() -> bool:
     """Whether compiled code can be used: numba is installed."""
     try:
-        import kinematics.leg_kernel  # noqa: F401, PLC0415 - numba is slow to import, may be absent
+        import strutwork.kinematics.leg_kernel  # noqa: F401, PLC0415 - numba is slow to import, may be absent
     except ImportError:
         return False
     return True
@@ -39,7 +39,7 @@ def singular_values(matrices: Array) -> Array:
     count = int(np.prod(matrices.shape[:-2], dtype=int))
     if count < FEW or rows < columns or not compiled():
         return np.asarray(np.linalg.svd(matrices, compute_uv=False))
-    from kinematics.leg_kernel import jacobi_values  # noqa: PLC0415 - as in `compiled`
+    from strutwork.kinematics.leg_kernel import jacobi_values  # noqa: PLC0415 - as in `compiled`
 
     flat = np.ascontiguousarray(matrices, dtype=float).reshape(count, rows, columns)
     values = np.empty((count, columns))

@@ -1,27 +1,27 @@
 """Machines of the literature: dimensions, kinematics, structures and published values."""
 
-from machines.alizade_3prps import Alizade3PRPS
-from machines.azulay_dynamic import (
+from strutwork.machines.alizade_3prps import Alizade3PRPS
+from strutwork.machines.azulay_dynamic import (
     DYNAMIC_SETS,
     DynamicSet,
     Platform,
     VibratingLegs,
     dynamic_machine,
 )
-from machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
-from machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
-from machines.eclipse_3pprs import Eclipse3PPRS
-from machines.glozman_3prrs import Glozman3PRRS
-from machines.hexel_hexapod import HexelHexapod
-from machines.limits import Limit, check_limits, joint_limits
-from machines.mit_ss1 import MitSS1
-from machines.mit_ss1_assembly import StrutAssembly, strut_width
-from machines.pose_grid import GridMachine, PoseGrid
-from machines.proposed_3pprs import Proposed3PPRS
-from machines.prototype_3ppprs import Prototype3PPPRS
-from machines.published import Paper, PublishedTable, PublishedValue
-from machines.three_legs import ThreeLegs
-from machines.variants import (
+from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
+from strutwork.machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
+from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
+from strutwork.machines.glozman_3prrs import Glozman3PRRS
+from strutwork.machines.hexel_hexapod import HexelHexapod
+from strutwork.machines.limits import Limit, check_limits, joint_limits
+from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.mit_ss1_assembly import StrutAssembly, strut_width
+from strutwork.machines.pose_grid import GridMachine, PoseGrid
+from strutwork.machines.proposed_3pprs import Proposed3PPRS
+from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
+from strutwork.machines.published import Paper, PublishedTable, PublishedValue
+from strutwork.machines.three_legs import ThreeLegs
+from strutwork.machines.variants import (
     NamedMachine,
     Variant,
     is_machine,
@@ -29,7 +29,7 @@ from machines.variants import (
     require_mass,
     variants,
 )
-from machines.work_table import WorkTable
+from strutwork.machines.work_table import WorkTable
 
 __all__ = [
     "CATALOGUE",

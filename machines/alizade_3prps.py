@@ -7,11 +7,11 @@ from math import radians
 
 import numpy as np
 
-from kinematics import Body, Joint, angle, axes_frame
-from kinematics.frames import dot
-from machines.legs import Leg, LegPlacement
-from machines.radial import Radial
-from machines.three_legs import ThreeLegs
+from strutwork.kinematics import Body, Joint, angle, axes_frame
+from strutwork.kinematics.frames import dot
+from strutwork.machines.legs import Leg, LegPlacement
+from strutwork.machines.radial import Radial
+from strutwork.machines.three_legs import ThreeLegs
 
 
 @dataclass(frozen=True, kw_only=True)

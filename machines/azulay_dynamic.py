@@ -17,17 +17,17 @@ from typing import Any, Literal
 
 import numpy as np
 
-from kinematics import Linkage, Placement, Poses
-from machines.alizade_3prps import Alizade3PRPS
-from machines.eclipse_3pprs import Eclipse3PPRS
-from machines.glozman_3prrs import Glozman3PRRS
-from machines.legs import seat
-from machines.limits import Limit
-from machines.proposed_3pprs import Proposed3PPRS
-from machines.three_legs import AISI_1018, TOOL, ThreeLegs
-from msa.springs import PointMass
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import Linkage, Placement, Poses
+from strutwork.machines.alizade_3prps import Alizade3PRPS
+from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
+from strutwork.machines.glozman_3prrs import Glozman3PRRS
+from strutwork.machines.legs import seat
+from strutwork.machines.limits import Limit
+from strutwork.machines.proposed_3pprs import Proposed3PPRS
+from strutwork.machines.three_legs import AISI_1018, TOOL, ThreeLegs
+from strutwork.msa.springs import PointMass
+from strutwork.msa.structure import Structure
 
 DynamicSet = Literal["calibrated", "blind"]
 

@@ -7,20 +7,20 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Protocol
 
-from kinematics import Mechanism
-from machines.alizade_3prps import Alizade3PRPS
-from machines.eclipse_3pprs import Eclipse3PPRS
-from machines.glozman_3prrs import Glozman3PRRS
-from machines.hexel_hexapod import HexelHexapod
-from machines.limits import Limit
-from machines.mit_ss1 import MitSS1
-from machines.proposed_3pprs import Proposed3PPRS
-from machines.prototype_3ppprs import Prototype3PPPRS
-from machines.published import Paper
-from machines.published_azulay import AZULAY_2014
-from machines.published_son import SON_2002
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import Mechanism
+from strutwork.machines.alizade_3prps import Alizade3PRPS
+from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
+from strutwork.machines.glozman_3prrs import Glozman3PRRS
+from strutwork.machines.hexel_hexapod import HexelHexapod
+from strutwork.machines.limits import Limit
+from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.proposed_3pprs import Proposed3PPRS
+from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
+from strutwork.machines.published import Paper
+from strutwork.machines.published_azulay import AZULAY_2014
+from strutwork.machines.published_son import SON_2002
+from strutwork.msa.structure import Structure
 
 
 class Machine(Mechanism, Protocol):

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Poses, tangent_rotation
 from strutwork.errors import ModelError
+from strutwork.kinematics import Poses, tangent_rotation
 
 Array = NDArray[Any]
 

@@ -7,11 +7,11 @@ from math import radians, sqrt
 
 import numpy as np
 
-from kinematics import Body, Joint, angle
-from kinematics.frames import dot
-from machines.legs import Leg, LegPlacement, square_root
-from machines.radial import Radial
-from machines.three_legs import ThreeLegs
+from strutwork.kinematics import Body, Joint, angle
+from strutwork.kinematics.frames import dot
+from strutwork.machines.legs import Leg, LegPlacement, square_root
+from strutwork.machines.radial import Radial
+from strutwork.machines.three_legs import ThreeLegs
 
 
 @dataclass(frozen=True, kw_only=True)

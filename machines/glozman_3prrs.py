@@ -9,11 +9,11 @@ from typing import Self
 
 import numpy as np
 
-from kinematics import Body, Joint, angle
-from machines.legs import Leg, LegPlacement, full, square_root
-from machines.limits import Limit
-from machines.radial import Radial
-from machines.three_legs import ThreeLegs
+from strutwork.kinematics import Body, Joint, angle
+from strutwork.machines.legs import Leg, LegPlacement, full, square_root
+from strutwork.machines.limits import Limit
+from strutwork.machines.radial import Radial
+from strutwork.machines.three_legs import ThreeLegs
 
 
 @dataclass(frozen=True, kw_only=True)

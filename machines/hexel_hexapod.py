@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, rotation_x
-from kinematics.frames import cross, dot, frame, gathered, turned
-from machines.dimensions import check_proportions
-from machines.legs import square_root
-from machines.limits import Limit, joint_limits
-from machines.pose_grid import PoseGrid
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, rotation_x
+from strutwork.kinematics.frames import cross, dot, frame, gathered, turned
+from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.legs import square_root
+from strutwork.machines.limits import Limit, joint_limits
+from strutwork.machines.pose_grid import PoseGrid
+from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Body, Joint
-from msa.beam import Beam
+from strutwork.kinematics import Body, Joint
+from strutwork.msa.beam import Beam
 
 Array = NDArray[Any]
 

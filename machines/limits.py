@@ -8,8 +8,8 @@ from math import degrees
 
 import numpy as np
 
-from kinematics import Linkage, Placement
 from strutwork.errors import ModelError
+from strutwork.kinematics import Linkage, Placement
 
 #: A coordinate may pass its limit by this much, m or rad: the rounding of a pose at the limit.
 SLACK = 1e-9

@@ -11,16 +11,16 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import Linkage, Placement, Poses, angle, rotation_y
-from machines import mit_ss1_parts as parts
-from machines.dimensions import check_proportions
-from machines.legs import square_root
-from machines.limits import Limit, joint_limits
-from machines.pose_grid import PoseGrid
-from msa.materials import Material
-from msa.sections import Section, rectangle
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import Linkage, Placement, Poses, angle, rotation_y
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.legs import square_root
+from strutwork.machines.limits import Limit, joint_limits
+from strutwork.machines.pose_grid import PoseGrid
+from strutwork.msa.materials import Material
+from strutwork.msa.sections import Section, rectangle
+from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 
@@ -52,7 +52,7 @@ class MitSS1:
     side (negative y), "far" outside. Both are elastic, so that the over-constraint of the
     planar machine shows as forces in them.
 
-    The two serial axes under the workpiece stand in `machines.WorkTable`.
+    The two serial axes under the workpiece stand in `strutwork.machines.WorkTable`.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class MitSS1:
         tick of Fig. 29-(a).
     axial_stiffness : float or None
         Of one bearing, N/m; None: rigid. Calibrated: two in series make the 9.55 N/µm of the
-        reconstructed Table 2, see `machines.StrutAssembly`.
+        reconstructed Table 2, see `strutwork.machines.StrutAssembly`.
     block_radial_stiffness, block_axial_stiffness : float or None
         Of one bearing in a moving block, N/m; None: as in the housing.
     preload_factor : float

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
-from machines.published_son import TABLE_2_CASES
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.machines.published_son import TABLE_2_CASES
+from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 

@@ -7,10 +7,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Literal, get_args
 
-from machines.mit_ss1 import MitSS1
-from machines.mit_ss1_frame import GraniteFrame
-from machines.mit_ss1_whole import MitSS1Whole
 from strutwork.errors import ModelError
+from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.mit_ss1_frame import GraniteFrame
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
 
 #: Fields of `GraniteFrame`, m.
 CALIBRATED_GRANITE: Mapping[str, float] = MappingProxyType({"plate": 0.2515, "base": 0.2045})

@@ -14,13 +14,13 @@ from types import MappingProxyType
 
 import numpy as np
 
-from kinematics import GROUND, Body, Poses
-from machines import mit_ss1_parts as parts
-from machines.mit_ss1 import MitSS1
-from machines.mit_ss1_tolerances import RAIL_HEIGHT
-from msa.structure import PlacedStructure, Structure
-from overconstraint import Tolerance
 from strutwork.errors import ModelError
+from strutwork.kinematics import GROUND, Body, Poses
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.mit_ss1_tolerances import RAIL_HEIGHT
+from strutwork.msa.structure import PlacedStructure, Structure
+from strutwork.overconstraint import Tolerance
 
 #: Zone in which a datum surface lies against the others, m. Our choice: milled and bolted faces.
 DATUM_ZONE = 50e-6

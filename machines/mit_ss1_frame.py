@@ -7,13 +7,13 @@ from functools import cached_property, lru_cache
 from math import isfinite
 from pathlib import Path
 
-from fea.interface import Interface
-from fea.reduce_solid import reduce_solid
-from fea.solid import Solid
-from fea.superelement import Superelement
-from meshes import Mesh, l_frame, patch
-from msa.materials import Material
 from strutwork.errors import ModelError
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import reduce_solid
+from strutwork.fea.solid import Solid
+from strutwork.fea.superelement import Superelement
+from strutwork.meshes import Mesh, l_frame, patch
+from strutwork.msa.materials import Material
 
 #: Son 2002, table of materials (section 8.1): 78 GPa and 3.0 t/m³. The thesis prints no
 #: Poisson's ratio; 0.25 is our assumption.
@@ -52,7 +52,7 @@ class GraniteFrame:
     plate, base : float
         Thickness of the plate and of the base, m. The thesis prints neither; these bring the
         granite alone near its frequencies. With the machine on it, and calibrated, see
-        `machines.mit_ss1_calibrated`.
+        `strutwork.machines.mit_ss1_calibrated`.
     rails : (3,) of float
         Where the rails stand along x, m.
     rail_foot : (low, high)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from kinematics import GROUND, Body, Joint
-from msa.beam import Beam
-from msa.materials import Material
-from msa.sections import Section
-from msa.springs import PointMass
+from strutwork.kinematics import GROUND, Body, Joint
+from strutwork.msa.beam import Beam
+from strutwork.msa.materials import Material
+from strutwork.msa.sections import Section
+from strutwork.msa.springs import PointMass
 
 TOOL = "tool"
 HOUSING = "housing"

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from machines import mit_ss1_parts as parts
-from machines.mit_ss1 import MitSS1
-from machines.mit_ss1_assembly import TILT, block, joint
-from overconstraint import Tolerance
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.mit_ss1_assembly import TILT, block, joint
+from strutwork.overconstraint import Tolerance
 
 #: Parallelism of the holes in the spindle housing, rad. Our choice; section 8.6 has them cut
 #: by wire EDM in one set-up, "quite good".

@@ -12,14 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea.superelement import Superelement
-from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses
-from machines import mit_ss1_parts as parts
-from machines.limits import Limit, joint_limits
-from machines.mit_ss1 import MitSS1
-from machines.mit_ss1_frame import MOUNTS, GraniteFrame, mount, rail_foot
-from msa.structure import PlacedStructure, Structure
 from strutwork.errors import ModelError
+from strutwork.fea.superelement import Superelement
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.limits import Limit, joint_limits
+from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.mit_ss1_frame import MOUNTS, GraniteFrame, mount, rail_foot
+from strutwork.msa.structure import PlacedStructure, Structure
 
 Array = NDArray[Any]
 
@@ -55,7 +55,7 @@ class MitSS1Whole:
     frame : GraniteFrame
     mount_stiffness : (horizontal, vertical)
         Of one mount, N/m. Near the rigid-body frequencies of Fig. 57 with the granite alone; for
-        the whole see `machines.mit_ss1_calibrated`.
+        the whole see `strutwork.machines.mit_ss1_calibrated`.
     offset : float
         From the plate's front to the plane in which the machine moves, m. Our choice: the near
         bearings stand 60 mm clear of the granite.

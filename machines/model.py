@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from fea import preloaded
-from kinematics import Placement
-from machines.model_solid_element import SolidElement
-from msa import LoadCase, PlacedStructure, Structure
-from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError, ModelWarning
+from strutwork.fea import preloaded
+from strutwork.kinematics import Placement
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.msa import LoadCase, PlacedStructure, Structure
+from strutwork.overconstraint.tolerance import Tolerance
 
 __all__ = ["Damping", "Model", "ModelWarning"]
 

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
-from machines.model import Damping, Model, ModelWarning
-from machines.model_cases import load_cases
-from machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
-from machines.model_schema import ModelTable
-from machines.model_solid_element import SolidElement
-from machines.model_tolerances import model_tolerances
-from msa import Beam, Structure
-from msa.unjoined import in_words, unjoined_nodes
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.machines.model import Damping, Model, ModelWarning
+from strutwork.machines.model_cases import load_cases
+from strutwork.machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
+from strutwork.machines.model_schema import ModelTable
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.machines.model_tolerances import model_tolerances
+from strutwork.msa import Beam, Structure
+from strutwork.msa.unjoined import in_words, unjoined_nodes
 
 #: Bounds that keep a file from asking for more memory than any machine has.
 MAX_MESH_NODES = 20_000
@@ -244,7 +244,7 @@ def _solids(tables: ModelTable, folder: Path) -> tuple[SolidElement, ...]:
     if not tables.solids:
         return ()
     # meshes and SfePy take longer to load than a file without solids to check
-    from machines.model_solids import solids_of  # noqa: PLC0415
+    from strutwork.machines.model_solids import solids_of  # noqa: PLC0415
 
     solids = solids_of(tables, folder)
     for solid in solids:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from kinematics import DIRECTIONS, Joint, State
-from machines.model_parts import by_direction, unknown
-from machines.model_schema import ModelTable
-from msa import LineLoad, LoadCase
-from msa.loads import Vector, Wrench
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Joint, State
+from strutwork.machines.model_parts import by_direction, unknown
+from strutwork.machines.model_schema import ModelTable
+from strutwork.msa import LineLoad, LoadCase
+from strutwork.msa.loads import Vector, Wrench
 
 #: Case that the table `gravity` makes.
 GRAVITY_CASE = "gravity"

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from machines.model_schema import ModelTable
 from strutwork.errors import ModelError, UnitError
+from strutwork.machines.model_schema import ModelTable
 from strutwork.units import shown
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from machines.model import Model
-from machines.model_builder import build_model
-from machines.model_errors import model_error
-from machines.model_schema import ModelTable
 from strutwork.errors import ModelError
+from strutwork.machines.model import Model
+from strutwork.machines.model_builder import build_model
+from strutwork.machines.model_errors import model_error
+from strutwork.machines.model_schema import ModelTable
 from strutwork.stages import stage
 
 #: A larger file is no description of a structure that a person wrote, bytes.

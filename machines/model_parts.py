@@ -8,9 +8,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, Joint
-from machines.model import ModelWarning
-from machines.model_schema import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Joint
+from strutwork.machines.model import ModelWarning
+from strutwork.machines.model_schema import (
     BodyTable,
     BoxTable,
     DampingByDirection,
@@ -24,8 +25,7 @@ from machines.model_schema import (
     StiffnessTable,
     TubeTable,
 )
-from msa import Beam, Material, PointMass, Section, Spring, box, rectangle, rod, tube
-from strutwork.errors import ModelError
+from strutwork.msa import Beam, Material, PointMass, Section, Spring, box, rectangle, rod, tube
 
 #: Poisson's ratio and shear modulus may disagree by this share without a warning.
 SHEAR_TOLERANCE = 0.01

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, StrictBool
 
-from kinematics import DIRECTIONS
-from machines.model_fields import (
+from strutwork import units
+from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.model_fields import (
     Acceleration,
     Angle,
     Area,
@@ -41,8 +42,7 @@ from machines.model_fields import (
     Table,
     Vector,
 )
-from machines.model_solid_schema import SolidTable
-from strutwork import units
+from strutwork.machines.model_solid_schema import SolidTable
 
 #: A beam may be divided into this many elements at most.
 MAX_ELEMENTS = 1000

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa import PlacedStructure
-from msa.structure import rigid_map
+from strutwork.msa import PlacedStructure
+from strutwork.msa.structure import rigid_map
 
 if TYPE_CHECKING:
-    from fea.superelement import Superelement
+    from strutwork.fea.superelement import Superelement
 
 Array = NDArray[Any]
 

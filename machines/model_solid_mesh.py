@@ -12,20 +12,20 @@ from typing import TypeVar
 
 import numpy as np
 
-from machines.model_solid_schema import SolidTable
-from meshes.cells import CELL_TYPES
-from meshes.gmsh_volumes import VOLUME_ERROR, tetrahedra
-from meshes.grading import lines_through
-from meshes.grids import grid
-from meshes.l_frame import l_frame
-from meshes.mesh import Mesh
-from meshes.mesh_files import read_mesh
-from meshes.order import linear
-from meshes.quality import cell_volumes, check_quality
-from meshes.selection import Box, patches
-from meshes.surfaces import read_surface
-from meshes.tube import tube
 from strutwork.errors import ModelError, ModelWarning, StrutworkError
+from strutwork.machines.model_solid_schema import SolidTable
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.gmsh_volumes import VOLUME_ERROR, tetrahedra
+from strutwork.meshes.grading import lines_through
+from strutwork.meshes.grids import grid
+from strutwork.meshes.l_frame import l_frame
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.mesh_files import read_mesh
+from strutwork.meshes.order import linear
+from strutwork.meshes.quality import cell_volumes, check_quality
+from strutwork.meshes.selection import Box, patches
+from strutwork.meshes.surfaces import read_surface
+from strutwork.meshes.tube import tube
 
 Value = TypeVar("Value")
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from machines.model_fields import Frequency, Length, Name, Point, Size, Table, Vector
+from strutwork.machines.model_fields import Frequency, Length, Name, Point, Size, Table, Vector
 
 #: More modes with the interfaces held are no reduction.
 MAX_MODES = 600

@@ -11,21 +11,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.interface import Interface
-from fea.reduce_solid import reduce_solid
-from fea.solid import Solid
-from kinematics import axes_frame
-from machines.model import ModelWarning
-from machines.model_parts import material_of, unknown
-from machines.model_schema import ModelTable
-from machines.model_solid_element import SolidElement
-from machines.model_solid_mesh import at_field, check_source, field_of, patch_name, solid_mesh
-from machines.model_solid_schema import SolidTable
-from meshes.boundary import boundary
-from meshes.mesh import Mesh
-from meshes.surfaces import surface_of
-from msa import Material
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import reduce_solid
+from strutwork.fea.solid import Solid
+from strutwork.kinematics import axes_frame
+from strutwork.machines.model import ModelWarning
+from strutwork.machines.model_parts import material_of, unknown
+from strutwork.machines.model_schema import ModelTable
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.machines.model_solid_mesh import (
+    at_field,
+    check_source,
+    field_of,
+    patch_name,
+    solid_mesh,
+)
+from strutwork.machines.model_solid_schema import SolidTable
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.surfaces import surface_of
+from strutwork.msa import Material
 from strutwork.stages import stage
 
 Array = NDArray[Any]

@@ -6,12 +6,12 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from kinematics import DIRECTIONS, Joint, State
-from machines.model_parts import unknown
-from machines.model_schema import ForceLimitTable, ModelTable, ToleranceTable
-from overconstraint.responses import KINDS
-from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Joint, State
+from strutwork.machines.model_parts import unknown
+from strutwork.machines.model_schema import ForceLimitTable, ModelTable, ToleranceTable
+from strutwork.overconstraint.responses import KINDS
+from strutwork.overconstraint.tolerance import Tolerance
 
 #: Key of a force limit by the quantity that it bounds.
 LIMIT_KEYS: Mapping[str, str] = {kind: kind.replace(" ", "_") for kind, _, _ in KINDS}

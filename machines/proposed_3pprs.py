@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kinematics import Body, Joint, angle, axes_frame
-from kinematics.frames import dot
-from machines.legs import Leg, LegPlacement, square_root
-from machines.radial import Radial
-from machines.three_legs import ThreeLegs
+from strutwork.kinematics import Body, Joint, angle, axes_frame
+from strutwork.kinematics.frames import dot
+from strutwork.machines.legs import Leg, LegPlacement, square_root
+from strutwork.machines.radial import Radial
+from strutwork.machines.three_legs import ThreeLegs
 
 
 @dataclass(frozen=True, kw_only=True)

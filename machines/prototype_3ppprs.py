@@ -10,17 +10,17 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Body, Joint, angle
-from kinematics.frames import dot, frame
-from machines.azulay_dynamic import Platform
-from machines.legs import Leg, LegPlacement, full, seat, square_root
-from machines.limits import Limit, joint_limits
-from machines.radial import Radial
-from machines.three_legs import SWING, TOOL, ThreeLegs
-from msa.beam import Beam
-from msa.springs import PointMass
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import Body, Joint, angle
+from strutwork.kinematics.frames import dot, frame
+from strutwork.machines.azulay_dynamic import Platform
+from strutwork.machines.legs import Leg, LegPlacement, full, seat, square_root
+from strutwork.machines.limits import Limit, joint_limits
+from strutwork.machines.radial import Radial
+from strutwork.machines.three_legs import SWING, TOOL, ThreeLegs
+from strutwork.msa.beam import Beam
+from strutwork.msa.springs import PointMass
+from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from machines.published import Paper, PublishedTable, PublishedValue, rows_of
+from strutwork.machines.published import Paper, PublishedTable, PublishedValue, rows_of
 
 AZULAY_2014 = Paper(
     "azulay-2014",

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import angle
-from kinematics.frames import frame, vector
+from strutwork.kinematics import angle
+from strutwork.kinematics.frames import frame, vector
 
 Array = NDArray[Any]
 

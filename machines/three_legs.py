@@ -17,17 +17,17 @@ from typing import Any, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, axes_frame
-from kinematics.frames import cross, dot, gathered, turned
-from machines.dimensions import check_proportions
-from machines.legs import CENTRE, SEAT, Leg, LegPlacement, full, seat
-from machines.limits import Limit, joint_limits
-from machines.radial import Radial
-from msa.beam import Beam
-from msa.materials import Material
-from msa.sections import Section, tube
-from msa.structure import Structure
 from strutwork.errors import ModelError
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, axes_frame
+from strutwork.kinematics.frames import cross, dot, gathered, turned
+from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.legs import CENTRE, SEAT, Leg, LegPlacement, full, seat
+from strutwork.machines.limits import Limit, joint_limits
+from strutwork.machines.radial import Radial
+from strutwork.msa.beam import Beam
+from strutwork.msa.materials import Material
+from strutwork.msa.sections import Section, tube
+from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 
@@ -212,7 +212,7 @@ class ThreeLegs(ABC):
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:
-        """Joint ranges, for `machines.check_limits`; those of the spherical joints last."""
+        """Joint ranges, for `strutwork.machines.check_limits`; of the spherical joints last."""
         return (
             *joint_limits(self.linkage),
             *(Limit(full(i, "ball"), SWING, 0.0, self.ball_range, "spherical") for i in (1, 2, 3)),
@@ -253,7 +253,7 @@ class ThreeLegs(ABC):
     def place(self, poses: Poses) -> Placement:
         """Inverse kinematics, batch first.
 
-        Joint ranges are not looked at: `machines.check_limits` does. Every operation is
+        Joint ranges are not looked at: `strutwork.machines.check_limits` does. Every operation is
         analytic, so that poses may carry a complex step.
 
         Returns

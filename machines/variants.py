@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import cast, get_args
 
-from machines.azulay_dynamic import DYNAMIC_SETS, DynamicSet, dynamic_machine
-from machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
-from machines.three_legs import ThreeLegs
 from strutwork.errors import ModelError
+from strutwork.machines.azulay_dynamic import DYNAMIC_SETS, DynamicSet, dynamic_machine
+from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
+from strutwork.machines.three_legs import ThreeLegs
 
 #: Between a machine's name and its variant's.
 MARK = ":"

@@ -43,7 +43,7 @@ class WorkTable:
         Returns
         -------
         position : (..., 3)
-            (x, 0, z), m, in the axes of `machines.MitSS1`.
+            (x, 0, z), m, in the axes of `strutwork.machines.MitSS1`.
         """
         w, a = np.asarray(work), np.asarray(a)
         rise = w[..., 2] + self.table_height

@@ -1,22 +1,22 @@
 """Meshes: generated, imported and exported; surfaces and their mass properties."""
 
-from meshes.block import block, hexahedral_block
-from meshes.boundary import boundary
-from meshes.cells import CELL_TYPES, CellType
-from meshes.connectivity import Connectivity, check_connectivity, connectivity
-from meshes.gltf import GltfPart, to_glb, write_gltf
-from meshes.gmsh_volumes import tetrahedra
-from meshes.grading import lines, lines_through
-from meshes.grids import grid
-from meshes.l_frame import l_frame
-from meshes.mass_properties import MassProperties, mass_properties
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
-from meshes.mesh_files import read_mesh, write_mesh
-from meshes.order import linear, quadratic, refined, without_orphans
-from meshes.plate import plate_with_patches
-from meshes.quality import Quality, cell_volumes, check_quality, quality
-from meshes.selection import in_box, node_set, patch, patches
-from meshes.surface_integrals import (
+from strutwork.meshes.block import block, hexahedral_block
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.cells import CELL_TYPES, CellType
+from strutwork.meshes.connectivity import Connectivity, check_connectivity, connectivity
+from strutwork.meshes.gltf import GltfPart, to_glb, write_gltf
+from strutwork.meshes.gmsh_volumes import tetrahedra
+from strutwork.meshes.grading import lines, lines_through
+from strutwork.meshes.grids import grid
+from strutwork.meshes.l_frame import l_frame
+from strutwork.meshes.mass_properties import MassProperties, mass_properties
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.meshes.mesh_files import read_mesh, write_mesh
+from strutwork.meshes.order import linear, quadratic, refined, without_orphans
+from strutwork.meshes.plate import plate_with_patches
+from strutwork.meshes.quality import Quality, cell_volumes, check_quality, quality
+from strutwork.meshes.selection import in_box, node_set, patch, patches
+from strutwork.meshes.surface_integrals import (
     face_areas,
     face_centres,
     face_normals,
@@ -24,7 +24,7 @@ from meshes.surface_integrals import (
     nodal_areas,
     patch_area,
 )
-from meshes.surfaces import (
+from strutwork.meshes.surfaces import (
     Surface,
     check_closed,
     flipped,
@@ -34,8 +34,8 @@ from meshes.surfaces import (
     welded,
     write_surface,
 )
-from meshes.transform import joined, mapped, merged, moved
-from meshes.tube import tube
+from strutwork.meshes.transform import joined, mapped, merged, moved
+from strutwork.meshes.tube import tube
 
 __all__ = [
     "CELL_TYPES",

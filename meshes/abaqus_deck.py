@@ -8,15 +8,15 @@ from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
 
-from meshes import limits
-from meshes.abaqus_rows import CellRows, OtherRows, counted, not_read
-from meshes.abaqus_scope import NamedSet, Piece, Scope, Surface
-from meshes.abaqus_system import System
-from meshes.abaqus_types import kind_of
-from meshes.cells import CELL_TYPES
-from meshes.deck_lines import DeckLines
-from meshes.file_mesh import remedy_for, unusable
 from strutwork.errors import ModelError
+from strutwork.meshes import limits
+from strutwork.meshes.abaqus_rows import CellRows, OtherRows, counted, not_read
+from strutwork.meshes.abaqus_scope import NamedSet, Piece, Scope, Surface
+from strutwork.meshes.abaqus_system import System
+from strutwork.meshes.abaqus_types import kind_of
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.deck_lines import DeckLines
+from strutwork.meshes.file_mesh import remedy_for, unusable
 
 Row = Callable[[str], None]
 #: Keywords that make or move nodes and elements in ways that are not read here.

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.abaqus_deck import Deck
-from meshes.abaqus_scope import Index, NamedSet, Piece, Scope, Surface
-from meshes.abaqus_system import placed
-from meshes.abaqus_types import FACE_ORDER
-from meshes.cells import CELL_TYPES
-from meshes.file_mesh import Block, FileMesh
-from meshes.rows import row_groups
 from strutwork.errors import ModelError
+from strutwork.meshes.abaqus_deck import Deck
+from strutwork.meshes.abaqus_scope import Index, NamedSet, Piece, Scope, Surface
+from strutwork.meshes.abaqus_system import placed
+from strutwork.meshes.abaqus_types import FACE_ORDER
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.file_mesh import Block, FileMesh
+from strutwork.meshes.rows import row_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

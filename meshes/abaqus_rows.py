@@ -6,12 +6,12 @@ import re
 from array import array
 from collections.abc import Callable
 
-from meshes import limits
-from meshes.abaqus_scope import Elements, Scope
-from meshes.abaqus_types import NODE_ORDER
-from meshes.cells import CELL_TYPES
-from meshes.deck_lines import DeckLines
 from strutwork.errors import ModelError
+from strutwork.meshes import limits
+from strutwork.meshes.abaqus_scope import Elements, Scope
+from strutwork.meshes.abaqus_types import NODE_ORDER
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.deck_lines import DeckLines
 
 
 class CellRows:

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.numbered import Numbered
 from strutwork.errors import ModelError
+from strutwork.meshes.numbered import Numbered
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

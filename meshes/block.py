@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from meshes.cells import CELL_TYPES
-from meshes.grading import lines
-from meshes.grids import grid
-from meshes.mesh import Mesh
-from meshes.quality import check_quality
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.grading import lines
+from strutwork.meshes.grids import grid
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.quality import check_quality
 
 
 def block(
@@ -36,7 +36,7 @@ def block(
     grading : (3,)
         Last cell over first along each axis; more than 1 is finer at the origin.
     both : bool
-        Grade both ends alike (`meshes.grading.lines`).
+        Grade both ends alike (`strutwork.meshes.grading.lines`).
     region, name : str
         Name of the region, and of the mesh.
 

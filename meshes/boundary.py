@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshes.mesh import Faces, Mesh, Patch
-from meshes.rows import row_groups
+from strutwork.meshes.mesh import Faces, Mesh, Patch
+from strutwork.meshes.rows import row_groups
 
 
 def boundary(mesh: Mesh, region: str | None = None) -> Patch:
@@ -14,7 +14,7 @@ def boundary(mesh: Mesh, region: str | None = None) -> Patch:
     Parameters
     ----------
     mesh : Mesh
-        Its cells must not be inverted (`meshes.quality`).
+        Its cells must not be inverted (`strutwork.meshes.quality`).
     region : str or None
         The surface of one region, which includes what it shares with others; by default
         that of the whole mesh.

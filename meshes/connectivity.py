@@ -11,10 +11,10 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from meshes.mesh import Mesh
-from meshes.rows import row_groups
-from meshes.transform import coincident_groups
 from strutwork.errors import ModelError
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.rows import row_groups
+from strutwork.meshes.transform import coincident_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]
@@ -66,7 +66,7 @@ class Connectivity:
 
 
 def connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
-    """How the cells hang together; `tolerance` is that of `meshes.transform.merged`."""
+    """How the cells hang together; `tolerance` is that of `strutwork.meshes.transform.merged`."""
     size = len(mesh.points)
     links = [
         (np.repeat(b.nodes[:, :1], b.type.size - 1, axis=1), b.nodes[:, 1:]) for b in mesh.blocks
@@ -127,7 +127,7 @@ def check_connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivi
         raise ModelError(
             part,
             f"{len(found.orphans)} points belong to no cell, the first is {found.orphans[0]}.",
-            "Drop them with `meshes.without_orphans`.",
+            "Drop them with `strutwork.meshes.without_orphans`.",
         )
     return found
 
@@ -147,8 +147,8 @@ def _apart(mesh: Mesh, found: Connectivity) -> ModelError:
         f"mesh {mesh.name}",
         f"{names[0]} and {names[1]} have no common node{more}. They are nearest at ({where}) m, "
         f"{distance[closest]:.3g} m apart.",
-        "Merge coincident points with `meshes.merged` and a tolerance, make the mesh lines of "
-        "both agree, or analyse each part as its own solid.",
+        "Merge coincident points with `strutwork.meshes.merged` and a tolerance, make the mesh "
+        "lines of both agree, or analyse each part as its own solid.",
     )
 
 

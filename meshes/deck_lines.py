@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from meshes import limits
 from strutwork.errors import ModelError
+from strutwork.meshes import limits
 
 MOST_INCLUDES = 1000
 LONGEST_LINE = 100_000

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.cells import CELL_TYPES
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
-from meshes.order import without_orphans
-from meshes.regions import partition
-from meshes.rows import row_groups
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.meshes.order import without_orphans
+from strutwork.meshes.regions import partition
+from strutwork.meshes.rows import row_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]
@@ -80,7 +80,7 @@ class FileMesh:
                 f"mesh {name}",
                 "holds no solid cells.",
                 "Export hexahedra or tetrahedra; a closed surface is meshed by "
-                "`meshes.gmsh_volumes.tetrahedra`.",
+                "`strutwork.meshes.gmsh_volumes.tetrahedra`.",
             )
         blocks, number = _by_kind(solids)
         count = len(number)

@@ -14,15 +14,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.abaqus_deck import Deck
-from meshes.abaqus_model import DeckModel
-from meshes.abaqus_types import FACE_ORDER
-from meshes.cells import CELL_TYPES
-from meshes.file_mesh import FileMesh
-from meshes.groups import Group
-from meshes.mesh import Mesh
-from meshes.rows import row_groups
 from strutwork.errors import ModelError
+from strutwork.meshes.abaqus_deck import Deck
+from strutwork.meshes.abaqus_model import DeckModel
+from strutwork.meshes.abaqus_types import FACE_ORDER
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.file_mesh import FileMesh
+from strutwork.meshes.groups import Group
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.rows import row_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.cells import CELL_TYPES
-from meshes.file_mesh import Block, FileMesh, remedy_for, unusable
-from meshes.gmsh_file import NODE_ORDER, Cells, GmshFile, read_file
-from meshes.groups import Group, with_cell_sets
-from meshes.mesh import Mesh
-from meshes.numbered import Numbered
-from meshes.rows import row_groups
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.file_mesh import Block, FileMesh, remedy_for, unusable
+from strutwork.meshes.gmsh_file import NODE_ORDER, Cells, GmshFile, read_file
+from strutwork.meshes.groups import Group, with_cell_sets
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.numbered import Numbered
+from strutwork.meshes.rows import row_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.cells import CELL_TYPES, CellType
-from meshes.file_mesh import Block, FileMesh, remedy_for, unusable
-from meshes.groups import Group, with_cell_sets
-from meshes.med_file import read_file
-from meshes.mesh import CellBlock, Mesh
-from meshes.quality import cell_volumes
-from meshes.rows import row_groups
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES, CellType
+from strutwork.meshes.file_mesh import Block, FileMesh, remedy_for, unusable
+from strutwork.meshes.groups import Group, with_cell_sets
+from strutwork.meshes.med_file import read_file
+from strutwork.meshes.mesh import CellBlock, Mesh
+from strutwork.meshes.quality import cell_volumes
+from strutwork.meshes.rows import row_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

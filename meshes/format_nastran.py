@@ -12,13 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
-from meshes.cells import CELL_TYPES
-from meshes.file_mesh import Block, FileMesh
-from meshes.groups import Group
-from meshes.mesh import Mesh
-from meshes.middle_nodes import filled
-from meshes.nastran_deck import ELEMENTS, BulkData
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.file_mesh import Block, FileMesh
+from strutwork.meshes.groups import Group
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.middle_nodes import filled
+from strutwork.meshes.nastran_deck import ELEMENTS, BulkData
 
 COMMENT = re.compile(r"^\$ property (\d+) (region|patch) (.*)$")
 COUNTS = re.compile(r"^\$ strutwork mesh: (\d+) nodes, (\d+) elements$")

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes import limits
-from meshes.cells import CELL_TYPES
-from meshes.file_mesh import Block, FileMesh, by_tag
-from meshes.groups import Group
-from meshes.mesh import Mesh
-from meshes.vtk_cells import VtkBlock, blocks
-from meshes.vtu_arrays import VtuFile, open_vtu
+from strutwork.meshes import limits
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.file_mesh import Block, FileMesh, by_tag
+from strutwork.meshes.groups import Group
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.vtk_cells import VtkBlock, blocks
+from strutwork.meshes.vtu_arrays import VtuFile, open_vtu
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.surfaces import FROM_GLTF, Surface
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
+from strutwork.meshes.surfaces import FROM_GLTF, Surface
 
 Array = NDArray[Any]
 FLOAT, UNSIGNED = 5126, 5125

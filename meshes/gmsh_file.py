@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes import limits
-from meshes.deck_lines import encoding
-from meshes.gmsh_values import Values
 from strutwork.errors import ModelError
+from strutwork.meshes import limits
+from strutwork.meshes.deck_lines import encoding
+from strutwork.meshes.gmsh_values import Values
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -17,14 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.boundary import boundary
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
-from meshes.order import without_orphans
-from meshes.quality import check_quality, quality
-from meshes.rows import row_groups
-from meshes.self_intersections import check_simple
-from meshes.surfaces import Surface, check_closed, check_one_body
 from strutwork.errors import ModelError
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.meshes.order import without_orphans
+from strutwork.meshes.quality import check_quality, quality
+from strutwork.meshes.rows import row_groups
+from strutwork.meshes.self_intersections import check_simple
+from strutwork.meshes.surfaces import Surface, check_closed, check_one_body
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]
@@ -214,7 +214,7 @@ def _check_step(path: Path) -> None:
         raise ModelError(
             str(path),
             f"the suffix {path.suffix!r} is not that of STEP.",
-            "Give .step or .stp; read an STL with `meshes.surfaces.read_surface` first.",
+            "Give .step or .stp; read an STL with `strutwork.meshes.surfaces.read_surface` first.",
         )
     if not path.is_file():
         raise ModelError(str(path), "there is no such file.", "Check the path.")

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from meshes.boundary import boundary
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
 from strutwork.errors import ModelError
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
 
 Array = NDArray[Any]
 

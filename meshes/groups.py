@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.mesh import Mesh
+from strutwork.meshes.mesh import Mesh
 
 Ints = NDArray[np.int64]
 

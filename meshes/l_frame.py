@@ -8,11 +8,11 @@ from math import isfinite
 
 import numpy as np
 
-from meshes.grading import lines_through
-from meshes.grids import grid
-from meshes.mesh import Mesh
-from meshes.selection import Box, in_box, patches
 from strutwork.errors import ModelError
+from strutwork.meshes.grading import lines_through
+from strutwork.meshes.grids import grid
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.selection import Box, in_box, patches
 
 
 def l_frame(

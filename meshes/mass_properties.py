@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.mesh import Mesh
 from strutwork.errors import ModelError
+from strutwork.meshes.mesh import Mesh
 
 Array = NDArray[Any]
 

@@ -10,8 +10,8 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from meshes.cells import CellType, cell_type
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CellType, cell_type
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

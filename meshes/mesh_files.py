@@ -8,13 +8,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from meshes import format_abaqus, format_gmsh, format_med, format_nastran, format_vtu, limits
-from meshes.file_mesh import FileMesh
-from meshes.groups import Group, to_groups
-from meshes.mesh import Mesh
-from meshes.quality import check_quality
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
+from strutwork.meshes import (
+    format_abaqus,
+    format_gmsh,
+    format_med,
+    format_nastran,
+    format_vtu,
+    limits,
+)
+from strutwork.meshes.file_mesh import FileMesh
+from strutwork.meshes.groups import Group, to_groups
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.quality import check_quality
 
 #: Metres per unit.
 UNITS = {"m": 1.0, "mm": 1e-3}
@@ -76,8 +83,8 @@ def read_mesh(path: Path | str, unit: str = "m", *, check: bool = True) -> Mesh:
     ------
     ModelError
         A file that is missing, empty, cut short, of another format, or larger than the limits
-        of `meshes.limits`; what is not understood; cells that cannot be used; inverted cells,
-        with their count and place.
+        of `strutwork.meshes.limits`; what is not understood; cells that cannot be used; inverted
+        cells, with their count and place.
     """
     path = Path(path)
     scale = _scale(path, unit)
@@ -150,7 +157,7 @@ def _format(path: Path) -> Format:
             str(path),
             f"the suffix {suffix!r} is none of a mesh file that is read.",
             f"Use {', '.join(FORMATS)} (ParaView and Gmsh save other formats as these); "
-            "STL, OBJ and glTF are surfaces (`meshes.surfaces`).",
+            "STL, OBJ and glTF are surfaces (`strutwork.meshes.surfaces`).",
         )
     return FORMATS[suffix]
 

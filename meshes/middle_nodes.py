@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.cells import CELL_TYPES
-from meshes.rows import row_groups
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.rows import row_groups
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from meshes.deck_lines import DeckLines
+from strutwork.meshes.deck_lines import DeckLines
 
 BEGIN = re.compile(r"\s*BEGIN[\s,]+BULK\b", re.IGNORECASE)
 SUPER = re.compile(r"\s*BEGIN\s+(SUPER|BULK\s+\w+\s*=)", re.IGNORECASE)

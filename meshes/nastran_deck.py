@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes import limits
-from meshes.deck_lines import DeckLines
-from meshes.file_mesh import remedy_for, unusable
-from meshes.nastran_cards import Card, cards, real, whole
-from meshes.nastran_systems import Systems
-from meshes.numbered import Numbered
 from strutwork.errors import ModelError
+from strutwork.meshes import limits
+from strutwork.meshes.deck_lines import DeckLines
+from strutwork.meshes.file_mesh import remedy_for, unusable
+from strutwork.meshes.nastran_cards import Card, cards, real, whole
+from strutwork.meshes.nastran_systems import Systems
+from strutwork.meshes.numbered import Numbered
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.deck_lines import DeckLines
-from meshes.nastran_cards import Card, real, whole
-from meshes.numbered import Numbered
+from strutwork.meshes.deck_lines import DeckLines
+from strutwork.meshes.nastran_cards import Card, real, whole
+from strutwork.meshes.numbered import Numbered
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

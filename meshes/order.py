@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.cells import CELL_TYPES, CellType
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
-from meshes.rows import row_groups
-from meshes.transform import renumbered
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES, CellType
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.meshes.rows import row_groups
+from strutwork.meshes.transform import renumbered
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

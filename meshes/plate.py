@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from meshes.grading import lines, lines_through
-from meshes.grids import grid
-from meshes.mesh import Mesh
-from meshes.selection import Box, patches
 from strutwork.errors import ModelError
+from strutwork.meshes.grading import lines, lines_through
+from strutwork.meshes.grids import grid
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.selection import Box, patches
 
 #: Low x, high x, low y, high y, m.
 Rectangle = tuple[float, float, float, float]

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.mesh import CellBlock, Mesh
 from strutwork.errors import ModelError
+from strutwork.meshes.mesh import CellBlock, Mesh
 
 Array = NDArray[Any]
 #: Below this a cell is as good as flat, whatever its sign.

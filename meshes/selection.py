@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.boundary import boundary
-from meshes.mesh import Faces, Mesh, Patch
-from meshes.surface_integrals import face_centres, face_normals
 from strutwork.errors import ModelError
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.mesh import Faces, Mesh, Patch
+from strutwork.meshes.surface_integrals import face_centres, face_normals
 
 Array = NDArray[Any]
 #: Lower or upper corner of a box, m; None is open.

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.surfaces import Surface
 from strutwork.errors import ModelError
+from strutwork.meshes.surfaces import Surface
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.mesh import Faces, Mesh, Patch
+from strutwork.meshes.mesh import Faces, Mesh, Patch
 
 Array = NDArray[Any]
 #: Exact for the area of a plane face of any kind, and to 1e-6 or so for a curved one.

@@ -15,11 +15,11 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from meshes.mass_properties import MassProperties
-from meshes.mesh import Mesh, Patch
-from meshes.surface_integrals import corner_triangles
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
+from strutwork.meshes.mass_properties import MassProperties
+from strutwork.meshes.mesh import Mesh, Patch
+from strutwork.meshes.surface_integrals import corner_triangles
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]
@@ -133,7 +133,7 @@ def read_surface(path: Path | str, unit: str = "m") -> Surface:
 
 
 def write_surface(surface: Surface, path: Path | str, unit: str = "m") -> Path:
-    """Write a surface as .stl (binary) or .obj; for glTF use `meshes.gltf.write_gltf`."""
+    """Write a surface as .stl (binary) or .obj; for glTF use `strutwork.meshes.gltf.write_gltf`."""
     path = Path(path)
     scale = _scale(path, unit)
     kind = path.suffix.lower().removeprefix(".")
@@ -181,7 +181,7 @@ def flipped(surface: Surface) -> Surface:
 def check_closed(surface: Surface) -> None:
     """Pass a surface that bounds a volume: closed, of one orientation, outwards.
 
-    Self-intersections are not looked for: `meshes.self_intersections.check_simple`.
+    Self-intersections are not looked for: `strutwork.meshes.self_intersections.check_simple`.
 
     Raises
     ------
@@ -213,7 +213,8 @@ def check_closed(surface: Surface) -> None:
             part,
             f"is not watertight: {len(alone)} open edges, the first at {_place(middle[0])}, "
             f"all between {_place(middle.min(axis=0))} and {_place(middle.max(axis=0))}.",
-            "Close the gaps in CAD, or weld it with a tolerance (`meshes.surfaces.welded`).",
+            "Close the gaps in CAD, or weld it with a tolerance "
+            "(`strutwork.meshes.surfaces.welded`).",
         )
     turned = np.flatnonzero(balance)
     if len(turned):
@@ -306,7 +307,7 @@ def _check_outwards(part: str, surface: Surface) -> None:
             raise ModelError(
                 part,
                 f"bounds a volume of {volume:.6g} m³: it is inside out or flat.",
-                "Turn it with `meshes.surfaces.flipped`.",
+                "Turn it with `strutwork.meshes.surfaces.flipped`.",
             )
 
 
@@ -350,7 +351,7 @@ def _scale(path: Path, unit: str) -> float:
         raise ModelError(
             str(path),
             f"the suffix {path.suffix!r} is none of a surface.",
-            f"Use {', '.join(SUFFIXES)}; solid meshes are read by `meshes.read_mesh`.",
+            f"Use {', '.join(SUFFIXES)}; solid meshes are read by `strutwork.meshes.read_mesh`.",
         )
     if unit not in UNITS:
         raise ModelError(

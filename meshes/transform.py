@@ -12,9 +12,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
-from meshes.quality import check_quality
 from strutwork.errors import ModelError
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.meshes.quality import check_quality
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.grading import lines
-from meshes.grids import grid
-from meshes.mesh import Mesh
-from meshes.order import quadratic
-from meshes.transform import mapped, merged
 from strutwork.errors import ModelError
+from strutwork.meshes.grading import lines
+from strutwork.meshes.grids import grid
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.order import quadratic
+from strutwork.meshes.transform import mapped, merged
 
 Array = NDArray[Any]
 

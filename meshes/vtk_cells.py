@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.cells import CELL_TYPES
-from meshes.file_mesh import remedy_for, unusable
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.file_mesh import remedy_for, unusable
 
 Ints = NDArray[np.int64]
 #: Kinds that are read, by VTK's number.

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes import limits
 from strutwork.errors import ModelError
+from strutwork.meshes import limits
 
 Array = NDArray[Any]
 TYPES = {

@@ -1,16 +1,16 @@
 """Matrix structural analysis: beams, joints and springs; the saddle-point system; the tool."""
 
-from msa.assembly import System, system_of
-from msa.beam import Beam
-from msa.budget import ComplianceBudget, compliance_budget
-from msa.element import Element
-from msa.loads import LineLoad, LoadCase
-from msa.materials import Material
-from msa.movable import MovableDirections, movable_directions
-from msa.sections import Section, box, rectangle, rod, tube
-from msa.solve import METHODS, StaticSolution, solve
-from msa.springs import PointMass, Spring
-from msa.stiffness import (
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.beam import Beam
+from strutwork.msa.budget import ComplianceBudget, compliance_budget
+from strutwork.msa.element import Element
+from strutwork.msa.loads import LineLoad, LoadCase
+from strutwork.msa.materials import Material
+from strutwork.msa.movable import MovableDirections, movable_directions
+from strutwork.msa.sections import Section, box, rectangle, rod, tube
+from strutwork.msa.solve import METHODS, StaticSolution, solve
+from strutwork.msa.springs import PointMass, Spring
+from strutwork.msa.stiffness import (
     StiffnessEllipsoid,
     axis_stiffness_blocked,
     axis_stiffness_free,
@@ -18,9 +18,9 @@ from msa.stiffness import (
     stiffness_ellipsoid,
     tool_stiffness,
 )
-from msa.structure import PlacedStructure, Structure, rigid_map
-from msa.tool import compliance_and_outcome, tool_compliance
-from msa.topology import Topology
+from strutwork.msa.structure import PlacedStructure, Structure, rigid_map
+from strutwork.msa.tool import compliance_and_outcome, tool_compliance
+from strutwork.msa.topology import Topology
 
 __all__ = [
     "METHODS",

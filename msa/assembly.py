@@ -15,20 +15,20 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from kinematics import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import (
     DIRECTIONS,
     ConstraintRows,
     State,
     characteristic_lengths,
     constraint_rows,
 )
-from msa.beam import fixed_end_loads
-from msa.loads import LoadCase
-from msa.point_mass import mass_weight
-from msa.structure import PlacedStructure, rigid_map
-from msa.topology import Topology
-from msa.triplets import sum_of_parts
-from strutwork.errors import ModelError
+from strutwork.msa.beam import fixed_end_loads
+from strutwork.msa.loads import LoadCase
+from strutwork.msa.point_mass import mass_weight
+from strutwork.msa.structure import PlacedStructure, rigid_map
+from strutwork.msa.topology import Topology
+from strutwork.msa.triplets import sum_of_parts
 
 Array = NDArray[Any]
 

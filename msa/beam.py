@@ -9,9 +9,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.materials import Material
-from msa.sections import Section
 from strutwork.errors import ModelError
+from strutwork.msa.materials import Material
+from strutwork.msa.sections import Section
 
 Array = NDArray[Any]
 

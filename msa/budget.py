@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import DIRECTIONS
-from msa.assembly import system_of
-from msa.movable import movable_directions
-from msa.solve import METHODS, Method, default_method
-from msa.structure import PlacedStructure
 from strutwork.errors import NumericalError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa.assembly import system_of
+from strutwork.msa.movable import movable_directions
+from strutwork.msa.solve import METHODS, Method, default_method
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

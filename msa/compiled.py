@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System, system_of
-from msa.program import Program
-from msa.program_builder import compile_program
-from msa.structure import PlacedStructure, Structure
-from msa.trust import TRUSTED
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.program import Program
+from strutwork.msa.program_builder import compile_program
+from strutwork.msa.structure import PlacedStructure, Structure
+from strutwork.msa.trust import TRUSTED
 
 Array = NDArray[Any]
 
@@ -39,7 +39,7 @@ RENEWED_FROM = 256
 def available() -> bool:
     """Whether the compiled kernel can be used: numba is installed."""
     try:
-        import msa.kernel  # noqa: F401, PLC0415 - numba is slow to import and may be absent
+        import strutwork.msa.kernel  # noqa: F401, PLC0415 - numba is slow to import and may be absent
     except ImportError:
         return False
     return True
@@ -99,7 +99,7 @@ def _dependent(program: Program) -> set[tuple[int, int]]:
 
 
 def _run(system: System, program: Program, workers: int) -> tuple[Array, NDArray[np.bool_]]:
-    from msa.kernel import run_program  # noqa: PLC0415 - as in `available`
+    from strutwork.msa.kernel import run_program  # noqa: PLC0415 - as in `available`
 
     poses = system.poses
     compliance = np.empty((poses, 6, 6))

@@ -14,17 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
-from msa.assembly import System, system_of
-from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
-from msa.diagnosis import check_held, mechanism_error
-from msa.null_space import (
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
+from strutwork.msa.diagnosis import check_held, mechanism_error
+from strutwork.msa.null_space import (
     closing_rows,
     constrained_minimum,
     joint_coordinates,
     multipliers,
     symmetric_product,
 )
-from msa.trust import Unknowns, solve_trusted
+from strutwork.msa.trust import Unknowns, solve_trusted
 
 Array = NDArray[Any]
 

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import body_references, characteristic_lengths, constraint_rows
-from kinematics.mobility import LARGE, RANK_TOLERANCE
-from kinematics.rigid_graph import decompose
-from kinematics.rigid_spaces import rigid_graph
-from msa.assembly import System
-from msa.structure import rigid_map
 from strutwork.errors import InconsistentConstraintsError
+from strutwork.kinematics import body_references, characteristic_lengths, constraint_rows
+from strutwork.kinematics.mobility import LARGE, RANK_TOLERANCE
+from strutwork.kinematics.rigid_graph import decompose
+from strutwork.kinematics.rigid_spaces import rigid_graph
+from strutwork.msa.assembly import System
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 
@@ -76,7 +76,7 @@ def scales(system: System) -> Array:
 def orthonormal_rows(system: System) -> Rows:
     """Find the rank of the constraint rows and an orthonormal basis of them, per pose.
 
-    Rank is decided on rows of unit size, at `kinematics.mobility.RANK_TOLERANCE`.
+    Rank is decided on rows of unit size, at `strutwork.kinematics.mobility.RANK_TOLERANCE`.
     """
     scaled = system.rows * scales(system)[:, None]
     size = np.linalg.norm(scaled, axis=-1)

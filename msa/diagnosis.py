@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import mobility
-from msa.assembly import System, system_of
-from msa.constraints import free_unknowns, scales
-from msa.unjoined import in_words, unjoined_nodes
 from strutwork.errors import MechanismError, NumericalError, StrutworkError
+from strutwork.kinematics import mobility
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.constraints import free_unknowns, scales
+from strutwork.msa.unjoined import in_words, unjoined_nodes
 
 Array = NDArray[Any]
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from msa.structure import PlacedStructure
+    from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

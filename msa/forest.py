@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import State
-from msa.structure import Structure
+from strutwork.kinematics import State
+from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 

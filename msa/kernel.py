@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.kernel_assembly import assemble, axes_and_pivots
-from msa.kernel_loops import LANES, close_loops, loops_residual, told
-from msa.program import Program
 from strutwork.jit import jit
+from strutwork.msa.kernel_assembly import assemble, axes_and_pivots
+from strutwork.msa.kernel_loops import LANES, close_loops, loops_residual, told
+from strutwork.msa.program import Program
 
 Array = NDArray[Any]
 

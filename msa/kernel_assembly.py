@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from msa.kernel_loops import LANES, parted
 from strutwork.jit import jit
+from strutwork.msa.kernel_loops import LANES, parted
 
 
 @jit(contract=True)

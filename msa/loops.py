@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System, system_of
-from msa.null_space import closing_rows, joint_coordinates
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.null_space import closing_rows, joint_coordinates
 
 Array = NDArray[Any]
 

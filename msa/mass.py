@@ -9,11 +9,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from msa.assembly import System, system_of
-from msa.beam import to_global
-from msa.point_mass import mass_axes
-from msa.structure import PlacedStructure, rigid_map
 from strutwork.errors import ModelError
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.beam import to_global
+from strutwork.msa.point_mass import mass_axes
+from strutwork.msa.structure import PlacedStructure, rigid_map
 
 Array = NDArray[Any]
 

@@ -16,9 +16,9 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System
 from strutwork.errors import ModelError
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.msa.assembly import System
 
 Array = NDArray[Any]
 

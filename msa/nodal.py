@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System
-from msa.beam import local_stiffness
-from msa.structure import rigid_map
+from strutwork.msa.assembly import System
+from strutwork.msa.beam import local_stiffness
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import State
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System, system_of
-from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
-from msa.diagnosis import check_held, mechanism_error
-from msa.structure import rigid_map
-from msa.trust import Unknowns, solve_trusted
+from strutwork.kinematics import State
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
+from strutwork.msa.diagnosis import check_held, mechanism_error
+from strutwork.msa.structure import rigid_map
+from strutwork.msa.trust import Unknowns, solve_trusted
 
 Array = NDArray[Any]
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import axes_frame
-from msa.springs import PointMass
-from msa.structure import PlacedStructure
+from strutwork.kinematics import axes_frame
+from strutwork.msa.springs import PointMass
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

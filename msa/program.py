@@ -1,9 +1,9 @@
 """The elimination program of a topology: which joint coordinate meets which, in what order.
 
-Made once per structure and free of coordinates: the compiled kernel (`msa.kernel`) runs it on
-many poses at a time. Joint coordinates of the spanning forest are the unknowns, without those
-that closed loops make follow from others; those that move the tool come last, so that
-eliminating the others condenses each leg to the tool.
+Made once per structure and free of coordinates: the compiled kernel (`strutwork.msa.kernel`) runs
+it on many poses at a time. Joint coordinates of the spanning forest are the unknowns, without those
+that closed loops make follow from others; those that move the tool come last, so that eliminating
+the others condenses each leg to the tool.
 """
 
 from __future__ import annotations

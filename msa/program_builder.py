@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import State, characteristic_length
-from msa.assembly import System
-from msa.elimination import elimination_order, elimination_tape, ints, symbolic_factor
-from msa.loops import LARGEST_ROWS, Loop, closed_loops
-from msa.program import Program
-from msa.program_loops import (
+from strutwork.kinematics import State, characteristic_length
+from strutwork.msa.assembly import System
+from strutwork.msa.elimination import elimination_order, elimination_tape, ints, symbolic_factor
+from strutwork.msa.loops import LARGEST_ROWS, Loop, closed_loops
+from strutwork.msa.program import Program
+from strutwork.msa.program_loops import (
     Following,
     following,
     loop_program,
     spread_program,
 )
-from msa.structure import Structure
-from msa.topology import Topology
+from strutwork.msa.structure import Structure
+from strutwork.msa.topology import Topology
 
 Array = NDArray[Any]
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import State
-from msa.elimination import ints
-from msa.loops import Loop
-from msa.program import LoopProgram, SpreadProgram
-from msa.topology import Topology
+from strutwork.kinematics import State
+from strutwork.msa.elimination import ints
+from strutwork.msa.loops import Loop
+from strutwork.msa.program import LoopProgram, SpreadProgram
+from strutwork.msa.topology import Topology
 
 Array = NDArray[Any]
 

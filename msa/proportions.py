@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from msa.sections import Section
 from strutwork.errors import ProportionWarning
+from strutwork.msa.sections import Section
 
 if TYPE_CHECKING:
-    from msa.structure import PlacedStructure
+    from strutwork.msa.structure import PlacedStructure
 
 #: A section deeper than so many sizes of the whole structure belongs to none. Against its own beam
 #: it may be deeper: a stub in a machine has no length to speak of.

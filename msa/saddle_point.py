@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System
-from msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
-from msa.diagnosis import check_held, mechanism_error
-from msa.trust import Unknowns, solve_trusted
+from strutwork.msa.assembly import System
+from strutwork.msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
+from strutwork.msa.diagnosis import check_held, mechanism_error
+from strutwork.msa.trust import Unknowns, solve_trusted
 
 Array = NDArray[Any]
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import isfinite, pi, tanh
 
-from msa.hollow_rectangle import hollow_rectangle
 from strutwork.errors import ModelError
+from strutwork.msa.hollow_rectangle import hollow_rectangle
 
 #: Shear coefficients κ_y, κ_z as functions of Poisson's ratio.
 ShearCoefficients = Callable[[float], tuple[float, float]]
@@ -164,8 +164,8 @@ def box(width_y: float, height_z: float, thickness: float, name: str = "box") ->
     """Rectangular hollow section of one wall thickness, thin or thick.
 
     Torsion constant by Saint-Venant's theory and shear coefficients by Cowper's (1966), solved for
-    the section as it is (`msa.hollow_rectangle`): Bredt's formula loses 38 % of the torsion
-    constant of a square with walls of 0.4 of its width.
+    the section as it is (`strutwork.msa.hollow_rectangle`): Bredt's formula loses 38 % of the
+    torsion constant of a square with walls of 0.4 of its width.
 
     Raises
     ------

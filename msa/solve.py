@@ -11,18 +11,18 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System, system_of
-from msa.condensed import solve_condensed
-from msa.diagnosis import mechanisms_under
-from msa.loads import LoadCase
-from msa.nodal import beam_end_forces
-from msa.null_space import solve_null_space
-from msa.saddle_point import solve_saddle_point
-from msa.sparse import SPARSE_FROM, solve_sparse
-from msa.structure import PlacedStructure
-from msa.trust import Unknowns
-from msa.undetermined import undetermined
 from strutwork.errors import ModelError, NumericalError
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.condensed import solve_condensed
+from strutwork.msa.diagnosis import mechanisms_under
+from strutwork.msa.loads import LoadCase
+from strutwork.msa.nodal import beam_end_forces
+from strutwork.msa.null_space import solve_null_space
+from strutwork.msa.saddle_point import solve_saddle_point
+from strutwork.msa.sparse import SPARSE_FROM, solve_sparse
+from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.trust import Unknowns
+from strutwork.msa.undetermined import undetermined
 from strutwork.outcome import Outcome, solve_poses
 from strutwork.stages import stage
 

@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System
-from msa.constraints import CONSISTENCY, free_unknowns, scales
-from msa.diagnosis import check_held, mechanism_error
-from msa.triplets import Triplets
-from msa.trust import Unknowns, solve_trusted
 from strutwork.errors import InconsistentConstraintsError, ModelError
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.msa.assembly import System
+from strutwork.msa.constraints import CONSISTENCY, free_unknowns, scales
+from strutwork.msa.diagnosis import check_held, mechanism_error
+from strutwork.msa.triplets import Triplets
+from strutwork.msa.trust import Unknowns, solve_trusted
 
 Array = NDArray[Any]
 

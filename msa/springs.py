@@ -9,8 +9,8 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS
 
 
 @dataclass(frozen=True)

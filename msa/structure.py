@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import GROUND, Body, Linkage, Placement, check_coincidence
-from msa.beam import Beam, beam_axes, local_stiffness, to_global
-from msa.element import Element
-from msa.proportions import warn_of_proportions
-from msa.springs import PointMass, Spring
-from msa.stiffening import Stiffening
 from strutwork.errors import ModelError
+from strutwork.kinematics import GROUND, Body, Linkage, Placement, check_coincidence
+from strutwork.msa.beam import Beam, beam_axes, local_stiffness, to_global
+from strutwork.msa.element import Element
+from strutwork.msa.proportions import warn_of_proportions
+from strutwork.msa.springs import PointMass, Spring
+from strutwork.msa.stiffening import Stiffening
 
 Array = NDArray[Any]
 
@@ -240,8 +240,8 @@ class Structure:
 class PlacedStructure:
     """A structure at a batch of poses; made by `Structure.at`.
 
-    `stiffening` is what a preload adds when it vibrates (`fea.preloaded`); statics is linear and
-    does without.
+    `stiffening` is what a preload adds when it vibrates (`strutwork.fea.preloaded`); statics is
+    linear and does without.
     """
 
     structure: Structure

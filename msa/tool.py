@@ -7,14 +7,14 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System, system_of
-from msa.compiled import available, compiled_compliance, program_of
-from msa.diagnosis import mechanisms_under
-from msa.movable import always_movable, movable_directions, tool_length
-from msa.solve import METHODS, default_method
-from msa.stiffness import doubtful, scaled
-from msa.structure import PlacedStructure
 from strutwork.errors import ModelError, NumericalError
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.compiled import available, compiled_compliance, program_of
+from strutwork.msa.diagnosis import mechanisms_under
+from strutwork.msa.movable import always_movable, movable_directions, tool_length
+from strutwork.msa.solve import METHODS, default_method
+from strutwork.msa.stiffness import doubtful, scaled
+from strutwork.msa.structure import PlacedStructure
 from strutwork.outcome import Outcome, solve_poses
 
 Array = NDArray[Any]

@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import State
-from msa.forest import Forest, spanning_forest
-from msa.structure import Structure
+from strutwork.kinematics import State
+from strutwork.msa.forest import Forest, spanning_forest
+from strutwork.msa.structure import Structure
 
 
 @dataclass(frozen=True)

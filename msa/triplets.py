@@ -9,7 +9,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from msa.structure import rigid_map
+from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 

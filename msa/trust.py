@@ -1,10 +1,10 @@
 """One rule of trust for every solver: refine, estimate the error, and withhold what is not sure.
 
-The equilibrium is taken part by part (`msa.nodal`) and its residual is solved for again: the
-correction is the error of the solution before it, whatever the solver (Higham 2002, ch. 12). Where
-the first correction is not tiny, residuals are taken in extended precision, in which the stiffness
-of the parts has not lost the soft directions beside the stiff ones; each step then gains as many
-digits as the condition leaves.
+The equilibrium is taken part by part (`strutwork.msa.nodal`) and its residual is solved for again:
+the correction is the error of the solution before it, whatever the solver (Higham 2002, ch. 12).
+Where the first correction is not tiny, residuals are taken in extended precision, in which the
+stiffness of the parts has not lost the soft directions beside the stiff ones; each step then gains
+as many digits as the condition leaves.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.assembly import System, system_of
-from msa.diagnosis import check_residual
-from msa.nodal import unbalanced
 from strutwork.errors import NumericalError
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.diagnosis import check_residual
+from strutwork.msa.nodal import unbalanced
 
 Array = NDArray[Any]
 

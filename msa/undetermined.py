@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import System, system_of
-from msa.constraints import orthonormal_rows, scales
-from msa.sparse import SPARSE_FROM, row_groups, unit_rows
-from msa.structure import PlacedStructure
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.msa.assembly import System, system_of
+from strutwork.msa.constraints import orthonormal_rows, scales
+from strutwork.msa.sparse import SPARSE_FROM, row_groups, unit_rows
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

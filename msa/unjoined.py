@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial import cKDTree
 
-from msa.structure import PlacedStructure
+from strutwork.msa.structure import PlacedStructure
 
 #: Nodes nearer to one another than this share of the structure's size stand at one place.
 NEAR = 1e-6

@@ -1,16 +1,16 @@
 """Forces that manufacturing errors lock into over-constrained mechanisms."""
 
-from overconstraint.allocation import Allocation, allocate
-from overconstraint.distribution import Distribution, distribution
-from overconstraint.influence import (
+from strutwork.overconstraint.allocation import Allocation, allocate
+from strutwork.overconstraint.distribution import Distribution, distribution
+from strutwork.overconstraint.influence import (
     AssemblyForces,
     Influence,
     UndeterminedWarning,
     assembly_forces,
     influence,
 )
-from overconstraint.limits import Limits, bearing_limit, limit_vector
-from overconstraint.responses import (
+from strutwork.overconstraint.limits import Limits, bearing_limit, limit_vector
+from strutwork.overconstraint.responses import (
     Quantity,
     Responses,
     joint_quantities,
@@ -18,16 +18,20 @@ from overconstraint.responses import (
     tolerance_responses,
     tool_quantities,
 )
-from overconstraint.rigid_assembly import RigidAssembly, RigidEquilibrium, rigid_equilibrium
-from overconstraint.sampling import draw
-from overconstraint.self_stress import Redundancy, redundancy
-from overconstraint.sensitivity import Sensitivity, given_size, sensitivity
-from overconstraint.sources import MisfitSources, ToleranceWarning, misfit_sources
-from overconstraint.spread import BINS, Spread
-from overconstraint.tolerance import DISTRIBUTIONS, KINDS, TILTS, Tolerance
-from overconstraint.tool_deviation import ToolDeviation, tool_deviation
-from overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
-from overconstraint.worst_case import WorstCase, worst_case
+from strutwork.overconstraint.rigid_assembly import (
+    RigidAssembly,
+    RigidEquilibrium,
+    rigid_equilibrium,
+)
+from strutwork.overconstraint.sampling import draw
+from strutwork.overconstraint.self_stress import Redundancy, redundancy
+from strutwork.overconstraint.sensitivity import Sensitivity, given_size, sensitivity
+from strutwork.overconstraint.sources import MisfitSources, ToleranceWarning, misfit_sources
+from strutwork.overconstraint.spread import BINS, Spread
+from strutwork.overconstraint.tolerance import DISTRIBUTIONS, KINDS, TILTS, Tolerance
+from strutwork.overconstraint.tool_deviation import ToolDeviation, tool_deviation
+from strutwork.overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
+from strutwork.overconstraint.worst_case import WorstCase, worst_case
 
 __all__ = [
     "BINS",

@@ -9,22 +9,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.allocation_inputs import (
+from strutwork.errors import ModelError
+from strutwork.overconstraint.allocation_inputs import (
     limited_zones,
     prices_of,
     resized,
     without_idle,
 )
-from overconstraint.cheapest import cheapest, cheapest_sampled
-from overconstraint.distribution import SEED, distribution
-from overconstraint.limits import Limits, limit_vector
-from overconstraint.responses import Responses
-from overconstraint.sampled_zones import SampledZones
-from overconstraint.scaled_zones import CERTIFICATE, Cuts, ScaledZones, scaled
-from overconstraint.sensitivity import given_size
-from overconstraint.tolerance import Tolerance
-from overconstraint.worst_case import worst_case
-from strutwork.errors import ModelError
+from strutwork.overconstraint.cheapest import cheapest, cheapest_sampled
+from strutwork.overconstraint.distribution import SEED, distribution
+from strutwork.overconstraint.limits import Limits, limit_vector
+from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.sampled_zones import SampledZones
+from strutwork.overconstraint.scaled_zones import CERTIFICATE, Cuts, ScaledZones, scaled
+from strutwork.overconstraint.sensitivity import given_size
+from strutwork.overconstraint.tolerance import Tolerance
+from strutwork.overconstraint.worst_case import worst_case
 
 Array = NDArray[Any]
 

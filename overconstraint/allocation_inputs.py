@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.responses import Responses
-from overconstraint.scaled_zones import ScaledZones
-from overconstraint.sensitivity import given_size
-from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError
+from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.scaled_zones import ScaledZones
+from strutwork.overconstraint.sensitivity import given_size
+from strutwork.overconstraint.tolerance import Tolerance
 
 Array = NDArray[Any]
 

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.least_cost import cost_bound, least_cost
-from overconstraint.sampled_zones import SampledZones
-from overconstraint.scaled_zones import AIM, Cuts, ScaledZones
 from strutwork.errors import NumericalError
+from strutwork.overconstraint.least_cost import cost_bound, least_cost
+from strutwork.overconstraint.sampled_zones import SampledZones
+from strutwork.overconstraint.scaled_zones import AIM, Cuts, ScaledZones
 
 Array = NDArray[Any]
 

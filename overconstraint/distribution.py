@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from scipy.stats import binom
 from scipy.stats import t as student
 
-from overconstraint.limits import Limits, limit_vector
-from overconstraint.responses import Responses
-from overconstraint.sampling import SCRAMBLES, draw, points_per_scramble, uniform_numbers
-from overconstraint.spread import BINS, Spread
-from overconstraint.tally import Tally
-from overconstraint.worst_case import WorstCase, worst_case
 from strutwork.errors import ModelError, NumericalError
+from strutwork.overconstraint.limits import Limits, limit_vector
+from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.sampling import SCRAMBLES, draw, points_per_scramble, uniform_numbers
+from strutwork.overconstraint.spread import BINS, Spread
+from strutwork.overconstraint.tally import Tally
+from strutwork.overconstraint.worst_case import WorstCase, worst_case
 
 Array = NDArray[Any]
 

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, Linkage, State
-from msa.assembly import system_of
-from msa.loads import LoadCase
-from msa.solve import Method, solve
-from msa.structure import PlacedStructure
-from msa.undetermined import undetermined
-from overconstraint.rounding import without_rounding
-from overconstraint.self_stress import redundancy
-from overconstraint.tool_place import MOVES, check_tool_place
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Linkage, State
+from strutwork.msa.assembly import system_of
+from strutwork.msa.loads import LoadCase
+from strutwork.msa.solve import Method, solve
+from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.undetermined import undetermined
 from strutwork.outcome import Outcome, solve_poses
+from strutwork.overconstraint.rounding import without_rounding
+from strutwork.overconstraint.self_stress import redundancy
+from strutwork.overconstraint.tool_place import MOVES, check_tool_place
 
 Array = NDArray[Any]
 
@@ -126,7 +126,7 @@ def influence(
     columns : sequence of (joint, direction), optional
         Default: every locked or elastic direction of a joint that is no support.
     method : str, optional
-        Of `msa.solve`.
+        Of `strutwork.msa.solve`.
 
     Returns
     -------

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.responses import Responses
 from strutwork.errors import ModelError
+from strutwork.overconstraint.responses import Responses
 
 Array = NDArray[Any]
 

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, Linkage, State
-from msa.structure import PlacedStructure
-from overconstraint.influence import Influence, influence
-from overconstraint.rounding import product_without_rounding, row_scale
-from overconstraint.sources import MisfitSources, misfit_sources
-from overconstraint.tolerance import Tolerance
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Linkage, State
+from strutwork.msa.structure import PlacedStructure
+from strutwork.overconstraint.influence import Influence, influence
+from strutwork.overconstraint.rounding import product_without_rounding, row_scale
+from strutwork.overconstraint.sources import MisfitSources, misfit_sources
+from strutwork.overconstraint.tolerance import Tolerance
 
 Array = NDArray[Any]
 

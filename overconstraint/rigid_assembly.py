@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import cross_matrix
 from strutwork.errors import MechanismError, ModelError, NumericalError
+from strutwork.kinematics import cross_matrix
 
 Array = NDArray[Any]
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, characteristic_lengths
-from msa.structure import PlacedStructure
+from strutwork.kinematics import DIRECTIONS, characteristic_lengths
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.sampling import draw, uniform_numbers
-from overconstraint.scaled_zones import ScaledZones, by_parameter
 from strutwork.errors import ModelError
+from strutwork.overconstraint.sampling import draw, uniform_numbers
+from strutwork.overconstraint.scaled_zones import ScaledZones, by_parameter
 
 Array = NDArray[Any]
 

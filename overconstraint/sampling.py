@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from scipy.special import gammainc, gammaincinv, ndtr, ndtri
 from scipy.stats import qmc
 
-from overconstraint.sources import MisfitSources
-from overconstraint.unit_sets import UnitSet
 from strutwork.errors import ModelError
+from strutwork.overconstraint.sources import MisfitSources
+from strutwork.overconstraint.unit_sets import UnitSet
 
 Array = NDArray[Any]
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import State
-from kinematics.mobility import RANK_TOLERANCE
-from msa.assembly import system_of
-from msa.constraints import rigid_rows
-from msa.structure import PlacedStructure
-from msa.undetermined import SHARE, outside
+from strutwork.kinematics import State
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.msa.assembly import system_of
+from strutwork.msa.constraints import rigid_rows
+from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.undetermined import SHARE, outside
 
 Array = NDArray[Any]
 

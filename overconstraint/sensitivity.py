@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.responses import Responses
-from overconstraint.sampling import variances
-from overconstraint.tolerance import Tolerance
-from overconstraint.worst_case import WorstCase
+from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.sampling import variances
+from strutwork.overconstraint.tolerance import Tolerance
+from strutwork.overconstraint.worst_case import WorstCase
 
 Array = NDArray[Any]
 

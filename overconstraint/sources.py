@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, GROUND, Linkage, State, axes_frame, cross_matrix
-from msa.structure import PlacedStructure
-from overconstraint.tolerance import TILTS, Tolerance
-from overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, GROUND, Linkage, State, axes_frame, cross_matrix
+from strutwork.msa.structure import PlacedStructure
+from strutwork.overconstraint.tolerance import TILTS, Tolerance
+from strutwork.overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
 
 Array = NDArray[Any]
 

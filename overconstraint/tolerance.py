@@ -73,7 +73,7 @@ class Tolerance:
     width : float or None
         Of the surface across `along`, m.
     along : (3,) or None
-        Direction of a surface's length, global. Default: x of `kinematics.axes_frame`.
+        Direction of a surface's length, global. Default: x of `strutwork.kinematics.axes_frame`.
     limits : (float, float) or None
         Of a length, instead of ±`size`, m.
     distribution : str

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.responses import Responses
-from overconstraint.worst_case import WorstCase
 from strutwork.errors import ModelError, NumericalError
+from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.worst_case import WorstCase
 
 Array = NDArray[Any]
 

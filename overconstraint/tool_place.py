@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import characteristic_lengths, mobility
-from msa.assembly import System
-from msa.constraints import free_unknowns, scales
 from strutwork.errors import MechanismError
+from strutwork.kinematics import characteristic_lengths, mobility
+from strutwork.msa.assembly import System
+from strutwork.msa.constraints import free_unknowns, scales
 
 Array = NDArray[Any]
 

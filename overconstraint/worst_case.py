@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint.responses import Responses
-from overconstraint.unit_sets import Ball, Disc
 from strutwork.errors import NumericalError
+from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.unit_sets import Ball, Disc
 
 Array = NDArray[Any]
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from reports.content import Chapter, Page
-from reports.data_files import DataFile
-from reports.machine_study import Teller
-from reports.page import render
-from reports.report_folder import PAGE, require_ours, write_set
 from strutwork import __version__
 from strutwork.errors import ModelError
+from strutwork.reports.content import Chapter, Page
+from strutwork.reports.data_files import DataFile
+from strutwork.reports.machine_study import Teller
+from strutwork.reports.page import render
+from strutwork.reports.report_folder import PAGE, require_ours, write_set
 
 #: The comparison of the four machines of the paper.
 COMPARISON = "azulay-2014"
@@ -89,24 +89,24 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
 
 
 def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFile, ...]]:
-    from machines.catalogue import CATALOGUE
-    from machines.variants import MARK, is_machine
+    from strutwork.machines.catalogue import CATALOGUE
+    from strutwork.machines.variants import MARK, is_machine
 
     make: Callable[[], tuple[str, str, tuple[Chapter, ...]]]
     if target == COMPARISON:
-        from reports.comparison_report import comparison_chapters
+        from strutwork.reports.comparison_report import comparison_chapters
 
         make = partial(comparison_chapters, progress)
     elif target == PROTOTYPE:
-        from reports.prototype_report import prototype_chapters
+        from strutwork.reports.prototype_report import prototype_chapters
 
         make = partial(prototype_chapters, progress)
     elif target == PLANAR:
-        from reports.mit_ss1_report import mit_ss1_chapters
+        from strutwork.reports.mit_ss1_report import mit_ss1_chapters
 
         make = partial(mit_ss1_chapters, progress)
     elif target == HEXAPOD:
-        from reports.hexapod_report import hexapod_chapters
+        from strutwork.reports.hexapod_report import hexapod_chapters
 
         make = partial(hexapod_chapters, progress)
     elif is_machine(target) and MARK in target:
@@ -116,11 +116,11 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
             f"Leave the variant out: {target.partition(MARK)[0]}.",
         )
     elif target in CATALOGUE:
-        from reports.machine_report import machine_chapters
+        from strutwork.reports.machine_report import machine_chapters
 
         make = partial(machine_chapters, target, progress)
     elif Path(target).suffix == ".toml" or Path(target).exists():
-        from reports.model_report import model_chapters
+        from strutwork.reports.model_report import model_chapters
 
         make = partial(model_chapters, Path(target))
     else:

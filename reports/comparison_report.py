@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from machines.published_azulay import AZULAY_2014
-from reports.chapters.closing import closing_chapter
-from reports.chapters.comparison import (
+from strutwork.machines.published_azulay import AZULAY_2014
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.comparison import (
     assumptions_chapter,
     budget_chapter,
     drawings_chapter,
@@ -17,10 +17,16 @@ from reports.chapters.comparison import (
     reasons_chapter,
     summary_chapter,
 )
-from reports.chapters.vibration_azulay import comparison_vibration
-from reports.content import Chapter
-from reports.machine_study import FILTERS, MODEL_NAMES, Comparison, Teller, study_comparison
-from studies.description import parameters, plain
+from strutwork.reports.chapters.vibration_azulay import comparison_vibration
+from strutwork.reports.content import Chapter
+from strutwork.reports.machine_study import (
+    FILTERS,
+    MODEL_NAMES,
+    Comparison,
+    Teller,
+    study_comparison,
+)
+from strutwork.studies.description import parameters, plain
 
 
 def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[Chapter, ...]]:

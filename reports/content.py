@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 from typing import Any, ClassVar, Literal
 
-from reports.data_files import DataFile
+from strutwork.reports.data_files import DataFile
 
 Spec = Mapping[str, Any]
 Tone = Literal["plain", "good", "fair", "poor", "quiet"]

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fea import ModalRatio, Port, modal_model
-from fea.modal import STATIC_SHARE
-from msa import PlacedStructure
-from reports.numbers import share, significant
-from studies.dynamic import MODES
+from strutwork.fea import ModalRatio, Port, modal_model
+from strutwork.fea.modal import STATIC_SHARE
+from strutwork.msa import PlacedStructure
+from strutwork.reports.numbers import share, significant
+from strutwork.studies.dynamic import MODES
 
 #: How many times as high as it starts out the end of a band may come.
 FARTHEST = 10.0

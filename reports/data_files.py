@@ -13,7 +13,7 @@ import xarray as xr
 
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import NumericalError
-from studies.netcdf import netcdf_bytes
+from strutwork.studies.netcdf import netcdf_bytes
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from kinematics import Mechanism, Placement
+from strutwork.kinematics import Mechanism, Placement
 
 
 def drawing_data(machine: Mechanism, placement: Placement) -> dict[str, Any]:

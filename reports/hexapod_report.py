@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from kinematics import Mobility, drive_values, mobility
-from machines import HexelHexapod, MitSS1, get
-from machines.hexel_hexapod import LEVEL, MAP_REACH, MAP_TILT, REACH, TILT
-from machines.published_son import MANIPULABILITY
-from reports.chapters.closing import closing_chapter
-from reports.chapters.manipulability import manipulability_chapter
-from reports.chapters.plane_stiffness import falls_table, plane_figures
-from reports.chapters.stiffness import map_files
-from reports.content import (
+from strutwork.kinematics import Mobility, drive_values, mobility
+from strutwork.machines import HexelHexapod, MitSS1, get
+from strutwork.machines.hexel_hexapod import LEVEL, MAP_REACH, MAP_TILT, REACH, TILT
+from strutwork.machines.published_son import MANIPULABILITY
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.manipulability import manipulability_chapter
+from strutwork.reports.chapters.plane_stiffness import falls_table, plane_figures
+from strutwork.reports.chapters.stiffness import map_files
+from strutwork.reports.content import (
     Block,
     Chapter,
     Column,
@@ -28,19 +28,19 @@ from reports.content import (
     Table,
     Text,
 )
-from reports.data_files import json_file
-from reports.drawing_data import drawing_data
-from reports.figures.hexapod import hexapod_view
-from reports.machine_study import Teller
-from reports.numbers import fixed, micro, significant
-from studies import plane_map, stiffness_falls
-from studies.description import parameters
-from studies.hexapod_manipulability import (
+from strutwork.reports.data_files import json_file
+from strutwork.reports.drawing_data import drawing_data
+from strutwork.reports.figures.hexapod import hexapod_view
+from strutwork.reports.machine_study import Teller
+from strutwork.reports.numbers import fixed, micro, significant
+from strutwork.studies import plane_map, stiffness_falls
+from strutwork.studies.description import parameters
+from strutwork.studies.hexapod_manipulability import (
     hexapod_manipulability,
     manipulability_rows,
 )
-from studies.plane_map import Fall
-from studies.progress import silent
+from strutwork.studies.plane_map import Fall
+from strutwork.studies.progress import silent
 
 NAME = "hexel-hexapod"
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from machines.published_azulay import TABLE_4
-from reports.chapters.budget import budget_chapter
-from reports.chapters.closing import closing_chapter
-from reports.chapters.lengths import lengths_chapter
-from reports.chapters.machine import assumptions_chapter, drawing_chapter, summary_chapter
-from reports.chapters.published import READING, published_table
-from reports.chapters.stiffness import distribution_chapter, map_chapter, poses_chapter
-from reports.chapters.vibration_azulay import machine_vibration
-from reports.content import Chapter, Text
-from reports.machine_study import MODEL_NAMES, MachineStudy, Teller, study_machine
-from studies.description import parameters
+from strutwork.machines.published_azulay import TABLE_4
+from strutwork.reports.chapters.budget import budget_chapter
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.lengths import lengths_chapter
+from strutwork.reports.chapters.machine import assumptions_chapter, drawing_chapter, summary_chapter
+from strutwork.reports.chapters.published import READING, published_table
+from strutwork.reports.chapters.stiffness import distribution_chapter, map_chapter, poses_chapter
+from strutwork.reports.chapters.vibration_azulay import machine_vibration
+from strutwork.reports.content import Chapter, Text
+from strutwork.reports.machine_study import MODEL_NAMES, MachineStudy, Teller, study_machine
+from strutwork.studies.description import parameters
 
 
 def machine_chapters(

@@ -8,9 +8,9 @@ from types import MappingProxyType
 
 import xarray as xr
 
-from machines import CatalogueEntry, ThreeLegs, get
-from machines.published_azulay import TABLE_2, TABLE_4
-from studies import (
+from strutwork.machines import CatalogueEntry, ThreeLegs, get
+from strutwork.machines.published_azulay import TABLE_2, TABLE_4
+from strutwork.studies import (
     AS_IN_AZULAY,
     LINK_LENGTHS,
     AzulayComparison,
@@ -26,9 +26,9 @@ from studies import (
     summary,
     variant,
 )
-from studies.comparison import Model
-from studies.comparison import machines as published_machines
-from studies.progress import silent
+from strutwork.studies.comparison import Model
+from strutwork.studies.comparison import machines as published_machines
+from strutwork.studies.progress import silent
 
 #: Given the name of a part of the work, returns what is told how far it is.
 Teller = Callable[[str], Progress]

@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from machines import get
-from machines.mit_ss1_tolerances import STATIC_RATING
-from reports.chapters.closing import closing_chapter
-from reports.chapters.mit_ss1 import assumptions_chapter, drawing_chapter, summary_chapter
-from reports.chapters.mit_ss1_calibration import calibration_chapter
-from reports.chapters.mit_ss1_kinematics import kinematics_chapter, map_blocks
-from reports.chapters.mit_ss1_modes import modes_chapter
-from reports.chapters.mit_ss1_response import response_chapter
-from reports.chapters.mit_ss1_whole import calibrated_blocks
-from reports.chapters.overconstraint import (
+from strutwork.machines import get
+from strutwork.machines.mit_ss1_tolerances import STATIC_RATING
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.mit_ss1 import assumptions_chapter, drawing_chapter, summary_chapter
+from strutwork.reports.chapters.mit_ss1_calibration import calibration_chapter
+from strutwork.reports.chapters.mit_ss1_kinematics import kinematics_chapter, map_blocks
+from strutwork.reports.chapters.mit_ss1_modes import modes_chapter
+from strutwork.reports.chapters.mit_ss1_response import response_chapter
+from strutwork.reports.chapters.mit_ss1_whole import calibrated_blocks
+from strutwork.reports.chapters.overconstraint import (
     governing,
     headline,
     label,
@@ -23,32 +23,32 @@ from reports.chapters.overconstraint import (
     tolerance_table,
     tool_blocks,
 )
-from reports.chapters.overconstraint import pose as pose_label
-from reports.chapters.overconstraint_allocation import allocation_blocks
-from reports.chapters.overconstraint_designs import design_blocks
-from reports.chapters.overconstraint_forces import (
+from strutwork.reports.chapters.overconstraint import pose as pose_label
+from strutwork.reports.chapters.overconstraint_allocation import allocation_blocks
+from strutwork.reports.chapters.overconstraint_designs import design_blocks
+from strutwork.reports.chapters.overconstraint_forces import (
     METHODS,
     cause_blocks,
     force_blocks,
     spread_blocks,
 )
-from reports.chapters.overconstraint_scale import scale_blocks
-from reports.chapters.overconstraint_son import (
+from strutwork.reports.chapters.overconstraint_scale import scale_blocks
+from strutwork.reports.chapters.overconstraint_son import (
     case_i_file,
     cases_table,
     misfit_blocks,
     published_markers,
     table_2_blocks,
 )
-from reports.chapters.scale import scale_chapter as size_chapter
-from reports.chapters.son_stiffness import stiffness_chapter as planar_stiffness_chapter
-from reports.content import Block, Chapter, Figure, Text
-from reports.data_files import DataFile, json_file
-from reports.figures.assembly_scene import assembled, machine_misfit_view
-from reports.machine_study import Teller
-from reports.mit_ss1_study import NAME, OBJECTIVES, MitSS1Study, study_mit_ss1
-from reports.numbers import significant
-from studies.description import parameters
+from strutwork.reports.chapters.scale import scale_chapter as size_chapter
+from strutwork.reports.chapters.son_stiffness import stiffness_chapter as planar_stiffness_chapter
+from strutwork.reports.content import Block, Chapter, Figure, Text
+from strutwork.reports.data_files import DataFile, json_file
+from strutwork.reports.figures.assembly_scene import assembled, machine_misfit_view
+from strutwork.reports.machine_study import Teller
+from strutwork.reports.mit_ss1_study import NAME, OBJECTIVES, MitSS1Study, study_mit_ss1
+from strutwork.reports.numbers import significant
+from strutwork.studies.description import parameters
 
 #: How the machine's tool displacements are to be read.
 IN_PLANE = (

@@ -10,29 +10,29 @@ from types import MappingProxyType
 import numpy as np
 import xarray as xr
 
-from machines import MitSS1, StrutAssembly
-from machines.mit_ss1_assembly import CASES
-from machines.mit_ss1_tolerances import bearing_limits, table_2_joints, table_2_tolerances
-from overconstraint import Allocation, allocate
-from reports.machine_study import Teller
-from reports.mit_ss1_whole_study import WholeStudy, study_whole
-from studies.assembly_map import DesignForces, assembly_map, compare_designs, nominal_grid
-from studies.assembly_scale import AssemblyScale, assembly_scale
-from studies.assembly_table import (
+from strutwork.machines import MitSS1, StrutAssembly
+from strutwork.machines.mit_ss1_assembly import CASES
+from strutwork.machines.mit_ss1_tolerances import bearing_limits, table_2_joints, table_2_tolerances
+from strutwork.overconstraint import Allocation, allocate
+from strutwork.reports.machine_study import Teller
+from strutwork.reports.mit_ss1_whole_study import WholeStudy, study_whole
+from strutwork.studies.assembly_map import DesignForces, assembly_map, compare_designs, nominal_grid
+from strutwork.studies.assembly_scale import AssemblyScale, assembly_scale
+from strutwork.studies.assembly_table import (
     SETS,
     AssemblyCalibration,
     Set,
     calibrate_assembly,
     table_2_rows,
 )
-from studies.mit_ss1_scale import mit_ss1_scale
-from studies.planar_kinematics import SINGULAR_X, planar_kinematics, singular_tilt
-from studies.progress import silent
-from studies.published_table import PublishedRow
-from studies.scale import ScaleStudy
-from studies.tolerance_result import ToleranceStudy
-from studies.tolerance_study import tolerance_study
-from studies.toleranced_machines import TolerancedMachine, toleranced_machine
+from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.studies.planar_kinematics import SINGULAR_X, planar_kinematics, singular_tilt
+from strutwork.studies.progress import silent
+from strutwork.studies.published_table import PublishedRow
+from strutwork.studies.scale import ScaleStudy
+from strutwork.studies.tolerance_result import ToleranceStudy
+from strutwork.studies.tolerance_study import tolerance_study
+from strutwork.studies.toleranced_machines import TolerancedMachine, toleranced_machine
 
 NAME = "mit-ss1"
 

@@ -11,21 +11,21 @@ from typing import Any, get_args
 import numpy as np
 import xarray as xr
 
-from machines.mit_ss1 import NOMINAL_TILT
-from machines.mit_ss1_calibrated import Which, calibrated_machine
-from machines.mit_ss1_whole import MitSS1Whole
-from msa import tool_compliance
-from msa.mass import mass_properties
-from reports.machine_study import Teller
-from reports.vibration_study import VibrationStudy, study_machine_vibration
-from studies.calibrate import Calibration
-from studies.mit_ss1_calibration import Part, stored_calibration
-from studies.mit_ss1_modes import SCREW, NamedModes, mode_rows, named_modes
-from studies.mit_ss1_tilt import posture_frequencies
-from studies.progress import silent
-from studies.published_table import PublishedRow
-from studies.son_stiffness import REACH, planar_stiffness_map
-from studies.variables import AXES, named
+from strutwork.machines.mit_ss1 import NOMINAL_TILT
+from strutwork.machines.mit_ss1_calibrated import Which, calibrated_machine
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.msa import tool_compliance
+from strutwork.msa.mass import mass_properties
+from strutwork.reports.machine_study import Teller
+from strutwork.reports.vibration_study import VibrationStudy, study_machine_vibration
+from strutwork.studies.calibrate import Calibration
+from strutwork.studies.mit_ss1_calibration import Part, stored_calibration
+from strutwork.studies.mit_ss1_modes import SCREW, NamedModes, mode_rows, named_modes
+from strutwork.studies.mit_ss1_tilt import posture_frequencies
+from strutwork.studies.progress import silent
+from strutwork.studies.published_table import PublishedRow
+from strutwork.studies.son_stiffness import REACH, planar_stiffness_map
+from strutwork.studies.variables import AXES, named
 
 #: Hz; the reduced granite holds to 400 Hz.
 BAND = (5.0, 400.0)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from fea.solid_fields import write_scene
-from reports.data_files import DataFile
-from reports.figures.mode_surface import mode_surface
-from studies.mit_ss1_modes import ModePicture
+from strutwork.fea.solid_fields import write_scene
+from strutwork.reports.data_files import DataFile
+from strutwork.reports.figures.mode_surface import mode_surface
+from strutwork.studies.mit_ss1_modes import ModePicture
 
 
 def mode_scene(name: str, what: str, picture: ModePicture) -> DataFile:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from kinematics import (
+from strutwork.kinematics import (
     DIRECTIONS,
     FreeMotion,
     Mobility,
@@ -18,13 +18,13 @@ from kinematics import (
     mobility,
     near_motions,
 )
-from kinematics.mobility import RANK_TOLERANCE
-from machines.model import Model, ModelWarning
-from msa import PlacedStructure, system_of
-from msa.constraints import scales
-from msa.mass import mass_properties, total_mass
-from msa.sparse import row_groups, unit_rows
-from reports.near_mechanisms import near_mechanisms, warn_of_near
+from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.machines.model import Model, ModelWarning
+from strutwork.msa import PlacedStructure, system_of
+from strutwork.msa.constraints import scales
+from strutwork.msa.mass import mass_properties, total_mass
+from strutwork.msa.sparse import row_groups, unit_rows
+from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 from strutwork.stages import stage
 
 
@@ -152,7 +152,7 @@ def degrees_of_freedom(placed: PlacedStructure) -> int:
 
 
 def check_mass(placed: PlacedStructure) -> MassProperties | None:
-    """Mass and centre of one pose, as `msa.mass`; None, with a warning, without a density."""
+    """Mass and centre of one pose, as `strutwork.msa.mass`; None and a warning without density."""
     without = {b.material.name for b in placed.structure.beams if b.material.density is None}
     if without:
         warnings.warn(

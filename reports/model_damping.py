@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import warnings
 
-from fea import Damping, LossFactor, ModalRatio, PartDamping, Rayleigh
-from fea.coupled import AnyDamping
-from machines.model import Model, ModelWarning
+from strutwork.fea import Damping, LossFactor, ModalRatio, PartDamping, Rayleigh
+from strutwork.fea.coupled import AnyDamping
+from strutwork.machines.model import Model, ModelWarning
 
 
 def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | None:

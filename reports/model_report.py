@@ -5,18 +5,21 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from machines.model_file import read_model
-from reports.chapters.closing import closing_chapter
-from reports.chapters.model import check_chapter, structure_chapter, summary_chapter
-from reports.chapters.model_loads import forces_chapter, loads_chapter
-from reports.chapters.model_tool import budget_chapter, tool_chapter
-from reports.chapters.overconstraint_model import study_model_tolerances, tolerance_chapter
-from reports.chapters.vibration import vibration_chapter
-from reports.content import Chapter
-from reports.model_check import check_model
-from reports.model_solution import solve_model
-from reports.vibration_study import has_mass, study_model_vibration
+from strutwork.machines.model_file import read_model
 from strutwork.names import visible
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.model import check_chapter, structure_chapter, summary_chapter
+from strutwork.reports.chapters.model_loads import forces_chapter, loads_chapter
+from strutwork.reports.chapters.model_tool import budget_chapter, tool_chapter
+from strutwork.reports.chapters.overconstraint_model import (
+    study_model_tolerances,
+    tolerance_chapter,
+)
+from strutwork.reports.chapters.vibration import vibration_chapter
+from strutwork.reports.content import Chapter
+from strutwork.reports.model_check import check_model
+from strutwork.reports.model_solution import solve_model
+from strutwork.reports.vibration_study import has_mass, study_model_vibration
 
 
 def model_chapters(path: Path) -> tuple[str, str, tuple[Chapter, ...]]:

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, NearMechanism, near_motions
-from machines.model import Model, ModelWarning
-from msa import StaticSolution, solve, tool_compliance, tool_stiffness
-from msa.undetermined import undetermined_names
-from reports.near_mechanisms import near_mechanisms, warn_of_near
 from strutwork.errors import ModelError, StrutworkError
+from strutwork.kinematics import DIRECTIONS, NearMechanism, near_motions
+from strutwork.machines.model import Model, ModelWarning
+from strutwork.msa import StaticSolution, solve, tool_compliance, tool_stiffness
+from strutwork.msa.undetermined import undetermined_names
+from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 
 Array = NDArray[Any]
 

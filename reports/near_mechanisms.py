@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
-from kinematics import NearMechanism
-from machines.model import Model, ModelWarning
+from strutwork.kinematics import NearMechanism
+from strutwork.machines.model import Model, ModelWarning
 
 
 def near_mechanisms(model: Model, found: Sequence[NearMechanism]) -> list[dict[str, Any]]:

@@ -13,7 +13,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
-from reports.content import Page
+from strutwork.reports.content import Page
 
 #: Longest line of a name in a plot, characters.
 LINE = 40

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea import Modes, preloaded
-from machines.model import ModelWarning
-from msa import LoadCase
 from strutwork.errors import StrutworkError
+from strutwork.fea import Modes, preloaded
+from strutwork.machines.model import ModelWarning
+from strutwork.msa import LoadCase
 
 Array = NDArray[Any]
 

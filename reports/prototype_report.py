@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 
-from machines import Prototype3PPPRS, get
-from reports.chapters.budget import budget_file, by_kind
-from reports.chapters.closing import closing_chapter
-from reports.chapters.machine import AXES, DRAWING, drawing_file, machine_figure
-from reports.chapters.measurement import measurement_chapter
-from reports.chapters.stiffness import (
+from strutwork.machines import Prototype3PPPRS, get
+from strutwork.reports.chapters.budget import budget_file, by_kind
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.machine import AXES, DRAWING, drawing_file, machine_figure
+from strutwork.reports.chapters.measurement import measurement_chapter
+from strutwork.reports.chapters.stiffness import (
     VIEW,
     dropped_table,
     map_figure,
@@ -18,15 +18,15 @@ from reports.chapters.stiffness import (
     pose_rows,
     statistics_table,
 )
-from reports.chapters.vibration import vibration_chapter
-from reports.content import Chapter, Column, Fact, Facts, Figure, Note, Row, Table, Text
-from reports.figures.charts import stacked_shares
-from reports.machine_study import FILTERS, Teller
-from reports.numbers import micro, significant
-from reports.vibration_study import VibrationStudy, study_machine_vibration
-from studies import Summary, budget_map, stiffness_map, summary
-from studies.description import parameters
-from studies.progress import silent
+from strutwork.reports.chapters.vibration import vibration_chapter
+from strutwork.reports.content import Chapter, Column, Fact, Facts, Figure, Note, Row, Table, Text
+from strutwork.reports.figures.charts import stacked_shares
+from strutwork.reports.machine_study import FILTERS, Teller
+from strutwork.reports.numbers import micro, significant
+from strutwork.reports.vibration_study import VibrationStudy, study_machine_vibration
+from strutwork.studies import Summary, budget_map, stiffness_map, summary
+from strutwork.studies.description import parameters
+from strutwork.studies.progress import silent
 
 NAME = "prototype-3ppprs"
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
-from reports.manifest import MANIFEST, Manifest, manifest_of, read_manifest
 from strutwork.errors import OutputError
 from strutwork.files import write_error
+from strutwork.reports.manifest import MANIFEST, Manifest, manifest_of, read_manifest
 from strutwork.staging import clean, staging, sync
 
 #: Name of the page in the folder of a report.

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from msa import system_of
-from reports.figures.model import model_size
-from reports.model_solution import ModelSolution
-from reports.numbers import CANCELLED, ROUNDING, six_without_rounding
+from strutwork.msa import system_of
+from strutwork.reports.figures.model import model_size
+from strutwork.reports.model_solution import ModelSolution
+from strutwork.reports.numbers import CANCELLED, ROUNDING, six_without_rounding
 
 Array = NDArray[Any]
 

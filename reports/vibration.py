@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea import (
+from strutwork.errors import ModelError, ValidityWarning
+from strutwork.fea import (
     Damping,
     FrequencyResponse,
     LossFactor,
@@ -20,21 +21,20 @@ from fea import (
     frequency_response,
     modes,
 )
-from fea.coupled import AnyDamping
-from fea.dynamic_stiffness import check_band
-from fea.idle import IdleMotion, free_motions, idle_line, idle_motions
-from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
-from fea.mode_damping import damping_ratios
-from fea.uff import UniversalFile, mode_file, node_positions, response_records
-from fea.uff_write import write_universal
-from machines import is_machine, named_machine, require_mass
-from machines.model import Model
-from msa import LoadCase, PlacedStructure
-from reports.data_files import csv_file
-from reports.model_damping import model_damping
-from reports.preload_note import WATCHED, warn_of_preload
-from strutwork.errors import ModelError, ValidityWarning
+from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.dynamic_stiffness import check_band
+from strutwork.fea.idle import IdleMotion, free_motions, idle_line, idle_motions
+from strutwork.fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from strutwork.fea.mode_damping import damping_ratios
+from strutwork.fea.uff import UniversalFile, mode_file, node_positions, response_records
+from strutwork.fea.uff_write import write_universal
 from strutwork.files import write_whole
+from strutwork.machines import is_machine, named_machine, require_mass
+from strutwork.machines.model import Model
+from strutwork.msa import LoadCase, PlacedStructure
+from strutwork.reports.data_files import csv_file
+from strutwork.reports.model_damping import model_damping
+from strutwork.reports.preload_note import WATCHED, warn_of_preload
 
 Array = NDArray[Any]
 
@@ -142,8 +142,8 @@ def vibration_target(
         No such machine, variant or file, a variant for statics, a wrong model, both kinds of
         damping, an unknown load case.
     """
-    from machines.catalogue import CATALOGUE
-    from machines.model_file import read_model
+    from strutwork.machines.catalogue import CATALOGUE
+    from strutwork.machines.model_file import read_model
 
     if modal_ratio is not None and loss_factor is not None:
         raise ModelError(

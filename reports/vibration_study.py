@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
-from fea.frf import response_at
-from fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
-from fea.validity import beyond
-from kinematics import GROUND
-from machines.catalogue import Machine
-from machines.model import Model
-from msa import PlacedStructure
-from reports.covering_band import covering_band
-from reports.vibration import Target, TargetModes, model_target, target_modes
-from studies.dynamic import BAND, GRID_STEP, MODES, ONE_PERCENT, at_home
+from strutwork.fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
+from strutwork.fea.frf import response_at
+from strutwork.fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from strutwork.fea.validity import beyond
+from strutwork.kinematics import GROUND
+from strutwork.machines.catalogue import Machine
+from strutwork.machines.model import Model
+from strutwork.msa import PlacedStructure
+from strutwork.reports.covering_band import covering_band
+from strutwork.reports.vibration import Target, TargetModes, model_target, target_modes
+from strutwork.studies.dynamic import BAND, GRID_STEP, MODES, ONE_PERCENT, at_home
 
 Array = NDArray[Any]
 AXES = ("x", "y", "z")

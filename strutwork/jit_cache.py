@@ -30,7 +30,13 @@ from strutwork.cache_folder import note_once, reason, takes_files, user_cache
 from strutwork.source_digest import source_digest
 
 #: Packages with compiled functions, and all that these import.
-PACKAGES = ("strutwork", "kinematics", "meshes", "msa", "fea")
+PACKAGES = (
+    "strutwork",
+    "strutwork.kinematics",
+    "strutwork.meshes",
+    "strutwork.msa",
+    "strutwork.fea",
+)
 
 #: A part of a file that is older than this belongs to a run that was killed, s.
 ABANDONED = 3600.0

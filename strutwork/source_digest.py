@@ -12,6 +12,8 @@ from pathlib import Path
 def source_digest(*packages: str) -> str:
     """SHA-256 over the Python sources of packages, with their names; read once a process.
 
+    Of `strutwork` itself the modules count, not the packages in it, which are named apart.
+
     Parameters
     ----------
     packages : str
@@ -35,7 +37,7 @@ def source_digest(*packages: str) -> str:
             raise ModuleNotFoundError(f"no package {package}", name=package)
         digest.update(f"{package}\0".encode())
         for place in map(Path, spec.submodule_search_locations or ()):
-            for path in sorted(place.rglob("*.py")):
+            for path in sorted(place.glob("*.py" if package == "strutwork" else "**/*.py")):
                 content = path.read_bytes()
                 # with its length, so that no content passes for the name of a next file
                 digest.update(f"{path.relative_to(place)}\0{len(content)}\0".encode())

@@ -1,13 +1,13 @@
 """Studies: stiffness over poses and parameters, and comparisons with published numbers."""
 
-from studies.azulay_dynamic import (
+from strutwork.studies.azulay_dynamic import (
     AzulayDynamics,
     azulay_table_5,
     published_dynamic_ranking,
 )
-from studies.budget_map import budget_map
-from studies.check_points import CheckPoints, area_weights, hemisphere
-from studies.comparison import (
+from strutwork.studies.budget_map import budget_map
+from strutwork.studies.check_points import CheckPoints, area_weights, hemisphere
+from strutwork.studies.comparison import (
     MODELS,
     AzulayComparison,
     compare_azulay,
@@ -15,7 +15,7 @@ from studies.comparison import (
     published_rows,
     variant,
 )
-from studies.dataset_files import (
+from strutwork.studies.dataset_files import (
     read_netcdf,
     to_json,
     write_csv,
@@ -23,24 +23,24 @@ from studies.dataset_files import (
     write_long_csv,
     write_netcdf,
 )
-from studies.dynamic import dynamic_stiffness, frequency_responses
-from studies.dynamic_map import Vibration, dynamic_map
-from studies.dynamic_sensitivity import (
+from strutwork.studies.dynamic import dynamic_stiffness, frequency_responses
+from strutwork.studies.dynamic_map import Vibration, dynamic_map
+from strutwork.studies.dynamic_sensitivity import (
     closed_form_stiffness,
     dynamic_link_lengths,
     mass_sensitivity,
     offset_sensitivity,
 )
-from studies.executor import Executor, Threads, default_executor
-from studies.filters import AS_IN_AZULAY, Filters, PoseStatus
-from studies.link_lengths import LINK_LENGTHS, link_lengths
-from studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
-from studies.progress import Lines, Progress
-from studies.published_table import PublishedRow, file_name, write_published
-from studies.removal_rate import RemovalExponents, removal_exponents
-from studies.scale import PowerLaw, ScaleStudy, power_law, scale_study
-from studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
-from studies.statistics import (
+from strutwork.studies.executor import Executor, Threads, default_executor
+from strutwork.studies.filters import AS_IN_AZULAY, Filters, PoseStatus
+from strutwork.studies.link_lengths import LINK_LENGTHS, link_lengths
+from strutwork.studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
+from strutwork.studies.progress import Lines, Progress
+from strutwork.studies.published_table import PublishedRow, file_name, write_published
+from strutwork.studies.removal_rate import RemovalExponents, removal_exponents
+from strutwork.studies.scale import PowerLaw, ScaleStudy, power_law, scale_study
+from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
+from strutwork.studies.statistics import (
     QUANTILES,
     AxisSummary,
     PoseValue,
@@ -49,12 +49,12 @@ from studies.statistics import (
     statistics,
     summary,
 )
-from studies.stiffness_map import stiffness_map
-from studies.sweep import sweep
-from studies.synthetic_measurement import SyntheticMeasurement, synthetic_measurement
-from studies.tolerance_result import ToleranceStudy
-from studies.tolerance_study import StudyOptions, tolerance_study
-from studies.toleranced_machines import TolerancedMachine, toleranced_machine
+from strutwork.studies.stiffness_map import stiffness_map
+from strutwork.studies.sweep import sweep
+from strutwork.studies.synthetic_measurement import SyntheticMeasurement, synthetic_measurement
+from strutwork.studies.tolerance_result import ToleranceStudy
+from strutwork.studies.tolerance_study import StudyOptions, tolerance_study
+from strutwork.studies.toleranced_machines import TolerancedMachine, toleranced_machine
 
 __all__ = [
     "AS_IN_AZULAY",

@@ -11,11 +11,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from machines import MitSS1
-from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from machines.mit_ss1_designs import DESIGNS, Design, design_tolerances, placed_design
-from machines.mit_ss1_tolerances import machine_bearings, mit_ss1_tolerances, pin_tolerances
-from overconstraint import (
+from strutwork.errors import ModelError
+from strutwork.machines import MitSS1
+from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from strutwork.machines.mit_ss1_designs import DESIGNS, Design, design_tolerances, placed_design
+from strutwork.machines.mit_ss1_tolerances import (
+    machine_bearings,
+    mit_ss1_tolerances,
+    pin_tolerances,
+)
+from strutwork.overconstraint import (
     Quantity,
     Tolerance,
     WorstCase,
@@ -24,8 +29,7 @@ from overconstraint import (
     tool_quantities,
     worst_case,
 )
-from strutwork.errors import ModelError
-from studies.progress import Progress, silent
+from strutwork.studies.progress import Progress, silent
 
 Array = NDArray[Any]
 
@@ -62,7 +66,7 @@ def machine_worst_case(
     ----------
     machine : MitSS1, optional
     tolerances : sequence of Tolerance, optional
-        Default: `machines.mit_ss1_tolerances`.
+        Default: `strutwork.machines.mit_ss1_tolerances`.
     """
     machine = machine or MitSS1()
     placed = machine.structure.at(machine.place(machine.home()))
@@ -86,7 +90,7 @@ def assembly_map(
     ----------
     machine : MitSS1, optional
     tolerances : sequence of Tolerance, optional
-        Default: `machines.mit_ss1_tolerances`.
+        Default: `strutwork.machines.mit_ss1_tolerances`.
     x, b : (n,), (m,), optional
         m and rad; default the nominal workspace.
     progress : callable

@@ -10,12 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from machines import StrutAssembly
-from machines.mit_ss1_assembly import CASES, TILT
-from machines.mit_ss1_tolerances import STATIC_RATING, table_2_joints, table_2_tolerances
-from overconstraint import tolerance_responses, worst_case
 from strutwork.errors import ModelError
-from studies.assembly_table import COLUMNS, joint_forces
+from strutwork.machines import StrutAssembly
+from strutwork.machines.mit_ss1_assembly import CASES, TILT
+from strutwork.machines.mit_ss1_tolerances import STATIC_RATING, table_2_joints, table_2_tolerances
+from strutwork.overconstraint import tolerance_responses, worst_case
+from strutwork.studies.assembly_table import COLUMNS, joint_forces
 
 Array = NDArray[Any]
 
@@ -138,7 +138,7 @@ def assembly_scale(
     """Worst-case assembly forces of Table 2's structure with struts of other lengths.
 
     The stiffnesses stay, as the thesis takes them. Its eq. 64 says when they may: a strut whose
-    width grows with its length keeps its bending stiffness, see `machines.strut_width`.
+    width grows with its length keeps its bending stiffness, see `strutwork.machines.strut_width`.
 
     Parameters
     ----------

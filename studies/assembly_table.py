@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from machines import StrutAssembly
-from machines.mit_ss1_assembly import CALIBRATED_ON_CASE_I, CASES
-from machines.mit_ss1_tolerances import table_2_joints, table_2_tolerances
-from machines.published_son import TABLE_2, table_2_row
-from overconstraint import WorstCase, tolerance_responses, worst_case
 from strutwork.errors import ModelError, NumericalError
-from studies.published_table import PublishedRow, Status
+from strutwork.machines import StrutAssembly
+from strutwork.machines.mit_ss1_assembly import CALIBRATED_ON_CASE_I, CASES
+from strutwork.machines.mit_ss1_tolerances import table_2_joints, table_2_tolerances
+from strutwork.machines.published_son import TABLE_2, table_2_row
+from strutwork.overconstraint import WorstCase, tolerance_responses, worst_case
+from strutwork.studies.published_table import PublishedRow, Status
 
 Array = NDArray[Any]
 

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from fea import LossFactor
-from machines import DYNAMIC_SETS, DynamicSet, PublishedValue, dynamic_machine
-from machines.published_azulay import TABLE_5
-from studies.comparison import machines
-from studies.dynamic import BAND, dynamic_stiffness
-from studies.published_table import PublishedRow, Status
+from strutwork.fea import LossFactor
+from strutwork.machines import DYNAMIC_SETS, DynamicSet, PublishedValue, dynamic_machine
+from strutwork.machines.published_azulay import TABLE_5
+from strutwork.studies.comparison import machines
+from strutwork.studies.dynamic import BAND, dynamic_stiffness
+from strutwork.studies.published_table import PublishedRow, Status
 
 #: A calibrated number farther than this factor from the print is named in its note.
 FACTOR = 2.0
@@ -38,7 +38,7 @@ class AzulayDynamics:
     Parameters
     ----------
     studies : mapping of set to Dataset
-        With 1 % viscous damping in every mode, as `studies.dynamic_stiffness`.
+        With 1 % viscous damping in every mode, as `strutwork.studies.dynamic_stiffness`.
     loss_factor : mapping of set to Dataset
         The same with a loss factor of 1 %.
     rows : mapping of set to tuple of PublishedRow

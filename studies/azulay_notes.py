@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from machines import PublishedValue
-from studies.published_table import Status
+from strutwork.machines import PublishedValue
+from strutwork.studies.published_table import Status
 
 _PROPOSED = "proposed-3pprs"
 

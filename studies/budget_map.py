@@ -9,14 +9,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from kinematics import Poses, tangent_rotation
-from machines import Machine
-from msa import compliance_budget
 from strutwork.errors import ModelError
-from studies.description import attributes
-from studies.filters import PoseStatus
-from studies.statistics import Meaning
-from studies.variables import AXES, named
+from strutwork.kinematics import Poses, tangent_rotation
+from strutwork.machines import Machine
+from strutwork.msa import compliance_budget
+from strutwork.studies.description import attributes
+from strutwork.studies.filters import PoseStatus
+from strutwork.studies.statistics import Meaning
+from strutwork.studies.variables import AXES, named
 
 Array = NDArray[Any]
 

@@ -13,9 +13,9 @@ from scipy.optimize import least_squares
 from scipy.stats import qmc
 
 from strutwork.errors import ModelError, NumericalError, StrutworkError
-from studies.calibration_problem import Model, Parameter, Problem, Target
-from studies.identifiability import Identifiability, identifiability
-from studies.progress import Lines, Progress
+from strutwork.studies.calibration_problem import Model, Parameter, Problem, Target
+from strutwork.studies.identifiability import Identifiability, identifiability
+from strutwork.studies.progress import Lines, Progress
 
 Array = NDArray[Any]
 

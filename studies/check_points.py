@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import SphericalVoronoi
 
-from kinematics import Poses, tangent_rotation
-from machines import Machine, hemisphere_normals
 from strutwork.errors import ModelError
+from strutwork.kinematics import Poses, tangent_rotation
+from strutwork.machines import Machine, hemisphere_normals
 
 Array = NDArray[Any]
 
@@ -76,7 +76,7 @@ def hemisphere(machine: Machine, radius: float = 4e-3, lattice: int = 10) -> Che
     radius : float
         m.
     lattice : int
-        As `machines.hemisphere_normals`: 317 points for 10.
+        As `strutwork.machines.hemisphere_normals`: 317 points for 10.
 
     Returns
     -------

@@ -28,7 +28,7 @@ class ChunkStore:
     folder : Path
         May hold the chunks of several studies; each has a folder of its own in it.
     key : str
-        Hash of everything the results depend on; see `studies.description.study_key`.
+        Hash of everything the results depend on; see `strutwork.studies.description.study_key`.
     """
 
     folder: Path

@@ -9,16 +9,16 @@ from typing import Any, Literal
 
 import xarray as xr
 
-from machines import Machine, Proposed3PPRS, PublishedTable, ThreeLegs, get
-from machines.published_azulay import TABLE_2, TABLE_4
 from strutwork.errors import ModelError
-from studies.azulay_notes import STATUS, note_of
-from studies.filters import AS_IN_AZULAY, Filters
-from studies.link_lengths import LINK_LENGTHS
-from studies.progress import Progress, silent
-from studies.published_table import PublishedRow
-from studies.statistics import Summary, summary
-from studies.stiffness_map import stiffness_map
+from strutwork.machines import Machine, Proposed3PPRS, PublishedTable, ThreeLegs, get
+from strutwork.machines.published_azulay import TABLE_2, TABLE_4
+from strutwork.studies.azulay_notes import STATUS, note_of
+from strutwork.studies.filters import AS_IN_AZULAY, Filters
+from strutwork.studies.link_lengths import LINK_LENGTHS
+from strutwork.studies.progress import Progress, silent
+from strutwork.studies.published_table import PublishedRow
+from strutwork.studies.statistics import Summary, summary
+from strutwork.studies.stiffness_map import stiffness_map
 
 Model = Literal["spherical", "apparent"]
 

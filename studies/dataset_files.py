@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
-from studies.filters import PoseStatus
-from studies.netcdf import netcdf_bytes
+from strutwork.studies.filters import PoseStatus
+from strutwork.studies.netcdf import netcdf_bytes
 
 _UNITS = {"direction": ("N/m", "N m/rad")}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib
 import inspect
 import json
 import platform
@@ -19,11 +18,20 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import strutwork
-from machines import CATALOGUE, Machine, ThreeLegs, VibratingLegs
 from strutwork.errors import ModelError
+from strutwork.machines import CATALOGUE, Machine, ThreeLegs, VibratingLegs
+from strutwork.source_digest import source_digest
 
 #: Packages whose code decides a study's numbers.
-_CODE = ("strutwork", "kinematics", "msa", "fea", "machines", "studies")
+_CODE = (
+    "strutwork",
+    "strutwork.kinematics",
+    "strutwork.meshes",
+    "strutwork.msa",
+    "strutwork.fea",
+    "strutwork.machines",
+    "strutwork.studies",
+)
 
 
 def machine_name(machine: Machine) -> str:
@@ -107,14 +115,13 @@ def versions() -> dict[str, str]:
 @cache
 def _code_hash(machine_type: type) -> str:
     """Hash of the code that computes a study of a machine, its own module included."""
-    folders = [Path(str(importlib.import_module(name).__file__)).parent for name in _CODE]
-    files = {path for folder in folders for path in folder.rglob("*.py")}
+    files = set()
     for kind in machine_type.__mro__:
         try:
             files.add(Path(inspect.getfile(kind)).resolve())
         except (TypeError, OSError):
             continue
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(source_digest(*_CODE).encode())
     for path in sorted(files):
         digest.update(path.name.encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()

@@ -11,17 +11,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fea import Damping, ModalRatio, Port
-from fea.dynamic_stiffness import check_band, minimum_of
-from fea.eigen import solve_eigen
-from fea.modal import ModalModel, modal_model_of
-from fea.modes import lowest
-from fea.reduction import reduce_system
-from machines import Machine
-from msa import PlacedStructure, system_of
 from strutwork.errors import ModelError
-from studies.description import machine_name, versions
-from studies.variables import AXES, named
+from strutwork.fea import Damping, ModalRatio, Port
+from strutwork.fea.dynamic_stiffness import check_band, minimum_of
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.modal import ModalModel, modal_model_of
+from strutwork.fea.modes import lowest
+from strutwork.fea.reduction import reduce_system
+from strutwork.machines import Machine
+from strutwork.msa import PlacedStructure, system_of
+from strutwork.studies.description import machine_name, versions
+from strutwork.studies.variables import AXES, named
 
 Array = NDArray[Any]
 

@@ -11,23 +11,23 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fea import Damping
-from fea.dynamic_stiffness import check_band, minimum_of
-from fea.validity import warn_beyond
-from kinematics import Placement
-from machines import Machine, roll_angles
 from strutwork.errors import MechanismError, ModelError, NumericalError
-from studies.check_points import CheckPoints, hemisphere
-from studies.chunks import Arrays
-from studies.description import attributes, plain, study_key
-from studies.dynamic import BAND, MODES, ONE_PERCENT, modal_data, tool_ports
-from studies.evaluation import Evaluator
-from studies.executor import Executor
-from studies.filters import REASONS, Filters, PoseStatus
-from studies.progress import Progress
-from studies.run import Chunk, Run, fill
-from studies.stiffness_map import stiffest_roll
-from studies.variables import AXES, flags, named
+from strutwork.fea import Damping
+from strutwork.fea.dynamic_stiffness import check_band, minimum_of
+from strutwork.fea.validity import warn_beyond
+from strutwork.kinematics import Placement
+from strutwork.machines import Machine, roll_angles
+from strutwork.studies.check_points import CheckPoints, hemisphere
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.description import attributes, plain, study_key
+from strutwork.studies.dynamic import BAND, MODES, ONE_PERCENT, modal_data, tool_ports
+from strutwork.studies.evaluation import Evaluator
+from strutwork.studies.executor import Executor
+from strutwork.studies.filters import REASONS, Filters, PoseStatus
+from strutwork.studies.progress import Progress
+from strutwork.studies.run import Chunk, Run, fill
+from strutwork.studies.stiffness_map import stiffest_roll
+from strutwork.studies.variables import AXES, flags, named
 
 Array = NDArray[Any]
 
@@ -99,7 +99,7 @@ def dynamic_map(
     machine : Machine
         Its structure needs mass.
     points, rolls, filters, progress, folder
-        As `studies.stiffness_map`.
+        As `strutwork.studies.stiffness_map`.
     vibration : Vibration, optional
         Damping, band and number of modes.
     workers : int or Executor, optional

@@ -11,12 +11,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fea import Damping
-from machines import Proposed3PPRS, ThreeLegs, VibratingLegs, dynamic_machine
 from strutwork.errors import ModelError
-from studies.dynamic import BAND, ONE_PERCENT, dynamic_stiffness, frequency_responses
-from studies.link_lengths import LINK_LENGTHS
-from studies.variables import named
+from strutwork.fea import Damping
+from strutwork.machines import Proposed3PPRS, ThreeLegs, VibratingLegs, dynamic_machine
+from strutwork.studies.dynamic import BAND, ONE_PERCENT, dynamic_stiffness, frequency_responses
+from strutwork.studies.link_lengths import LINK_LENGTHS
+from strutwork.studies.variables import named
 
 Array = NDArray[Any]
 

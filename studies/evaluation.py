@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Placement, Poses, jacobians
-from machines import Limit, Machine, check_limits
-from msa import Structure, compliance_and_outcome
 from strutwork.errors import MechanismError
-from studies.filters import Filters, PoseStatus, moving_machine
+from strutwork.kinematics import Placement, Poses, jacobians
+from strutwork.machines import Limit, Machine, check_limits
+from strutwork.msa import Structure, compliance_and_outcome
+from strutwork.studies.filters import Filters, PoseStatus, moving_machine
 
 Array = NDArray[Any]
 

@@ -8,9 +8,9 @@ from math import isfinite
 
 import numpy as np
 
-from kinematics import characteristic_length
-from machines import Limit, Machine, Prototype3PPPRS, ThreeLegs
 from strutwork.errors import ModelError
+from strutwork.kinematics import characteristic_length
+from strutwork.machines import Limit, Machine, Prototype3PPPRS, ThreeLegs
 
 
 class PoseStatus(IntEnum):

@@ -8,13 +8,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import jacobians, velocity_ellipsoid
-from machines import HexelHexapod
-from machines.hexel_hexapod import LEVEL, REACH, TILT
-from machines.published_son import MANIPULABILITY
-from studies.description import attributes
-from studies.published_table import PublishedRow
-from studies.variables import named
+from strutwork.kinematics import jacobians, velocity_ellipsoid
+from strutwork.machines import HexelHexapod
+from strutwork.machines.hexel_hexapod import LEVEL, REACH, TILT
+from strutwork.machines.published_son import MANIPULABILITY
+from strutwork.studies.description import attributes
+from strutwork.studies.published_table import PublishedRow
+from strutwork.studies.variables import named
 
 Array = NDArray[Any]
 

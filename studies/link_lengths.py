@@ -8,11 +8,11 @@ from typing import Any
 
 import xarray as xr
 
-from machines import Proposed3PPRS, ThreeLegs
 from strutwork.errors import ModelError
-from studies.filters import AS_IN_AZULAY, Filters
-from studies.progress import Progress, share
-from studies.stiffness_map import stiffness_map
+from strutwork.machines import Proposed3PPRS, ThreeLegs
+from strutwork.studies.filters import AS_IN_AZULAY, Filters
+from strutwork.studies.progress import Progress, share
+from strutwork.studies.stiffness_map import stiffness_map
 
 #: m (Table 2).
 LINK_LENGTHS = (0.196, 0.216, 0.236)
@@ -42,7 +42,7 @@ def link_lengths(
         With the prismatic joints' ranges kept, 196 mm loses most of its points: its sliders
         would stand inside the guide's radius.
     workers, progress
-        As `studies.stiffness_map`.
+        As `strutwork.studies.stiffness_map`.
 
     Returns
     -------

@@ -17,8 +17,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from machines import MitSS1
-from machines.mit_ss1_calibrated import (
+from strutwork.machines import MitSS1
+from strutwork.machines.mit_ss1_calibrated import (
     CALIBRATED_GRANITE,
     CALIBRATED_MEASURED,
     CALIBRATED_MOUNTS,
@@ -26,14 +26,14 @@ from machines.mit_ss1_calibrated import (
     CALIBRATED_SCREW,
     calibrated_machine,
 )
-from machines.mit_ss1_frame import GraniteFrame
-from machines.mit_ss1_whole import MitSS1Whole
-from machines.published_son import FIGURE_29_TICK, MACHINE, MODES, MOUNT_MODES, STIFFNESS
-from msa import tool_compliance
-from msa.mass import mass_properties
-from studies.calibrate import Calibration, assess, calibrate
-from studies.calibration_problem import Parameter, Target
-from studies.mit_ss1_modes import (
+from strutwork.machines.mit_ss1_frame import GraniteFrame
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.machines.published_son import FIGURE_29_TICK, MACHINE, MODES, MOUNT_MODES, STIFFNESS
+from strutwork.msa import tool_compliance
+from strutwork.msa.mass import mass_properties
+from strutwork.studies.calibrate import Calibration, assess, calibrate
+from strutwork.studies.calibration_problem import Parameter, Target
+from strutwork.studies.mit_ss1_modes import (
     BENDING,
     MOUNT_ROWS,
     SCREW,
@@ -43,7 +43,7 @@ from studies.mit_ss1_modes import (
     granite_patterns,
     named_modes,
 )
-from studies.progress import Progress
+from strutwork.studies.progress import Progress
 
 Array = NDArray[Any]
 
@@ -184,7 +184,7 @@ def calibrate_screw(
     """Stiffness of the drives for the measured ball screw mode, for itself.
 
     Drives so soft bring the tilt far below its measured frequency, so the two are not met by one
-    machine: see `machines.mit_ss1_calibrated`.
+    machine: see `strutwork.machines.mit_ss1_calibrated`.
     """
     return calibrate(
         screw_model,

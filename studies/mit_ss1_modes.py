@@ -11,18 +11,18 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.modes import Modes, modes
-from kinematics import GROUND, Poses
-from machines import mit_ss1_parts as parts
-from machines.mit_ss1_calibrated import Which, calibrated_machine
-from machines.mit_ss1_frame import RAILS, rail_foot
-from machines.mit_ss1_whole import MitSS1Whole
-from machines.published_son import MODES, MOUNT_MODES
-from meshes.boundary import boundary
-from msa.structure import rigid_map
 from strutwork.errors import ValidityWarning
-from studies.mode_matching import matched, pattern_shares
-from studies.published_table import PublishedRow
+from strutwork.fea.modes import Modes, modes
+from strutwork.kinematics import GROUND, Poses
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.mit_ss1_calibrated import Which, calibrated_machine
+from strutwork.machines.mit_ss1_frame import RAILS, rail_foot
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.machines.published_son import MODES, MOUNT_MODES
+from strutwork.meshes.boundary import boundary
+from strutwork.msa.structure import rigid_map
+from strutwork.studies.mode_matching import matched, pattern_shares
+from strutwork.studies.published_table import PublishedRow
 
 Array = NDArray[Any]
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from machines.mit_ss1_calibrated import calibrated_machine
-from studies.scale import FACTORS, LAWS, ScaleStudy, scale_study
-from studies.similarity import JointScaling
+from strutwork.machines.mit_ss1_calibrated import calibrated_machine
+from strutwork.studies.scale import FACTORS, LAWS, ScaleStudy, scale_study
+from strutwork.studies.similarity import JointScaling
 
 #: Frequencies: with the granite the first six are those of the mounts.
 MODES, MODES_WHOLE = 4, 10

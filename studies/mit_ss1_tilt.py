@@ -14,13 +14,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from fea.modes import modes
-from machines import mit_ss1_parts as parts
-from machines.mit_ss1 import NOMINAL_TILT, MitSS1
-from machines.mit_ss1_whole import MitSS1Whole
 from strutwork.errors import ModelError
-from studies.mit_ss1_modes import COUNT, STRUTS, TILT, moving_patterns
-from studies.mode_matching import pattern_shares
+from strutwork.fea.modes import modes
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.mit_ss1 import NOMINAL_TILT, MitSS1
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.studies.mit_ss1_modes import COUNT, STRUTS, TILT, moving_patterns
+from strutwork.studies.mode_matching import pattern_shares
 
 Array = NDArray[Any]
 

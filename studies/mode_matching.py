@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from fea.modes import Modes
-from msa.assembly import system_of
-from msa.mass import mass_matrix
 from strutwork.errors import ModelError
+from strutwork.fea.modes import Modes
+from strutwork.msa.assembly import system_of
+from strutwork.msa.mass import mass_matrix
 
 Array = NDArray[Any]
 

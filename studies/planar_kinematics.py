@@ -9,12 +9,12 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-from kinematics import jacobians, velocity_ellipsoid
-from kinematics.mechanism import drive_values
-from machines import MitSS1
-from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from machines.mit_ss1_parts import STRUTS, TOOL, strut
 from strutwork.errors import ModelError
+from strutwork.kinematics import jacobians, velocity_ellipsoid
+from strutwork.kinematics.mechanism import drive_values
+from strutwork.machines import MitSS1
+from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from strutwork.machines.mit_ss1_parts import STRUTS, TOOL, strut
 
 Array = NDArray[Any]
 

@@ -10,13 +10,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from machines import GridMachine, Machine, PoseGrid
 from strutwork.errors import ModelError
-from studies.executor import Executor
-from studies.filters import Filters
-from studies.progress import Progress
-from studies.sweep import sweep
-from studies.variables import named
+from strutwork.machines import GridMachine, Machine, PoseGrid
+from strutwork.studies.executor import Executor
+from strutwork.studies.filters import Filters
+from strutwork.studies.progress import Progress
+from strutwork.studies.sweep import sweep
+from strutwork.studies.variables import named
 
 Array = NDArray[Any]
 
@@ -39,13 +39,13 @@ def plane_map(
     grid : PoseGrid, optional
         Default the machine's own.
     filters, workers, progress, folder, executor
-        As `studies.sweep`.
+        As `strutwork.studies.sweep`.
 
     Returns
     -------
     xarray.Dataset
-        As of `studies.sweep`, tilt fastest, with `tilt` (pose), rad; `on_plane` folds what it
-        holds over x and tilt.
+        As of `strutwork.studies.sweep`, tilt fastest, with `tilt` (pose), rad; `on_plane` folds
+        what it holds over x and tilt.
 
     Raises
     ------

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from studies.chunks import Arrays, ChunkStore
-from studies.executor import Executor, default_executor
-from studies.progress import Progress, silent
+from strutwork.studies.chunks import Arrays, ChunkStore
+from strutwork.studies.executor import Executor, default_executor
+from strutwork.studies.progress import Progress, silent
 
 
 @dataclass(frozen=True)

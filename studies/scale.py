@@ -11,12 +11,12 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
-from fea import modes
-from kinematics import DIRECTIONS
-from msa import PlacedStructure, axis_stiffness_free, compliance_budget, tool_compliance
 from strutwork.errors import ModelError, NumericalError
-from studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents, removal_exponents
-from studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
+from strutwork.fea import modes
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa import PlacedStructure, axis_stiffness_free, compliance_budget, tool_compliance
+from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents, removal_exponents
+from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
 
 Array = NDArray[Any]
 
@@ -242,7 +242,7 @@ def scale_study(
         Sizes that do not ascend from above zero, no law, an element that cannot be scaled, fewer
         modes than asked.
     StrutworkError
-        As `tool_compliance` and `fea.modes`.
+        As `tool_compliance` and `strutwork.fea.modes`.
     """
     sizes = _ascending(factors)
     if not laws:

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS, Joint, Placement
-from msa import Beam, Element, PlacedStructure, PointMass, Section, Spring
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Joint, Placement
+from strutwork.msa import Beam, Element, PlacedStructure, PointMass, Section, Spring
 
 Array = NDArray[Any]
 

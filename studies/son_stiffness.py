@@ -10,13 +10,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from machines import MitSS1
-from machines.mit_ss1 import NOMINAL_TILT
-from machines.published_son import FIGURE_29_TICK
 from strutwork.errors import ModelError
-from studies.description import attributes
-from studies.planar_kinematics import strut_rows
-from studies.variables import named
+from strutwork.machines import MitSS1
+from strutwork.machines.mit_ss1 import NOMINAL_TILT
+from strutwork.machines.published_son import FIGURE_29_TICK
+from strutwork.studies.description import attributes
+from strutwork.studies.planar_kinematics import strut_rows
+from strutwork.studies.variables import named
 
 Array = NDArray[Any]
 
@@ -55,12 +55,11 @@ def planar_compliance(
 ) -> Array:
     """Compliance of the tool tip in the plane, in the order x, z, turn about y.
 
-    With a strut's row a_i (`studies.planar_kinematics.strut_rows`) and the displacement c_i
-    along its line for a unit force in it, C = Σ of A⁻¹ diag(c) A⁻ᵀ. The corrected formula has
-    c = 1/k + u_x²/k_tr + u_z²/k_screw: K = Σ a aᵀ/c. The thesis adds the displacements of
-    J⁻ᵀ K J⁻¹ and J_tr⁻ᵀ K_tr J_tr⁻¹ (eqs 52 and 53), whose rows are a/u_z and a/u_x: that is
-    c = u_z²/k + u_x²/k_tr, as if the struts' stiffness stood at the drives along z. Its second
-    part is right.
+    With a strut's row a_i (`strutwork.studies.planar_kinematics.strut_rows`) and the displacement
+    c_i along its line for a unit force in it, C = Σ of A⁻¹ diag(c) A⁻ᵀ. The corrected formula has c
+    = 1/k + u_x²/k_tr + u_z²/k_screw: K = Σ a aᵀ/c. The thesis adds the displacements of J⁻ᵀ K J⁻¹
+    and J_tr⁻ᵀ K_tr J_tr⁻¹ (eqs 52 and 53), whose rows are a/u_z and a/u_x: that is c = u_z²/k +
+    u_x²/k_tr, as if the struts' stiffness stood at the drives along z. Its second part is right.
 
     Parameters
     ----------

@@ -11,8 +11,8 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
-from studies.check_points import area_weights
-from studies.filters import PoseStatus
+from strutwork.studies.check_points import area_weights
+from strutwork.studies.filters import PoseStatus
 
 Array = NDArray[Any]
 Meaning = Literal["blocked", "free"]

@@ -12,18 +12,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from machines import Machine, roll_angles
-from msa import axis_stiffness_blocked
 from strutwork.errors import ModelError
-from studies.check_points import CheckPoints, hemisphere
-from studies.chunks import Arrays
-from studies.description import attributes, plain, study_key
-from studies.evaluation import Evaluated, Evaluator
-from studies.executor import Executor
-from studies.filters import REASONS, Filters, PoseStatus
-from studies.progress import Progress
-from studies.run import Chunk, Run, fill
-from studies.variables import AXES, named, stiffness_variables
+from strutwork.machines import Machine, roll_angles
+from strutwork.msa import axis_stiffness_blocked
+from strutwork.studies.check_points import CheckPoints, hemisphere
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.description import attributes, plain, study_key
+from strutwork.studies.evaluation import Evaluated, Evaluator
+from strutwork.studies.executor import Executor
+from strutwork.studies.filters import REASONS, Filters, PoseStatus
+from strutwork.studies.progress import Progress
+from strutwork.studies.run import Chunk, Run, fill
+from strutwork.studies.variables import AXES, named, stiffness_variables
 
 Array = NDArray[Any]
 
@@ -58,7 +58,7 @@ def stiffness_map(
     points : CheckPoints, optional
         Default: `hemisphere(machine)`.
     rolls : (r,), optional
-        rad. Default: 24 over a third of a turn, `machines.roll_angles()`.
+        rad. Default: 24 over a third of a turn, `strutwork.machines.roll_angles()`.
     filters : Filters, optional
         Default: all joint ranges, condition number below 100.
     workers : int, optional

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from machines import MitSS1
-from machines.mit_ss1_calibrated import CALIBRATED_MOVING
-from machines.published_son import TABLE_6, table_6_row
-from msa import axis_stiffness_free, tool_compliance
 from strutwork.errors import NumericalError
-from studies.published_table import PublishedRow
-from studies.son_stiffness import Formula, planar_compliance
+from strutwork.machines import MitSS1
+from strutwork.machines.mit_ss1_calibrated import CALIBRATED_MOVING
+from strutwork.machines.published_son import TABLE_6, table_6_row
+from strutwork.msa import axis_stiffness_free, tool_compliance
+from strutwork.studies.published_table import PublishedRow
+from strutwork.studies.son_stiffness import Formula, planar_compliance
 
 Array = NDArray[Any]
 

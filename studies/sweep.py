@@ -10,17 +10,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import Poses
-from machines import Machine
 from strutwork.errors import ModelError
-from studies.chunks import Arrays
-from studies.description import attributes, study_key
-from studies.evaluation import Evaluator
-from studies.executor import Executor
-from studies.filters import Filters, PoseStatus
-from studies.progress import Progress
-from studies.run import Chunk, Run, fill
-from studies.variables import AXES, named, stiffness_variables
+from strutwork.kinematics import Poses
+from strutwork.machines import Machine
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.description import attributes, study_key
+from strutwork.studies.evaluation import Evaluator
+from strutwork.studies.executor import Executor
+from strutwork.studies.filters import Filters, PoseStatus
+from strutwork.studies.progress import Progress
+from strutwork.studies.run import Chunk, Run, fill
+from strutwork.studies.variables import AXES, named, stiffness_variables
 
 Array = NDArray[Any]
 
@@ -51,7 +51,7 @@ def sweep(
     filters : Filters, optional
         Default: all joint ranges, condition number below 100.
     workers, progress, folder, executor
-        As `studies.stiffness_map`.
+        As `strutwork.studies.stiffness_map`.
 
     Returns
     -------

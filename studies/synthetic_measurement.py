@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fea import FrequencyResponse, ModalRatio, Port, frequency_response, modes
-from machines import Prototype3PPPRS
-from msa import PlacedStructure
 from strutwork.errors import ModelError
-from studies.dynamic import at_home
+from strutwork.fea import FrequencyResponse, ModalRatio, Port, frequency_response, modes
+from strutwork.machines import Prototype3PPPRS
+from strutwork.msa import PlacedStructure
+from strutwork.studies.dynamic import at_home
 
 Array = NDArray[Any]
 
@@ -130,7 +130,7 @@ def synthetic_measurement(
     Raises
     ------
     ModelError
-        A noise that is negative, or errors of the model as `fea.frequency_response`.
+        A noise that is negative, or errors of the model as `strutwork.fea.frequency_response`.
     """
     if not (np.isfinite(noise) and noise >= 0):
         raise ModelError("noise", f"is {noise!r}.", "Give zero or a positive share.")

@@ -11,7 +11,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from overconstraint import (
+from strutwork.csv_rows import RowWriter
+from strutwork.files import write_whole
+from strutwork.overconstraint import (
     Allocation,
     Distribution,
     Limits,
@@ -22,9 +24,7 @@ from overconstraint import (
     WorstCase,
     limit_vector,
 )
-from overconstraint.sensitivity import given_size
-from strutwork.csv_rows import RowWriter
-from strutwork.files import write_whole
+from strutwork.overconstraint.sensitivity import given_size
 
 Array = NDArray[Any]
 

@@ -9,8 +9,9 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from msa.structure import PlacedStructure
-from overconstraint import (
+from strutwork.errors import ModelError
+from strutwork.msa.structure import PlacedStructure
+from strutwork.overconstraint import (
     Allocation,
     Limits,
     Quantity,
@@ -24,8 +25,7 @@ from overconstraint import (
     tool_deviation,
     worst_case,
 )
-from strutwork.errors import ModelError
-from studies.tolerance_result import ToleranceStudy
+from strutwork.studies.tolerance_result import ToleranceStudy
 
 Array = NDArray[Any]
 

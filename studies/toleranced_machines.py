@@ -9,12 +9,16 @@ from types import MappingProxyType
 
 import numpy as np
 
-from machines import CATALOGUE, MitSS1
-from machines.mit_ss1_tolerances import bearing_limits, machine_bearings, mit_ss1_tolerances
-from msa.structure import PlacedStructure
-from overconstraint import Limits, Quantity, Tolerance
 from strutwork.errors import ModelError
-from studies.assembly_map import bearing_quantities, nominal_grid
+from strutwork.machines import CATALOGUE, MitSS1
+from strutwork.machines.mit_ss1_tolerances import (
+    bearing_limits,
+    machine_bearings,
+    mit_ss1_tolerances,
+)
+from strutwork.msa.structure import PlacedStructure
+from strutwork.overconstraint import Limits, Quantity, Tolerance
+from strutwork.studies.assembly_map import bearing_quantities, nominal_grid
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS
-from msa import axis_stiffness_blocked, axis_stiffness_free, stiffness_ellipsoid
-from studies.filters import PoseStatus
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, stiffness_ellipsoid
+from strutwork.studies.filters import PoseStatus
 
 Array = NDArray[Any]
 

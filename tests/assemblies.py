@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS
-from msa import PlacedStructure
-from overconstraint import Influence, MisfitSources
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa import PlacedStructure
+from strutwork.overconstraint import Influence, MisfitSources
 from tests.structures import BAR, Model
 
 Array = NDArray[Any]

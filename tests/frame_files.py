@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from machines.model_file import parse_model
-from msa import PlacedStructure
+from strutwork.machines.model_file import parse_model
+from strutwork.msa import PlacedStructure
 from tests.model_files import Content, toml
 
 PLANE = ("z", "rx", "ry")

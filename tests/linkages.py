@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, axes_frame
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, axes_frame
 
 Array = NDArray[Any]
 

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from meshes import CellBlock, Mesh, block, joined, mapped, moved, node_set, patches, quadratic
+from strutwork.meshes import (
+    CellBlock,
+    Mesh,
+    block,
+    joined,
+    mapped,
+    moved,
+    node_set,
+    patches,
+    quadratic,
+)
 
 #: A cube cut into five tetrahedra, in VTK's order.
 FIVE = [[0, 1, 3, 4], [1, 2, 3, 6], [1, 6, 3, 4], [3, 6, 7, 4], [1, 5, 6, 4]]

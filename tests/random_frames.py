@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from msa import LoadCase, Material, Section, box, rectangle, rod, tube
+from strutwork.msa import LoadCase, Material, Section, box, rectangle, rod, tube
 from tests.structures import Model, vector
 
 MATERIALS = (

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from overconstraint import (
+from strutwork.overconstraint import (
     Ball,
     Disc,
     Interval,
@@ -16,7 +16,7 @@ from overconstraint import (
     Responses,
     Tolerance,
 )
-from overconstraint.sources import Block
+from strutwork.overconstraint.sources import Block
 from tests.three_struts import case
 
 SHAPES = (Disc(), Interval(), Ball(), PlaneZone())

@@ -14,7 +14,7 @@ from tempfile import mkdtemp
 
 import pytest
 
-from tests.unit.test_package import ROOMS, ROOT
+from tests.unit.test_package import ROOT
 
 #: A user whom no system knows.
 STRANGER = 54321
@@ -26,7 +26,8 @@ def installation(*, writable: bool) -> Iterator[Path]:
     # beside pytest's own folders, which are for their owner only
     folder = Path(mkdtemp(prefix="strutwork-installation-"))
     try:
-        for name in (*ROOMS, "examples"):
+        # the copy of the package holds what its links lead to
+        for name in ("strutwork", "examples"):
             shutil.copytree(
                 ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__")
             )
@@ -62,7 +63,13 @@ def strutwork(
     largest_file : int, optional
         Bytes; a longer file cannot be written, as on a full disk.
     """
-    command = [sys.executable, "-B", "-c", "from reports.cli import main; main()", *arguments]
+    command = [
+        sys.executable,
+        "-B",
+        "-c",
+        "from strutwork.reports.cli import main; main()",
+        *arguments,
+    ]
     if stranger and os.geteuid() == 0:
         setpriv = shutil.which("setpriv")
         if setpriv is None:

@@ -8,12 +8,12 @@ from itertools import permutations
 
 import numpy as np
 
-from fea.solid import Solid
-from fea.solid_matrices import SolidMatrices, solid_matrices
-from meshes.block import block
-from meshes.boundary import boundary
-from meshes.mesh import CellBlock, Faces, Mesh, Patch
-from msa.materials import Material
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import SolidMatrices, solid_matrices
+from strutwork.meshes.block import block
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.msa.materials import Material
 
 STEEL = Material.isotropic(200e9, 0.3, 8000.0, name="steel")
 GRANITE = Material.isotropic(78e9, 0.25, 3000.0, name="granite")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import copy
 from pathlib import Path
 
-from machines.model import Model
-from machines.model_file import parse_model
-from meshes import Mesh, block, patch
+from strutwork.machines.model import Model
+from strutwork.machines.model_file import parse_model
+from strutwork.meshes import Mesh, block, patch
 from tests.model_files import Content, Edit, toml
 
 #: A granite column on an elastic, damped mount; an arm on its head carries a mass.

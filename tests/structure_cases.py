@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
-from kinematics import JOINT_TYPES
-from msa import LineLoad, LoadCase, PointMass, Spring, rod
+from strutwork.kinematics import JOINT_TYPES
+from strutwork.msa import LineLoad, LoadCase, PointMass, Spring, rod
 from tests.structures import BAR, TUBE, Model, cantilever, every_direction, wrench
 
 Array = NDArray[Any]

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
-from msa import (
+from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.msa import (
     Beam,
     LineLoad,
     LoadCase,

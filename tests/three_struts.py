@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
-from msa import PlacedStructure, Structure
-from overconstraint import Quantity, Responses, Tolerance, tolerance_responses
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.msa import PlacedStructure, Structure
+from strutwork.overconstraint import Quantity, Responses, Tolerance, tolerance_responses
 
 TILT = 300e-6
 

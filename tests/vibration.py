@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eig
 
-from msa import PlacedStructure, PointMass, Spring, system_of
-from msa.constraints import orthonormal_rows, scales
-from msa.mass import mass_matrix
+from strutwork.msa import PlacedStructure, PointMass, Spring, system_of
+from strutwork.msa.constraints import orthonormal_rows, scales
+from strutwork.msa.mass import mass_matrix
 from tests.structure_cases import LIBRARY
 from tests.structures import Model
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import degrees
 
-from machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS, ThreeLegs
-from reports.content import Cell, Column, Table
-from reports.numbers import significant
-from studies import Filters
+from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS, ThreeLegs
+from strutwork.reports.content import Cell, Column, Table
+from strutwork.reports.numbers import significant
+from strutwork.studies import Filters
 
 PAPER, OURS, CALIBRATED = "paper", "our choice", "calibrated"
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from reports.content import Block, Chapter, Figure, Row, Text
-from reports.data_files import DataFile, csv_file
-from reports.figures.charts import stacked_shares
-from reports.figures.theme import PALETTE
-from reports.machine_study import MODEL_NAMES, MachineStudy
+from strutwork.reports.content import Block, Chapter, Figure, Row, Text
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.charts import stacked_shares
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.machine_study import MODEL_NAMES, MachineStudy
 
 #: The same part has the same colour in every machine.
 PART_COLOURS = {

@@ -8,9 +8,9 @@ from typing import Any
 
 from plotly import __version__ as plotly_version
 
-from reports.content import Chapter, Column, Links, Table, Text
-from reports.data_files import json_file
-from studies.description import versions
+from strutwork.reports.content import Chapter, Column, Links, Table, Text
+from strutwork.reports.data_files import json_file
+from strutwork.studies.description import versions
 
 
 def closing_chapter(

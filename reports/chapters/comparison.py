@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from machines import get
-from machines.published_azulay import AZULAY_2014, TABLE_2, TABLE_4
-from reports.chapters.assumptions import assumptions_table, method_table, models_table
-from reports.chapters.budget import PART_COLOURS, budget_file, by_kind
-from reports.chapters.machine import AXES, DRAWING, drawing_file, machine_figure
-from reports.chapters.published import READING, published_table
-from reports.chapters.stiffness import (
+from strutwork.machines import get
+from strutwork.machines.published_azulay import AZULAY_2014, TABLE_2, TABLE_4
+from strutwork.reports.chapters.assumptions import assumptions_table, method_table, models_table
+from strutwork.reports.chapters.budget import PART_COLOURS, budget_file, by_kind
+from strutwork.reports.chapters.machine import AXES, DRAWING, drawing_file, machine_figure
+from strutwork.reports.chapters.published import READING, published_table
+from strutwork.reports.chapters.stiffness import (
     axis_values,
     dropped_table,
     map_figure,
@@ -18,7 +18,7 @@ from reports.chapters.stiffness import (
     pose_columns,
     pose_rows,
 )
-from reports.content import (
+from strutwork.reports.content import (
     Block,
     Cell,
     Chapter,
@@ -32,12 +32,12 @@ from reports.content import (
     Table,
     Text,
 )
-from reports.data_files import DataFile
-from reports.figures.charts import Bars, grouped, stacked_shares
-from reports.machine_study import FILTERS, MODEL_NAMES, Comparison
-from reports.numbers import micro, significant
-from studies import published_ranking
-from studies.comparison import Model
+from strutwork.reports.data_files import DataFile
+from strutwork.reports.figures.charts import Bars, grouped, stacked_shares
+from strutwork.reports.machine_study import FILTERS, MODEL_NAMES, Comparison
+from strutwork.reports.numbers import micro, significant
+from strutwork.studies import published_ranking
+from strutwork.studies.comparison import Model
 
 #: Short names for axes of charts.
 SHORT = {

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from machines.published_azulay import TABLE_2
-from reports.chapters.machine import AXES
-from reports.chapters.published import published_table
-from reports.content import Block, Chapter, Figure, Row, Text
-from reports.figures.charts import Bars, lines
-from reports.figures.theme import AXIS_COLOURS
-from reports.machine_study import MODEL_NAMES, MachineStudy
+from strutwork.machines.published_azulay import TABLE_2
+from strutwork.reports.chapters.machine import AXES
+from strutwork.reports.chapters.published import published_table
+from strutwork.reports.content import Block, Chapter, Figure, Row, Text
+from strutwork.reports.figures.charts import Bars, lines
+from strutwork.reports.figures.theme import AXIS_COLOURS
+from strutwork.reports.machine_study import MODEL_NAMES, MachineStudy
 
 
 def lengths_chapter(study: MachineStudy) -> Chapter:

@@ -6,15 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from kinematics import Placement
-from machines import ThreeLegs
-from machines.published_azulay import TABLE_4
-from reports.chapters.assumptions import assumptions_table, method_table, models_table
-from reports.content import Chapter, Fact, Facts, Figure, Note, Text
-from reports.data_files import DataFile, json_file
-from reports.figures.machine import drawn_joints, machine_view
-from reports.machine_study import FILTERS, MachineStudy
-from reports.numbers import micro, percent, significant
+from strutwork.kinematics import Placement
+from strutwork.machines import ThreeLegs
+from strutwork.machines.published_azulay import TABLE_4
+from strutwork.reports.chapters.assumptions import assumptions_table, method_table, models_table
+from strutwork.reports.content import Chapter, Fact, Facts, Figure, Note, Text
+from strutwork.reports.data_files import DataFile, json_file
+from strutwork.reports.figures.machine import drawn_joints, machine_view
+from strutwork.reports.machine_study import FILTERS, MachineStudy
+from strutwork.reports.numbers import micro, percent, significant
 
 AXES = ("x", "y", "z")
 

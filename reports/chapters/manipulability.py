@@ -7,16 +7,16 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from machines.hexel_hexapod import REACH, TILT
-from machines.published_son import MANIPULABILITY
-from reports.chapters.published import CLOSE
-from reports.content import Block, Cell, Chapter, Column, Figure, Points, Row, Table, Text
-from reports.data_files import csv_file, netcdf_file
-from reports.figures.curves import heat
-from reports.numbers import percent, significant
-from studies import PublishedRow, file_name
-from studies.hexapod_manipulability import IDENTITY, MEASURES, PARTS, manipulability_rows
-from studies.published_table import COLUMNS
+from strutwork.machines.hexel_hexapod import REACH, TILT
+from strutwork.machines.published_son import MANIPULABILITY
+from strutwork.reports.chapters.published import CLOSE
+from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Points, Row, Table, Text
+from strutwork.reports.data_files import csv_file, netcdf_file
+from strutwork.reports.figures.curves import heat
+from strutwork.reports.numbers import percent, significant
+from strutwork.studies import PublishedRow, file_name
+from strutwork.studies.hexapod_manipulability import IDENTITY, MEASURES, PARTS, manipulability_rows
+from strutwork.studies.published_table import COLUMNS
 
 
 def manipulability_chapter(found: xr.Dataset) -> Chapter:

@@ -6,19 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
-from fea import ModalRatio, Port, frequency_response, modes
-from fea.compare_files import compare_files
-from fea.mode_damping import damping_ratios
-from fea.uff import ModeRecord, UniversalFile, mode_file, node_positions, response_records
-from fea.uff_write import write_universal
-from machines import Prototype3PPPRS
-from reports.content import Block, Chapter, Column, Figure, Note, Row, Table, Text
-from reports.data_files import DataFile, csv_file, json_file
-from reports.figures.theme import PALETTE
-from reports.figures.vibration import responses
-from reports.numbers import percent, significant
-from studies.dynamic import at_home
-from studies.synthetic_measurement import synthetic_measurement
+from strutwork.fea import ModalRatio, Port, frequency_response, modes
+from strutwork.fea.compare_files import compare_files
+from strutwork.fea.mode_damping import damping_ratios
+from strutwork.fea.uff import ModeRecord, UniversalFile, mode_file, node_positions, response_records
+from strutwork.fea.uff_write import write_universal
+from strutwork.machines import Prototype3PPPRS
+from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Row, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, json_file
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.figures.vibration import responses
+from strutwork.reports.numbers import percent, significant
+from strutwork.studies.dynamic import at_home
+from strutwork.studies.synthetic_measurement import synthetic_measurement
 
 #: Modes and damping of the model that is compared.
 COUNT, DAMPING = 10, ModalRatio(0.01)

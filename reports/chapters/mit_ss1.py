@@ -4,14 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from machines import MitSS1, get
-from machines.mit_ss1_tolerances import AXIAL_FACTOR, HOUSING_TILT, RAIL_HEIGHT, STATIC_RATING
-from machines.published_son import DIMENSIONS, FIGURE_29_TICK, MACHINE, MANIPULABILITY, MODES
-from reports.chapters.mit_ss1_energies import place_shares
-from reports.chapters.mit_ss1_modes import MET
-from reports.chapters.mit_ss1_whole import whole_assumptions, whole_blocks
-from reports.chapters.overconstraint import governing, label, shown
-from reports.content import (
+from strutwork.machines import MitSS1, get
+from strutwork.machines.mit_ss1_tolerances import (
+    AXIAL_FACTOR,
+    HOUSING_TILT,
+    RAIL_HEIGHT,
+    STATIC_RATING,
+)
+from strutwork.machines.published_son import (
+    DIMENSIONS,
+    FIGURE_29_TICK,
+    MACHINE,
+    MANIPULABILITY,
+    MODES,
+)
+from strutwork.reports.chapters.mit_ss1_energies import place_shares
+from strutwork.reports.chapters.mit_ss1_modes import MET
+from strutwork.reports.chapters.mit_ss1_whole import whole_assumptions, whole_blocks
+from strutwork.reports.chapters.overconstraint import governing, label, shown
+from strutwork.reports.content import (
     Chapter,
     Column,
     Fact,
@@ -21,14 +32,14 @@ from reports.content import (
     Table,
     Text,
 )
-from reports.data_files import json_file
-from reports.drawing_data import drawing_data
-from reports.figures.planar_machine import planar_machine_view
-from reports.mit_ss1_study import NAME, MitSS1Study
-from reports.numbers import MINUS, micro, significant
-from studies.assembly_table import SETS
-from studies.mit_ss1_modes import TILT
-from studies.son_stiffness import map_figures
+from strutwork.reports.data_files import json_file
+from strutwork.reports.drawing_data import drawing_data
+from strutwork.reports.figures.planar_machine import planar_machine_view
+from strutwork.reports.mit_ss1_study import NAME, MitSS1Study
+from strutwork.reports.numbers import MINUS, micro, significant
+from strutwork.studies.assembly_table import SETS
+from strutwork.studies.mit_ss1_modes import TILT
+from strutwork.studies.son_stiffness import map_figures
 
 DRAWING = (
     "The mechanism alone, with its joints. Seen from outside towards the granite. Drag to turn, "

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from math import isfinite
 from types import MappingProxyType
 
-from reports.chapters.mit_ss1_modes import nearly
-from reports.content import Block, Cell, Chapter, Column, Figure, Points, Table, Text
-from reports.data_files import csv_file, json_file
-from reports.figures.modes import singular_values
-from reports.mit_ss1_whole_study import WholeStudy
-from reports.numbers import MINUS, percent, significant
-from studies.calibrate import Calibration
-from studies.mit_ss1_calibration import Part
+from strutwork.reports.chapters.mit_ss1_modes import nearly
+from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Points, Table, Text
+from strutwork.reports.data_files import csv_file, json_file
+from strutwork.reports.figures.modes import singular_values
+from strutwork.reports.mit_ss1_whole_study import WholeStudy
+from strutwork.reports.numbers import MINUS, percent, significant
+from strutwork.studies.calibrate import Calibration
+from strutwork.studies.mit_ss1_calibration import Part
 
 FILE = "calibration.json"
 

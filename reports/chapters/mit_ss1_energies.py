@@ -6,11 +6,11 @@ import re
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from reports.content import Block, Column, Figure, Table
-from reports.figures.modes import energy_bars
-from reports.mit_ss1_whole_study import WholeStudy
-from reports.numbers import fixed
-from studies.mit_ss1_modes import NamedModes
+from strutwork.reports.content import Block, Column, Figure, Table
+from strutwork.reports.figures.modes import energy_bars
+from strutwork.reports.mit_ss1_whole_study import WholeStudy
+from strutwork.reports.numbers import fixed
+from strutwork.studies.mit_ss1_modes import NamedModes
 
 MODES_FILE = "modes.csv"
 

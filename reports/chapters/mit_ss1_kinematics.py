@@ -6,10 +6,10 @@ from math import degrees
 
 import numpy as np
 
-from kinematics import drive_values
-from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from machines.published_son import MACHINE, MANIPULABILITY
-from reports.content import (
+from strutwork.kinematics import drive_values
+from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from strutwork.machines.published_son import MACHINE, MANIPULABILITY
+from strutwork.reports.content import (
     Block,
     Cell,
     Chapter,
@@ -19,14 +19,14 @@ from reports.content import (
     Table,
     Text,
 )
-from reports.data_files import DataFile, csv_file, netcdf_file
-from reports.figures.curves import Curve, curves, heat
-from reports.figures.theme import PALETTE
-from reports.mit_ss1_study import MitSS1Study, degrees_text
-from reports.numbers import fixed, percent, significant
-from studies import PublishedRow, file_name
-from studies.assembly_map import FORCES
-from studies.published_table import COLUMNS
+from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
+from strutwork.reports.figures.curves import Curve, curves, heat
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.mit_ss1_study import MitSS1Study, degrees_text
+from strutwork.reports.numbers import fixed, percent, significant
+from strutwork.studies import PublishedRow, file_name
+from strutwork.studies.assembly_map import FORCES
+from strutwork.studies.published_table import COLUMNS
 
 
 def kinematics_chapter(study: MitSS1Study) -> Chapter:

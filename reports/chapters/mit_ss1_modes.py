@@ -4,21 +4,32 @@ from __future__ import annotations
 
 import numpy as np
 
-from fea.solid_fields import SurfaceField
-from machines.mit_ss1_calibrated import Which
-from machines.published_son import MODES, MOUNT_MODES
-from reports.chapters.mit_ss1_energies import MODES_FILE, energy_blocks
-from reports.content import Block, Cell, Chapter, Column, Figure, Note, Points, Row, Table, Text
-from reports.data_files import DataFile, csv_file, json_file, netcdf_file
-from reports.figures.curves import Curve, curves
-from reports.figures.mode_surface import mode_surface, modes_view
-from reports.figures.modes import frequency_dots
-from reports.figures.theme import PALETTE
-from reports.mit_ss1_whole_study import SETS, WholeStudy
-from reports.mode_files import mode_fields, mode_scene
-from reports.numbers import fixed, percent, significant
-from studies import PublishedRow, file_name
-from studies.mit_ss1_modes import (
+from strutwork.fea.solid_fields import SurfaceField
+from strutwork.machines.mit_ss1_calibrated import Which
+from strutwork.machines.published_son import MODES, MOUNT_MODES
+from strutwork.reports.chapters.mit_ss1_energies import MODES_FILE, energy_blocks
+from strutwork.reports.content import (
+    Block,
+    Cell,
+    Chapter,
+    Column,
+    Figure,
+    Note,
+    Points,
+    Row,
+    Table,
+    Text,
+)
+from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
+from strutwork.reports.figures.curves import Curve, curves
+from strutwork.reports.figures.mode_surface import mode_surface, modes_view
+from strutwork.reports.figures.modes import frequency_dots
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.mit_ss1_whole_study import SETS, WholeStudy
+from strutwork.reports.mode_files import mode_fields, mode_scene
+from strutwork.reports.numbers import fixed, percent, significant
+from strutwork.studies import PublishedRow, file_name
+from strutwork.studies.mit_ss1_modes import (
     BENDING,
     MOUNT_ROWS,
     SCREW,
@@ -27,7 +38,7 @@ from studies.mit_ss1_modes import (
     TWISTING,
     mode_picture,
 )
-from studies.published_table import COLUMNS
+from strutwork.studies.published_table import COLUMNS
 
 SHAPES_FILE, POSTURES_FILE = "mode-shapes.vtu", "mode-postures.csv"
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from reports.chapters.vibration import minima_table, response_figure, response_files
-from reports.content import Block, Chapter, Note, Text
-from reports.mit_ss1_whole_study import BAND, WholeStudy
-from reports.numbers import significant
+from strutwork.reports.chapters.vibration import minima_table, response_figure, response_files
+from strutwork.reports.content import Block, Chapter, Note, Text
+from strutwork.reports.mit_ss1_whole_study import BAND, WholeStudy
+from strutwork.reports.numbers import significant
 
 
 def response_chapter(study: WholeStudy) -> Chapter:

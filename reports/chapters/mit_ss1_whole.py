@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from machines.mit_ss1_calibrated import CALIBRATED_GRANITE
-from machines.mit_ss1_frame import MOUNTS
-from machines.mit_ss1_whole import MitSS1Whole
-from machines.published_son import FIGURE_29_TICK, MACHINE, STIFFNESS
-from reports.content import Block, Column, Fact, Facts, Figure, Row, Table, Text
-from reports.data_files import DataFile, csv_file, json_file, netcdf_file
-from reports.figures.curves import heat
-from reports.figures.whole_machine import whole_machine_view
-from reports.mit_ss1_whole_study import WholeStudy
-from reports.numbers import fixed, micro, significant
-from studies.variables import AXES
+from strutwork.machines.mit_ss1_calibrated import CALIBRATED_GRANITE
+from strutwork.machines.mit_ss1_frame import MOUNTS
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.machines.published_son import FIGURE_29_TICK, MACHINE, STIFFNESS
+from strutwork.reports.content import Block, Column, Fact, Facts, Figure, Row, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
+from strutwork.reports.figures.curves import heat
+from strutwork.reports.figures.whole_machine import whole_machine_view
+from strutwork.reports.mit_ss1_whole_study import WholeStudy
+from strutwork.reports.numbers import fixed, micro, significant
+from strutwork.studies.variables import AXES
 
 DRAWING_FILE, STIFFNESS_FILE = "drawing-whole-machine.json", "stiffness-calibrated.csv"
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from machines.model import Model
-from msa import axis_stiffness_blocked, axis_stiffness_free
-from reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
-from reports.data_files import json_file
-from reports.figures.model import model_view
-from reports.model_check import ModelCheck
-from reports.model_solution import ModelSolution
-from reports.numbers import MINUS, clean, count, significant
+from strutwork.machines.model import Model
+from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
+from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
+from strutwork.reports.data_files import json_file
+from strutwork.reports.figures.model import model_view
+from strutwork.reports.model_check import ModelCheck
+from strutwork.reports.model_solution import ModelSolution
+from strutwork.reports.numbers import MINUS, clean, count, significant
 
 #: Rows of motions and self-stress states a reader is shown; the file has all.
 SHOWN = 12

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from reports.content import Block, Chapter, Column, Figure, Note, Table, Text
-from reports.data_files import DataFile, csv_file, json_file
-from reports.figures.model import deformed_shape, deformed_view, model_size
-from reports.model_solution import ModelSolution
-from reports.numbers import significant
-from reports.solution_tables import FORCE_TABLES, beam_ends, shown_energy, shown_tables
+from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, json_file
+from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
+from strutwork.reports.model_solution import ModelSolution
+from strutwork.reports.numbers import significant
+from strutwork.reports.solution_tables import FORCE_TABLES, beam_ends, shown_energy, shown_tables
 
 #: Rows of a table a reader is shown; the file has all.
 SHOWN = 40

@@ -8,19 +8,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS
-from machines.model import Model
-from msa import (
+from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.model import Model
+from strutwork.msa import (
     axis_stiffness_blocked,
     axis_stiffness_free,
     compliance_budget,
     stiffness_ellipsoid,
 )
-from reports.content import Block, Chapter, Column, Figure, Note, Table, Text
-from reports.data_files import csv_file, json_file
-from reports.figures.charts import REST, stacked_shares
-from reports.model_solution import ModelSolution
-from reports.numbers import clean, matrix_without_rounding, share, significant
+from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Table, Text
+from strutwork.reports.data_files import csv_file, json_file
+from strutwork.reports.figures.charts import REST, stacked_shares
+from strutwork.reports.model_solution import ModelSolution
+from strutwork.reports.numbers import clean, matrix_without_rounding, share, significant
 
 Array = NDArray[Any]
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from overconstraint import Quantity, Tolerance, given_size
-from reports.content import Block, Cell, Column, Fact, Facts, Note, Table
-from reports.data_files import DataFile, json_file
-from reports.numbers import MINUS, significant
 from strutwork.errors import NumericalError
-from studies.tolerance_result import ToleranceStudy
+from strutwork.overconstraint import Quantity, Tolerance, given_size
+from strutwork.reports.content import Block, Cell, Column, Fact, Facts, Note, Table
+from strutwork.reports.data_files import DataFile, json_file
+from strutwork.reports.numbers import MINUS, significant
+from strutwork.studies.tolerance_result import ToleranceStudy
 
 Array = NDArray[Any]
 

@@ -6,13 +6,13 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from overconstraint import Allocation, Tolerance
-from reports.chapters.overconstraint import size_text, size_value
-from reports.content import Block, Cell, Column, Figure, Points, Table, Tone
-from reports.data_files import DataFile, csv_file
-from reports.figures.charts import Bars, grouped
-from reports.figures.theme import PALETTE
-from reports.numbers import significant
+from strutwork.overconstraint import Allocation, Tolerance
+from strutwork.reports.chapters.overconstraint import size_text, size_value
+from strutwork.reports.content import Block, Cell, Column, Figure, Points, Table, Tone
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.charts import Bars, grouped
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.numbers import significant
 
 #: Sizes of a tolerance that reaches no limited force are left as they are.
 UNTOUCHED = 1e-9

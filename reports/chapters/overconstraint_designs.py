@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from machines.mit_ss1_designs import DATUM_ZONE, MARGIN, RAIL_LENGTH
-from machines.mit_ss1_tolerances import RAIL_HEIGHT, STATIC_RATING
-from reports.content import Block, Column, Figure, Table, Text
-from reports.data_files import DataFile, csv_file
-from reports.figures.force_bars import ForceBars, force_bars
-from reports.figures.theme import PALETTE
-from reports.mit_ss1_study import MitSS1Study
-from reports.numbers import significant
-from studies.assembly_map import FORCES
+from strutwork.machines.mit_ss1_designs import DATUM_ZONE, MARGIN, RAIL_LENGTH
+from strutwork.machines.mit_ss1_tolerances import RAIL_HEIGHT, STATIC_RATING
+from strutwork.reports.content import Block, Column, Figure, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.force_bars import ForceBars, force_bars
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.mit_ss1_study import MitSS1Study
+from strutwork.reports.numbers import significant
+from strutwork.studies.assembly_map import FORCES
 
 
 def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:

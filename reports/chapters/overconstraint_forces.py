@@ -9,15 +9,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.chapters.overconstraint import UNITS, governing, label, loaded, main_cause, pose, shown
-from reports.content import Block, Cell, Column, Figure, Row, Table, Text, Tone
-from reports.data_files import DataFile, csv_file
-from reports.figures.charts import stacked_shares
-from reports.figures.curves import histogram
-from reports.figures.force_bars import ForceBars, force_bars
-from reports.figures.theme import PALETTE
-from reports.numbers import significant
-from studies.tolerance_result import ToleranceStudy
+from strutwork.reports.chapters.overconstraint import (
+    UNITS,
+    governing,
+    label,
+    loaded,
+    main_cause,
+    pose,
+    shown,
+)
+from strutwork.reports.content import Block, Cell, Column, Figure, Row, Table, Text, Tone
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.charts import stacked_shares
+from strutwork.reports.figures.curves import histogram
+from strutwork.reports.figures.force_bars import ForceBars, force_bars
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.numbers import significant
+from strutwork.studies.tolerance_result import ToleranceStudy
 
 #: Kinds of force in the order of charts, with colour and hatching.
 STYLES = (("radial force", PALETTE[0], ""), ("axial force", PALETTE[4], "/"))

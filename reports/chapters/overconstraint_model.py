@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from machines.model import Model
-from msa import LoadCase
-from overconstraint import Allocation, allocate
-from reports.chapters.overconstraint import (
+from strutwork.machines.model import Model
+from strutwork.msa import LoadCase
+from strutwork.overconstraint import Allocation, allocate
+from strutwork.reports.chapters.overconstraint import (
     governing,
     headline,
     label,
@@ -20,16 +20,20 @@ from reports.chapters.overconstraint import (
     tolerance_table,
     tool_blocks,
 )
-from reports.chapters.overconstraint_allocation import allocation_blocks
-from reports.chapters.overconstraint_forces import cause_blocks, force_blocks, spread_blocks
-from reports.content import Block, Chapter, Figure, Text
-from reports.data_files import DataFile, json_file
-from reports.figures.assembly_scene import ARROW, SHOWN, assembled
-from reports.figures.misfits import force_arrows
-from reports.figures.model import deformed_shape, deformed_view, model_size
-from reports.numbers import significant
-from studies.tolerance_result import ToleranceStudy
-from studies.tolerance_study import tolerance_study
+from strutwork.reports.chapters.overconstraint_allocation import allocation_blocks
+from strutwork.reports.chapters.overconstraint_forces import (
+    cause_blocks,
+    force_blocks,
+    spread_blocks,
+)
+from strutwork.reports.content import Block, Chapter, Figure, Text
+from strutwork.reports.data_files import DataFile, json_file
+from strutwork.reports.figures.assembly_scene import ARROW, SHOWN, assembled
+from strutwork.reports.figures.misfits import force_arrows
+from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
+from strutwork.reports.numbers import significant
+from strutwork.studies.tolerance_result import ToleranceStudy
+from strutwork.studies.tolerance_study import tolerance_study
 
 KEY = "tolerances"
 
@@ -62,7 +66,7 @@ def study_model_tolerances(model: Model) -> ModelTolerances:
     Raises
     ------
     StrutworkError
-        As `studies.tolerance_study` and `overconstraint.allocate`.
+        As `strutwork.studies.tolerance_study` and `strutwork.overconstraint.allocate`.
     """
     study = tolerance_study(model.placed, model.tolerances, model.force_limits, title=model.title)
     allocations = {}

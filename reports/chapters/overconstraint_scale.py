@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from machines import strut_width
-from machines.mit_ss1_assembly import CASES
-from machines.mit_ss1_tolerances import STATIC_RATING
-from machines.published_son import TABLE_2
-from reports.content import Block, Cell, Column, Figure, Row, Table, Text
-from reports.data_files import DataFile, csv_file, netcdf_file
-from reports.figures.curves import Curve, curves
-from reports.figures.theme import PALETTE
-from reports.mit_ss1_study import MitSS1Study
-from reports.numbers import micro, significant
-from studies.assembly_scale import WIDTH_RATIO
-from studies.assembly_table import COLUMNS
+from strutwork.machines import strut_width
+from strutwork.machines.mit_ss1_assembly import CASES
+from strutwork.machines.mit_ss1_tolerances import STATIC_RATING
+from strutwork.machines.published_son import TABLE_2
+from strutwork.reports.content import Block, Cell, Column, Figure, Row, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
+from strutwork.reports.figures.curves import Curve, curves
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.mit_ss1_study import MitSS1Study
+from strutwork.reports.numbers import micro, significant
+from strutwork.studies.assembly_scale import WIDTH_RATIO
+from strutwork.studies.assembly_table import COLUMNS
 
 #: Thickness of the strut for which eq. 64 is shown, m. Our choice.
 THICKNESS = 0.030

@@ -6,19 +6,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from machines import StrutAssembly
-from machines.mit_ss1_assembly import CASES, TILT
-from machines.published_son import TABLE_2
-from reports.chapters.overconstraint import label, leading, shown
-from reports.chapters.overconstraint_forces import Published
-from reports.content import Block, Cell, Column, Figure, Note, Points, Table, Text
-from reports.data_files import DataFile, csv_file, json_file
-from reports.figures.assembly_scene import assembled, strut_assembly_view
-from reports.mit_ss1_study import MitSS1Study
-from reports.numbers import micro, percent, significant
-from studies import PublishedRow, file_name
-from studies.assembly_table import COLUMNS, SETS, STIFFNESSES, Set
-from studies.published_table import COLUMNS as FILE_COLUMNS
+from strutwork.machines import StrutAssembly
+from strutwork.machines.mit_ss1_assembly import CASES, TILT
+from strutwork.machines.published_son import TABLE_2
+from strutwork.reports.chapters.overconstraint import label, leading, shown
+from strutwork.reports.chapters.overconstraint_forces import Published
+from strutwork.reports.content import Block, Cell, Column, Figure, Note, Points, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, json_file
+from strutwork.reports.figures.assembly_scene import assembled, strut_assembly_view
+from strutwork.reports.mit_ss1_study import MitSS1Study
+from strutwork.reports.numbers import micro, percent, significant
+from strutwork.studies import PublishedRow, file_name
+from strutwork.studies.assembly_table import COLUMNS, SETS, STIFFNESSES, Set
+from strutwork.studies.published_table import COLUMNS as FILE_COLUMNS
 
 RECONSTRUCTED = (
     "Reconstructed: figures 40 and 42 of the thesis, which show the structure and its dimensions, "

@@ -8,10 +8,10 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from reports.content import Column, Figure, Row, Table
-from reports.figures.curves import heat
-from reports.numbers import fixed, micro, significant
-from studies import Fall, on_plane
+from strutwork.reports.content import Column, Figure, Row, Table
+from strutwork.reports.figures.curves import heat
+from strutwork.reports.numbers import fixed, micro, significant
+from strutwork.studies import Fall, on_plane
 
 
 def plane_figures(
@@ -22,7 +22,7 @@ def plane_figures(
     Parameters
     ----------
     found : xarray.Dataset
-        Of `studies.plane_map`.
+        Of `strutwork.studies.plane_map`.
     key : str
         Begins the figures' keys.
     name : str

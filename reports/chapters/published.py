@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from machines import PublishedTable
-from reports.content import Block, Cell, Column, Points, Table, Text
-from reports.data_files import DataFile, csv_file
-from reports.machine_study import MODEL_NAMES
-from reports.numbers import percent, significant
-from studies import PublishedRow, file_name
-from studies.comparison import Model
-from studies.published_table import COLUMNS
+from strutwork.machines import PublishedTable
+from strutwork.reports.content import Block, Cell, Column, Points, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.machine_study import MODEL_NAMES
+from strutwork.reports.numbers import percent, significant
+from strutwork.studies import PublishedRow, file_name
+from strutwork.studies.comparison import Model
+from strutwork.studies.published_table import COLUMNS
 
 Rows = Mapping[Model, tuple[PublishedRow, ...]]
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from reports.content import Block, Chapter, Column, Figure, Note, Row, Table, Text
-from reports.data_files import DataFile, csv_file, json_file, netcdf_file
-from reports.figures.scaling import deflection_powers, frequency_powers, stiffness_powers
-from reports.numbers import fixed, micro, share, significant
-from studies.mit_ss1_scale import mit_ss1_scale
-from studies.removal_rate import ACTUATOR_EXPONENTS
-from studies.scale import ScaleStudy
+from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Row, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
+from strutwork.reports.figures.scaling import deflection_powers, frequency_powers, stiffness_powers
+from strutwork.reports.numbers import fixed, micro, share, significant
+from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS
+from strutwork.studies.scale import ScaleStudy
 
 FILE = "size.csv"
 

@@ -7,14 +7,25 @@ from math import degrees
 import numpy as np
 import xarray as xr
 
-from machines.published_son import TABLE_6
-from reports.content import Block, Cell, Chapter, Column, Fact, Facts, Figure, Row, Table, Text
-from reports.data_files import DataFile, csv_file, json_file, netcdf_file
-from reports.figures.curves import heat
-from reports.numbers import MINUS, fixed, micro, percent, significant
-from studies import PublishedRow, file_name
-from studies.published_table import COLUMNS
-from studies.son_stiffness import (
+from strutwork.machines.published_son import TABLE_6
+from strutwork.reports.content import (
+    Block,
+    Cell,
+    Chapter,
+    Column,
+    Fact,
+    Facts,
+    Figure,
+    Row,
+    Table,
+    Text,
+)
+from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
+from strutwork.reports.figures.curves import heat
+from strutwork.reports.numbers import MINUS, fixed, micro, percent, significant
+from strutwork.studies import PublishedRow, file_name
+from strutwork.studies.published_table import COLUMNS
+from strutwork.studies.son_stiffness import (
     CORNERS,
     FORMULAS,
     MIDDLE,
@@ -22,7 +33,13 @@ from studies.son_stiffness import (
     map_figures,
     planar_stiffness_map,
 )
-from studies.stiffness_table import QUANTITIES, READINGS, ColumnFit, table_6_fits, table_6_rows
+from strutwork.studies.stiffness_table import (
+    QUANTITIES,
+    READINGS,
+    ColumnFit,
+    table_6_fits,
+    table_6_rows,
+)
 
 MAP, FITS = "planar-stiffness.csv", "table-6-fits.json"
 

@@ -8,14 +8,14 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from reports.chapters.machine import AXES, tilt
-from reports.content import Block, Chapter, Column, Figure, Row, Table, Text
-from reports.data_files import DataFile
-from reports.figures.charts import distributions
-from reports.figures.maps import hemisphere_map
-from reports.machine_study import MODEL_NAMES, MachineStudy
-from reports.numbers import count, micro, share, significant
-from studies import QUANTILES, PoseStatus, PoseValue, Summary, write_csv, write_netcdf
+from strutwork.reports.chapters.machine import AXES, tilt
+from strutwork.reports.content import Block, Chapter, Column, Figure, Row, Table, Text
+from strutwork.reports.data_files import DataFile
+from strutwork.reports.figures.charts import distributions
+from strutwork.reports.figures.maps import hemisphere_map
+from strutwork.reports.machine_study import MODEL_NAMES, MachineStudy
+from strutwork.reports.numbers import count, micro, share, significant
+from strutwork.studies import QUANTILES, PoseStatus, PoseValue, Summary, write_csv, write_netcdf
 
 VIEW = (
     "Seen from above, one cell for each check point: the middle of a disc is the pole, its rim the "

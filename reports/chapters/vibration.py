@@ -9,16 +9,26 @@ from typing import Any
 
 import numpy as np
 
-from fea.eigen import Array
-from fea.uff import UniversalFile, node_positions, response_records
-from fea.uff_write import write_universal
-from reports.content import Block, Cell, Chapter, Column, Figure, Note, Points, Table, Text
-from reports.data_files import DataFile, csv_file
-from reports.figures.theme import AXIS_COLOURS
-from reports.figures.vibration import drawn_amplitude, mode_lines, mode_view, responses
-from reports.numbers import count, micro, percent, significant
-from reports.vibration_study import AXES, VibrationStudy
-from studies.dynamic import GRID_STEP
+from strutwork.fea.eigen import Array
+from strutwork.fea.uff import UniversalFile, node_positions, response_records
+from strutwork.fea.uff_write import write_universal
+from strutwork.reports.content import (
+    Block,
+    Cell,
+    Chapter,
+    Column,
+    Figure,
+    Note,
+    Points,
+    Table,
+    Text,
+)
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.theme import AXIS_COLOURS
+from strutwork.reports.figures.vibration import drawn_amplitude, mode_lines, mode_view, responses
+from strutwork.reports.numbers import count, micro, percent, significant
+from strutwork.reports.vibration_study import AXES, VibrationStudy
+from strutwork.studies.dynamic import GRID_STEP
 
 #: Parts of a mode's strain energy that the table names, and the least share it names, %.
 NAMED, LEAST_SHARE = 3, 3.0

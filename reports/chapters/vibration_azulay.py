@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from machines import DYNAMIC_SETS, dynamic_machine, get
-from machines.published_azulay import TABLE_5
-from reports.chapters.comparison import SHORT
-from reports.chapters.vibration import (
+from strutwork.machines import DYNAMIC_SETS, dynamic_machine, get
+from strutwork.machines.published_azulay import TABLE_5
+from strutwork.reports.chapters.comparison import SHORT
+from strutwork.reports.chapters.vibration import (
     GRID_TEXT,
     SWING_TEXT,
     minima_table,
@@ -18,24 +18,24 @@ from reports.chapters.vibration import (
     vibration_chapter,
     vibration_files,
 )
-from reports.chapters.vibration_sensitivity import (
+from strutwork.reports.chapters.vibration_sensitivity import (
     PROPOSED,
     link_length_blocks,
     sensitivity_blocks,
 )
-from reports.content import Block, Cell, Chapter, Column, Figure, Points, Row, Table, Text
-from reports.data_files import DataFile, csv_file, json_file
-from reports.figures.theme import PALETTE
-from reports.figures.vibration import responses
-from reports.numbers import percent, significant
-from reports.vibration_study import AXES, study_machine_vibration
-from studies import (
+from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Points, Row, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, json_file
+from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.figures.vibration import responses
+from strutwork.reports.numbers import percent, significant
+from strutwork.reports.vibration_study import AXES, study_machine_vibration
+from strutwork.studies import (
     AzulayDynamics,
     azulay_table_5,
     file_name,
     published_dynamic_ranking,
 )
-from studies.published_table import COLUMNS
+from strutwork.studies.published_table import COLUMNS
 
 #: Both sets of Table 5 with frequencies and rankings.
 VIBRATION_DATA = "vibration-table-5.json"

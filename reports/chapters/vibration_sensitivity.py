@@ -7,20 +7,20 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from machines import VibratingLegs, dynamic_machine
-from reports.chapters.comparison import SHORT
-from reports.content import Block, Column, Figure, Row, Table, Text
-from reports.data_files import DataFile, csv_file
-from reports.figures.theme import AXIS_COLOURS, PALETTE
-from reports.figures.vibration import responses, sensitivity
-from reports.numbers import micro, significant
-from reports.vibration_study import AXES
-from studies import (
+from strutwork.machines import VibratingLegs, dynamic_machine
+from strutwork.reports.chapters.comparison import SHORT
+from strutwork.reports.content import Block, Column, Figure, Row, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.theme import AXIS_COLOURS, PALETTE
+from strutwork.reports.figures.vibration import responses, sensitivity
+from strutwork.reports.numbers import micro, significant
+from strutwork.reports.vibration_study import AXES
+from strutwork.studies import (
     dynamic_link_lengths,
     mass_sensitivity,
     offset_sensitivity,
 )
-from studies.dataset_files import write_long_csv
+from strutwork.studies.dataset_files import write_long_csv
 
 PROPOSED = "proposed-3pprs"
 

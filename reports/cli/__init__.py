@@ -1,5 +1,5 @@
 """The command line: one program, `strutwork`."""
 
-from reports.cli.app import main
+from strutwork.reports.cli.app import main
 
 __all__ = ["main"]

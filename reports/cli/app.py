@@ -11,13 +11,22 @@ from typing import Annotated
 
 import typer
 
-from reports.cli.choices import Json, Loss, ModelFile, Objective, Preload, Ranges, Ratio, Target
-from reports.cli.ending import OUT_OF_RANGE, guarded
-from reports.cli.streams import show_every_character
-from reports.cli.usage import Commands, typed
-from reports.cli.watch import watched
 from strutwork import __version__
 from strutwork.names import visible
+from strutwork.reports.cli.choices import (
+    Json,
+    Loss,
+    ModelFile,
+    Objective,
+    Preload,
+    Ranges,
+    Ratio,
+    Target,
+)
+from strutwork.reports.cli.ending import OUT_OF_RANGE, guarded
+from strutwork.reports.cli.streams import show_every_character
+from strutwork.reports.cli.usage import Commands, typed
+from strutwork.reports.cli.watch import watched
 
 app = typer.Typer(
     name="strutwork",
@@ -72,7 +81,7 @@ def program(
 @app.command()
 def machines(json: Json = False) -> None:
     """List the machines of the literature, with their papers."""
-    from reports.cli import machines as work
+    from strutwork.reports.cli import machines as work
 
     work.run(json)
 
@@ -80,7 +89,7 @@ def machines(json: Json = False) -> None:
 @app.command()
 def check(file: ModelFile, json: Json = False) -> None:
     """Count freedoms and redundant constraints of a model file, and name them."""
-    from reports.cli import check as work
+    from strutwork.reports.cli import check as work
 
     work.run(file, json)
 
@@ -88,7 +97,7 @@ def check(file: ModelFile, json: Json = False) -> None:
 @app.command()
 def solve(file: ModelFile, json: Json = False) -> None:
     """Solve the load cases of a model file, and the stiffness at its tool."""
-    from reports.cli import solve as work
+    from strutwork.reports.cli import solve as work
 
     work.run(file, json)
 
@@ -125,7 +134,7 @@ def map_stiffness(
 ) -> None:
     """Map the stiffness of a machine over a hemisphere, or over x and tilt where it is made so."""
     if vibration:
-        from reports.cli import vibration_map
+        from strutwork.reports.cli import vibration_map
 
         vibration_map.run(
             machine,
@@ -137,7 +146,7 @@ def map_stiffness(
             json=json,
         )
         return
-    from reports.cli import stiffness as work
+    from strutwork.reports.cli import stiffness as work
 
     work.run(
         machine,
@@ -172,7 +181,7 @@ def modes(
     json: Json = False,
 ) -> None:
     """Find the lowest natural frequencies, with their shapes and damping ratios."""
-    from reports.cli import modes as work
+    from strutwork.reports.cli import modes as work
 
     work.run(
         target,
@@ -218,7 +227,7 @@ def frf(
     json: Json = False,
 ) -> None:
     """Compute a frequency response, and the exact least dynamic stiffness in its band."""
-    from reports.cli import frf as work
+    from strutwork.reports.cli import frf as work
 
     if (low is None) != (high is None):
         raise typer.BadParameter("give both --from and --to, or neither for an automatic band.")
@@ -257,7 +266,7 @@ def compare(
     json: Json = False,
 ) -> None:
     """Compare computed modes and responses with measured ones."""
-    from reports.cli import compare as work
+    from strutwork.reports.cli import compare as work
 
     work.run(
         computed,
@@ -307,8 +316,8 @@ def tolerance(
     """Find the forces that tolerances lock in, at worst and in distribution."""
     if quantile is not None and allocation is None:
         raise typer.BadParameter("--quantile belongs to --allocate.")
-    from reports.cli import tolerance as work
-    from studies.tolerance_study import StudyOptions
+    from strutwork.reports.cli import tolerance as work
+    from strutwork.studies.tolerance_study import StudyOptions
 
     options = StudyOptions(
         samples=samples,
@@ -340,7 +349,7 @@ def scale(
     json: Json = False,
 ) -> None:
     """Show what the size of a machine does to locked-in forces, stiffness and frequencies."""
-    from reports.cli import scale as work
+    from strutwork.reports.cli import scale as work
 
     work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
@@ -362,7 +371,7 @@ def report(
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
-    from reports.cli import report as work
+    from strutwork.reports.cli import report as work
 
     if verify:
         if out is not None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from machines.model_file import read_model
-from reports.cli.output import console, print_json, show, table
-from reports.model_check import ModelCheck, check_model
+from strutwork.machines.model_file import read_model
+from strutwork.reports.cli.output import console, print_json, show, table
+from strutwork.reports.model_check import ModelCheck, check_model
 
 
 def run(file: str, json: bool) -> None:

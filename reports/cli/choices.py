@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from reports.cli.usage import typed
+from strutwork.reports.cli.usage import typed
 
 
 class Objective(StrEnum):

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from fea.compare_files import compare_files
-from fea.comparison import Comparison
-from fea.uff_read import read_universal
-from reports.cli.output import console, print_json, table
-from reports.cli.progress import shown
 from strutwork.errors import ModelError
+from strutwork.fea.compare_files import compare_files
+from strutwork.fea.comparison import Comparison
+from strutwork.fea.uff_read import read_universal
+from strutwork.reports.cli.output import console, print_json, table
+from strutwork.reports.cli.progress import shown
 
 
 def run(

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fea import Port
-from reports.cli.output import console, print_json, table, tell
-from reports.covering_band import covering_band
-from reports.vibration import APART, TargetResponse, target_response, vibration_target
 from strutwork.errors import ModelError
+from strutwork.fea import Port
 from strutwork.names import visible
+from strutwork.reports.cli.output import console, print_json, table, tell
+from strutwork.reports.covering_band import covering_band
+from strutwork.reports.vibration import APART, TargetResponse, target_response, vibration_target
 
 
 def run(

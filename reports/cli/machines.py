@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from machines import variants
-from machines.catalogue import CATALOGUE
-from reports.cli.output import console, print_json, table
+from strutwork.machines import variants
+from strutwork.machines.catalogue import CATALOGUE
+from strutwork.reports.cli.output import console, print_json, table
 
 
 def run(json: bool) -> None:

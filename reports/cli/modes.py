@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from reports.cli.output import console, print_json, table, tell
-from reports.vibration import TargetModes, target_modes, vibration_target
 from strutwork.names import visible
+from strutwork.reports.cli.output import console, print_json, table, tell
+from strutwork.reports.vibration import TargetModes, target_modes, vibration_target
 
 _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 

@@ -10,10 +10,10 @@ from functools import partial
 from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
 from rich.progress import Progress as Bars
 
-from reports.cli.output import progress_console
 from strutwork.names import visible
+from strutwork.reports.cli.output import progress_console
 from strutwork.stages import stage
-from studies.progress import Lines, Progress
+from strutwork.studies.progress import Lines, Progress
 
 
 @contextmanager

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from reports.build import write_report
-from reports.cli.output import console, print_json
-from reports.cli.progress import shown
-from reports.manifest import verify_report
 from strutwork.names import visible
+from strutwork.reports.build import write_report
+from strutwork.reports.cli.output import console, print_json
+from strutwork.reports.cli.progress import shown
+from strutwork.reports.manifest import verify_report
 
 
 def run(target: str, out: str | None, json: bool) -> None:

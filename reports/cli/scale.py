@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
-from reports.cli.output import console, print_json, table
 from strutwork.errors import ModelError
 from strutwork.names import visible
+from strutwork.reports.cli.output import console, print_json, table
+from strutwork.studies.assembly_scale import AssemblyScale, assembly_scale
+from strutwork.studies.dataset_files import write_long_csv, write_netcdf
+from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS
+from strutwork.studies.scale import ScaleStudy
 from strutwork.units import ANGLE, quantity
-from studies.assembly_scale import AssemblyScale, assembly_scale
-from studies.dataset_files import write_long_csv, write_netcdf
-from studies.mit_ss1_scale import mit_ss1_scale
-from studies.removal_rate import ACTUATOR_EXPONENTS
-from studies.scale import ScaleStudy
 
 #: Machines whose size can be studied.
 MACHINES = ("mit-ss1",)

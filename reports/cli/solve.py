@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
 
-from machines.model_file import read_model
-from msa import axis_stiffness_blocked, axis_stiffness_free
-from reports.cli.output import console, print_json, print_table, table
-from reports.model_solution import ModelSolution, solve_model
-from reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
+from strutwork.machines.model_file import read_model
+from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
+from strutwork.reports.cli.output import console, print_json, print_table, table
+from strutwork.reports.model_solution import ModelSolution, solve_model
+from strutwork.reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
 
 _AXES = ("x", "y", "z")
 _MOVED = [*(f"{a}, mm" for a in _AXES), *(f"r{a}, mrad" for a in _AXES)]

@@ -8,12 +8,12 @@ from typing import Any
 
 import xarray as xr
 
-from machines import GridMachine, Machine, NamedMachine, named_machine, roll_angles
-from reports.cli.output import console, print_json, table
-from reports.cli.progress import shown
 from strutwork.errors import ModelError
+from strutwork.machines import GridMachine, Machine, NamedMachine, named_machine, roll_angles
 from strutwork.names import visible
-from studies import (
+from strutwork.reports.cli.output import console, print_json, table
+from strutwork.reports.cli.progress import shown
+from strutwork.studies import (
     Filters,
     hemisphere,
     plane_map,
@@ -22,8 +22,8 @@ from studies import (
     write_csv,
     write_netcdf,
 )
-from studies.filters import REASONS
-from studies.progress import Progress
+from strutwork.studies.filters import REASONS
+from strutwork.studies.progress import Progress
 
 RANGES: dict[str, tuple[str, ...] | None] = {"all": None, "revolute": ("revolute",), "none": ()}
 

@@ -10,17 +10,17 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from machines.catalogue import CATALOGUE
-from machines.model_file import read_model
-from overconstraint import joint_quantities
-from reports.cli.output import console, print_json, show, table
-from reports.cli.progress import shown
-from reports.cli.tolerance_limits import parsed_limits
+from strutwork.machines.catalogue import CATALOGUE
+from strutwork.machines.model_file import read_model
 from strutwork.names import visible
-from studies.dataset_files import write_netcdf
-from studies.tolerance_result import ToleranceStudy, write_table
-from studies.tolerance_study import StudyOptions, tolerance_study
-from studies.toleranced_machines import toleranced_machine
+from strutwork.overconstraint import joint_quantities
+from strutwork.reports.cli.output import console, print_json, show, table
+from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.tolerance_limits import parsed_limits
+from strutwork.studies.dataset_files import write_netcdf
+from strutwork.studies.tolerance_result import ToleranceStudy, write_table
+from strutwork.studies.tolerance_study import StudyOptions, tolerance_study
+from strutwork.studies.toleranced_machines import toleranced_machine
 
 #: Quantiles that the tables show.
 SHOWN = ("0.95", "0.99")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from overconstraint import Limits, Quantity
 from strutwork.errors import ModelError
+from strutwork.overconstraint import Limits, Quantity
 from strutwork.units import FORCE, MOMENT, quantity
 
 #: Kinds of force by the word of the command line, and what they measure.

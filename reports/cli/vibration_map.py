@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from machines import GridMachine, named_machine, require_mass, roll_angles
-from reports.cli.output import console, print_json, table
-from reports.cli.progress import shown
-from reports.cli.stiffness import RANGES
 from strutwork.errors import ModelError
+from strutwork.machines import GridMachine, named_machine, require_mass, roll_angles
 from strutwork.names import visible
-from studies import Filters, dynamic_map, hemisphere, write_csv, write_netcdf
+from strutwork.reports.cli.output import console, print_json, table
+from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.stiffness import RANGES
+from strutwork.studies import Filters, dynamic_map, hemisphere, write_csv, write_netcdf
 
 
 def run(

@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import DIRECTIONS
-from machines import MitSS1, StrutAssembly
-from machines import mit_ss1_assembly as assembly_parts
-from machines import mit_ss1_parts as parts
-from msa import LoadCase, StaticSolution, solve
-from msa.structure import PlacedStructure
-from reports.figures.misfits import Lines3D, misfit_view
-from reports.figures.planar_machine import CAMERA
+from strutwork.kinematics import DIRECTIONS
+from strutwork.machines import MitSS1, StrutAssembly
+from strutwork.machines import mit_ss1_assembly as assembly_parts
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.msa import LoadCase, StaticSolution, solve
+from strutwork.msa.structure import PlacedStructure
+from strutwork.reports.figures.misfits import Lines3D, misfit_view
+from strutwork.reports.figures.planar_machine import CAMERA
 
 Array = NDArray[Any]
 Misfits = Mapping[tuple[str, str], float]

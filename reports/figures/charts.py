@@ -10,9 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.figures.theme import AXIS_COLOURS, INK, LEGEND, PALETTE, axis, layout, rounded
-from reports.numbers import significant
-from reports.page import plain
+from strutwork.reports.figures.theme import (
+    AXIS_COLOURS,
+    INK,
+    LEGEND,
+    PALETTE,
+    axis,
+    layout,
+    rounded,
+)
+from strutwork.reports.numbers import significant
+from strutwork.reports.page import plain
 
 Array = NDArray[Any]
 

@@ -7,11 +7,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Placement
-from machines import HexelHexapod
-from machines.hexel_hexapod import LEGS, TOOL, foot, leg, seat
-from reports.figures.shapes import ball, cylinder, mesh, plate
-from reports.figures.solid import DrawnJoint, joint_traces, path, scene, segments, straight, triad
+from strutwork.kinematics import Placement
+from strutwork.machines import HexelHexapod
+from strutwork.machines.hexel_hexapod import LEGS, TOOL, foot, leg, seat
+from strutwork.reports.figures.shapes import ball, cylinder, mesh, plate
+from strutwork.reports.figures.solid import (
+    DrawnJoint,
+    joint_traces,
+    path,
+    scene,
+    segments,
+    straight,
+    triad,
+)
 
 Array = NDArray[Any]
 

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Placement
-from machines import ThreeLegs
-from machines.legs import seat
-from reports.figures.shapes import Shape, ball, cylinder, mesh, plate
-from reports.figures.solid import (
+from strutwork.kinematics import Placement
+from strutwork.machines import ThreeLegs
+from strutwork.machines.legs import seat
+from strutwork.reports.figures.shapes import Shape, ball, cylinder, mesh, plate
+from strutwork.reports.figures.solid import (
     DrawnJoint,
     joint_traces,
     path,

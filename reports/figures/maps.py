@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.figures.theme import INK, MAP_SCALE, SOFT, axis, layout, rounded
+from strutwork.reports.figures.theme import INK, MAP_SCALE, SOFT, axis, layout, rounded
 
 Array = NDArray[Any]
 

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.figures.curves import LIMIT
-from reports.figures.shapes import across
-from reports.figures.solid import path, scene, segments
-from reports.figures.theme import INK, rounded
-from reports.page import plain
+from strutwork.reports.figures.curves import LIMIT
+from strutwork.reports.figures.shapes import across
+from strutwork.reports.figures.solid import path, scene, segments
+from strutwork.reports.figures.theme import INK, rounded
+from strutwork.reports.page import plain
 
 Array = NDArray[Any]
 

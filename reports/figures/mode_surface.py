@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fea.solid_fields import SurfaceField
-from reports.figures.shapes import Shape, cylinder, mesh
-from reports.figures.solid import scene, segments
-from reports.figures.theme import rounded
-from studies.mit_ss1_modes import ModePicture
+from strutwork.fea.solid_fields import SurfaceField
+from strutwork.reports.figures.shapes import Shape, cylinder, mesh
+from strutwork.reports.figures.solid import scene, segments
+from strutwork.reports.figures.theme import rounded
+from strutwork.studies.mit_ss1_modes import ModePicture
 
 Array = NDArray[Any]
 

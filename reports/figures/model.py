@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from machines.model import Model
-from machines.model_solid_element import SolidElement
-from msa import LoadCase, StaticSolution
-from msa.sections import Section
-from reports.figures.shapes import Shape, ball, box, cylinder, mesh
-from reports.figures.solid import (
+from strutwork.machines.model import Model
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.msa import LoadCase, StaticSolution
+from strutwork.msa.sections import Section
+from strutwork.reports.figures.shapes import Shape, ball, box, cylinder, mesh
+from strutwork.reports.figures.solid import (
     DrawnJoint,
     joint_traces,
     path,
@@ -21,8 +21,8 @@ from reports.figures.solid import (
     straight,
     turning,
 )
-from reports.figures.theme import LEGEND, rounded
-from reports.page import plain
+from strutwork.reports.figures.theme import LEGEND, rounded
+from strutwork.reports.page import plain
 
 Array = NDArray[Any]
 

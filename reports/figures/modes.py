@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from reports.figures.theme import INK, LEGEND, PALETTE, axis, layout, rounded
-from reports.page import plain
+from strutwork.reports.figures.theme import INK, LEGEND, PALETTE, axis, layout, rounded
+from strutwork.reports.page import plain
 
 #: Marker, colour and whether it is filled, by the series' place: published ones open.
 STYLES = (

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kinematics import Placement
-from machines import MitSS1
-from machines import mit_ss1_parts as parts
-from reports.figures.shapes import Shape, ball, box, cylinder, mesh, plate
-from reports.figures.solid import DrawnJoint, joint_traces, scene, straight, triad
+from strutwork.kinematics import Placement
+from strutwork.machines import MitSS1
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.reports.figures.shapes import Shape, ball, box, cylinder, mesh, plate
+from strutwork.reports.figures.solid import DrawnJoint, joint_traces, scene, straight, triad
 
 Array = NDArray[Any]
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reports.figures.curves import Curve, curves
-from reports.figures.theme import LEGEND, PALETTE, axis
-from reports.numbers import fixed
-from studies.removal_rate import ACTUATOR_EXPONENTS, relative_deflection
-from studies.scale import ScaleStudy
+from strutwork.reports.figures.curves import Curve, curves
+from strutwork.reports.figures.theme import LEGEND, PALETTE, axis
+from strutwork.reports.numbers import fixed
+from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, relative_deflection
+from strutwork.studies.scale import ScaleStudy
 
 Array = NDArray[Any]
 

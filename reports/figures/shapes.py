@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.figures.theme import rounded
-from reports.page import plain
+from strutwork.reports.figures.theme import rounded
+from strutwork.reports.page import plain
 
 Array = NDArray[Any]
 

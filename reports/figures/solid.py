@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from reports.figures.shapes import Shape, across, ball, box, cylinder, mesh
-from reports.figures.theme import FONT, LINE, SOFT, layout, rounded
+from strutwork.reports.figures.shapes import Shape, across, ball, box, cylinder, mesh
+from strutwork.reports.figures.theme import FONT, LINE, SOFT, layout, rounded
 
 Array = NDArray[Any]
 

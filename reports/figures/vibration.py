@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from machines.model_solid_element import SolidElement
-from reports.figures.solid import path, scene
-from reports.figures.theme import INK, LEGEND, axis, layout, rounded
-from reports.numbers import significant
-from reports.page import plain
-from reports.vibration_study import VibrationStudy
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.reports.figures.solid import path, scene
+from strutwork.reports.figures.theme import INK, LEGEND, axis, layout, rounded
+from strutwork.reports.numbers import significant
+from strutwork.reports.page import plain
+from strutwork.reports.vibration_study import VibrationStudy
 
 Array = NDArray[Any]
 

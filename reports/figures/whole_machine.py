@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from machines.mit_ss1_frame import MOUNTS, mount
-from machines.mit_ss1_whole import MitSS1Whole
-from meshes.boundary import boundary
-from meshes.surfaces import surface_of
-from reports.figures.mode_surface import CAMERA
-from reports.figures.planar_machine import RAIL_SIDE, planar_machine_traces
-from reports.figures.shapes import Shape, cylinder, mesh
-from reports.figures.solid import scene, segments
+from strutwork.machines.mit_ss1_frame import MOUNTS, mount
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.surfaces import surface_of
+from strutwork.reports.figures.mode_surface import CAMERA
+from strutwork.reports.figures.planar_machine import RAIL_SIDE, planar_machine_traces
+from strutwork.reports.figures.shapes import Shape, cylinder, mesh
+from strutwork.reports.figures.solid import scene, segments
 
 Array = NDArray[Any]
 

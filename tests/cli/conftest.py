@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from reports.cli import main
+from strutwork.reports.cli import main
 from tests.model_files import Content, toml
 
 
@@ -41,7 +41,7 @@ def strutwork(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str
     # wide enough that no table folds its words, whatever terminal the tests run in
     monkeypatch.setenv("COLUMNS", "240")
     # what a command says must not depend on how busy the machine is
-    monkeypatch.setattr("reports.cli.watch.PATIENCE", 1e6)
+    monkeypatch.setattr("strutwork.reports.cli.watch.PATIENCE", 1e6)
 
     def run(*arguments: str | Path) -> Run:
         monkeypatch.setattr(sys, "argv", ["strutwork", *map(str, arguments)])

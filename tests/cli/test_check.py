@@ -140,7 +140,7 @@ def test_mass_and_centre(strutwork: Program, write: Callable[[Content], Path]) -
 def test_missing_density_leaves_no_mass_and_warns(tmp_path: Path) -> None:
     path = tmp_path / "model.toml"
     path.write_text(toml(sample(drop("materials.steel.density"))), encoding="utf-8")
-    program = "from reports.cli import main; main()"
+    program = "from strutwork.reports.cli import main; main()"
     run = subprocess.run(
         [sys.executable, "-c", program, "check", str(path), "--json"],
         capture_output=True,

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fea.uff import FrfRecord, ModeRecord, UniversalFile
-from fea.uff_read import read_universal
-from fea.uff_write import write_universal
+from strutwork.fea.uff import FrfRecord, ModeRecord, UniversalFile
+from strutwork.fea.uff_read import read_universal
+from strutwork.fea.uff_write import write_universal
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES
 

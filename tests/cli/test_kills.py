@@ -13,14 +13,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fea.superelement_file import read_superelement
-from reports.manifest import verify_report
+from strutwork.fea.superelement_file import read_superelement
+from strutwork.reports.manifest import verify_report
 from strutwork.staging import PREFIX
-from studies.chunks import ChunkStore
-from studies.dataset_files import read_netcdf
+from strutwork.studies.chunks import ChunkStore
+from strutwork.studies.dataset_files import read_netcdf
 
 ROOT = Path(__file__).parents[2]
-PROGRAM = (sys.executable, "-c", "from reports.cli import main; main()")
+PROGRAM = (sys.executable, "-c", "from strutwork.reports.cli import main; main()")
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
 
 #: Moments of each kind.
@@ -31,7 +31,7 @@ CHUNKS = """
 import sys
 from pathlib import Path
 import numpy as np
-from studies.chunks import ChunkStore
+from strutwork.studies.chunks import ChunkStore
 store = ChunkStore(Path(sys.argv[1]), "key")
 for number in range(40):
     store.write(number, {"a": np.full(50_000, float(number))})
@@ -41,11 +41,11 @@ for number in range(40):
 SUPERELEMENTS = """
 import sys
 from pathlib import Path
-from fea.interface import Interface
-from fea.reduce_solid import reduce_solid
-from fea.solid import Solid
-from meshes import block
-from msa.materials import Material
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import reduce_solid
+from strutwork.fea.solid import Solid
+from strutwork.meshes import block
+from strutwork.msa.materials import Material
 steel = Material.isotropic(200e9, 0.3, density=7800.0, name="steel")
 ends = [Interface("a", "-z"), Interface("b", "+z")]
 for number in range(1, 21):

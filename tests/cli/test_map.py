@@ -5,9 +5,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from machines import Proposed3PPRS, get, roll_angles
-from msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
-from studies import (
+from strutwork.machines import Proposed3PPRS, get, roll_angles
+from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
+from strutwork.studies import (
     AS_IN_AZULAY,
     hemisphere,
     on_plane,

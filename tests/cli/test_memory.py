@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from meshes import block, write_mesh
+from strutwork.meshes import block, write_mesh
 from tests.cli.conftest import Program
 from tests.large_models import bushing_chain, supported_frame, toleranced
 from tests.model_files import EXAMPLES
@@ -50,7 +50,7 @@ CHILD = """
 import atexit, pathlib, sys
 told = pathlib.Path(sys.argv.pop(1))
 atexit.register(lambda: told.write_text(pathlib.Path("/proc/self/status").read_text()))
-from reports.cli import main
+from strutwork.reports.cli import main
 main()
 """
 
@@ -143,7 +143,7 @@ def test_a_solid_that_will_not_fit_is_refused_before_it_is_assembled(
         '[[solids.interfaces]]\nnode = "a"\nbox = [[0, 0, 0], [1, 1, 0]]\n',
         encoding="utf-8",
     )
-    monkeypatch.setattr("fea.memory.available_memory", lambda: 2e8)
+    monkeypatch.setattr("strutwork.fea.memory.available_memory", lambda: 2e8)
     run = strutwork("check", path)
     assert run.status == 1
     assert "solid cube: its 1,728 cells of order 2 have 41,472 dofs or more" in run.err

@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 import xarray as xr
 
-from fea.uff_names import fitted_names
-from fea.uff_read import read_universal
-from reports.cli.streams import ASCII
 from strutwork.csv_rows import csv_name
+from strutwork.fea.uff_names import fitted_names
+from strutwork.fea.uff_read import read_universal
 from strutwork.names import is_hidden, visible
+from strutwork.reports.cli.streams import ASCII
 from tests.cli.conftest import Program
 from tests.hard_names import CASE, JOINT, LONG, NODES, hard_model
 
@@ -38,7 +38,7 @@ def shell(*arguments: str | bytes | Path, **environment: str) -> subprocess.Comp
     """Run the program in a process of its own."""
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHONIO", "PYTHONUTF8"))}
     return subprocess.run(
-        [sys.executable, "-c", "from reports.cli import main; main()", *arguments],
+        [sys.executable, "-c", "from strutwork.reports.cli import main; main()", *arguments],
         env=kept | {"PYTHONPATH": str(ROOT), "COLUMNS": "200"} | environment,
         capture_output=True,
         check=False,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-PROGRAM = (sys.executable, "-c", "from reports.cli import main; main()")
+PROGRAM = (sys.executable, "-c", "from strutwork.reports.cli import main; main()")
 MODEL = "examples/04_four_bar.toml"
 ROOT = Path(__file__).parents[2]
 

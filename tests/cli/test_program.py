@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from machines.catalogue import CATALOGUE
 from strutwork import __version__
+from strutwork.machines.catalogue import CATALOGUE
 from tests.cli.conftest import Program
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from fea import uff_read
-from machines import model_file, model_solid_mesh
+from strutwork.fea import uff_read
+from strutwork.machines import model_file, model_solid_mesh
 from tests.cli.conftest import Program
 
 SOLID = """

@@ -3,7 +3,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from reports.manifest import MANIFEST
+from strutwork.reports.manifest import MANIFEST
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, put, sample
 

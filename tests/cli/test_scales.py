@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reports.cli import check
+from strutwork.reports.cli import check
 from tests.cli.conftest import Program
 from tests.model_files import SAMPLE, Content, put, sample
 

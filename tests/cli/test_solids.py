@@ -21,13 +21,13 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
 
-from fea.interface import Interface
-from fea.reduce_solid import tied
-from fea.solid import Solid
-from meshes import block, grid, lines_through, patch, write_mesh
-from msa import Beam, Material, rectangle
-from msa.beam import local_stiffness, to_global
-from msa.mass import local_mass
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import tied
+from strutwork.fea.solid import Solid
+from strutwork.meshes import block, grid, lines_through, patch, write_mesh
+from strutwork.msa import Beam, Material, rectangle
+from strutwork.msa.beam import local_stiffness, to_global
+from strutwork.msa.mass import local_mass
 from tests.cli.conftest import Program
 from tests.model_files import Content, drop, put, toml
 from tests.solid_models import column

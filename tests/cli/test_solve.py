@@ -6,10 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kinematics import axes_frame
-from machines.model import ModelWarning
-from machines.model_file import parse_model
-from reports.model_solution import solve_model
+from strutwork.kinematics import axes_frame
+from strutwork.machines.model import ModelWarning
+from strutwork.machines.model_file import parse_model
+from strutwork.reports.model_solution import solve_model
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, add, drop, put, sample, toml
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from machines.model_file import read_model
-from overconstraint import tolerance_responses, worst_case
-from studies import read_netcdf
+from strutwork.machines.model_file import read_model
+from strutwork.overconstraint import tolerance_responses, worst_case
+from strutwork.studies import read_netcdf
 from tests.cli.conftest import Program
 from tests.model_files import Content, Edit, add, sample
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from machines.model_file import parse_model, read_model
-from msa import LoadCase, solve
-from reports.model_check import check_model
-from reports.model_solution import solve_model
 from strutwork.errors import NumericalError
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.msa import LoadCase, solve
+from strutwork.reports.model_check import check_model
+from strutwork.reports.model_solution import solve_model
 
 MODELS = Path(__file__).parents[1] / "cases" / "models"
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")
@@ -138,7 +138,7 @@ def test_a_failing_tool_does_not_discard_the_cases(monkeypatch: pytest.MonkeyPat
     def fail(_: object) -> None:
         raise NumericalError("tool compliance", "is not sure.", "Look at it.")
 
-    monkeypatch.setattr("reports.model_solution.tool_compliance", fail)
+    monkeypatch.setattr("strutwork.reports.model_solution.tool_compliance", fail)
     with pytest.warns(UserWarning, match="tool compliance: is not sure"):
         found = solved("f4b_soft_then_stiff")
     assert found["tcp"] is None

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fea.uff_read import read_universal
-from machines.catalogue import CATALOGUE
+from strutwork.fea.uff_read import read_universal
+from strutwork.machines.catalogue import CATALOGUE
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, Edit, drop, put, sample
 

@@ -21,8 +21,8 @@ from tests.model_files import EXAMPLES
 ENDLESS = """
 import sys, time
 import numpy as np
-import reports.cli.watch as watch
-from reports.cli import app as program
+import strutwork.reports.cli.watch as watch
+from strutwork.reports.cli import app as program
 from strutwork.stages import stage
 
 watch.PATIENCE, watch.INTERVAL, watch.GRACE = 0.2, 0.2, 0.2
@@ -33,8 +33,8 @@ def work(file, json):
         sys.stdout.flush()
         {wait}
 
-import reports.cli.check
-reports.cli.check.run = work
+import strutwork.reports.cli.check
+strutwork.reports.cli.check.run = work
 sys.argv = ["strutwork", "check", "model.toml"]
 program.main()
 """
@@ -100,7 +100,7 @@ def test_memory_that_runs_out_is_an_error(
     def work(*_: object) -> None:
         raise MemoryError("Unable to allocate 29.3 GiB")
 
-    monkeypatch.setattr("reports.cli.check.run", work)
+    monkeypatch.setattr("strutwork.reports.cli.check.run", work)
     run = strutwork("check", EXAMPLES[0])
     assert run.status == 1
     assert run.err == f"Error: {out_of_memory(MemoryError('Unable to allocate 29.3 GiB'))}\n"

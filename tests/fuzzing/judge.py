@@ -17,9 +17,9 @@ from unittest import mock
 
 import typer
 
-from reports.cli import app as program
-from reports.cli.ending import WRONG
 from strutwork.errors import ModelWarning, PoseWarning, UnverifiedWarning
+from strutwork.reports.cli import app as program
+from strutwork.reports.cli.ending import WRONG
 
 #: What every mutant is given to.
 QUICK = ("check", "solve", "modes", "frf", "tolerance")

@@ -7,9 +7,9 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fea.block_krylov import KrylovOptions, krylov_reduction
-from fea.block_krylov_damping import MatrixDamping
-from fea.large_modes import lowest_modes
+from strutwork.fea.block_krylov import KrylovOptions, krylov_reduction
+from strutwork.fea.block_krylov_damping import MatrixDamping
+from strutwork.fea.large_modes import lowest_modes
 
 N = 60
 

@@ -10,9 +10,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from fea import modes, preloaded
-from fea.geometric import geometric_stiffness
-from msa import (
+from strutwork.fea import modes, preloaded
+from strutwork.fea.geometric import geometric_stiffness
+from strutwork.msa import (
     LineLoad,
     LoadCase,
     PlacedStructure,

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from fea import (
+from strutwork.fea import (
     LossFactor,
     ModalRatio,
     Port,
@@ -20,12 +20,12 @@ from fea import (
     minimum_dynamic_stiffness,
     modes,
 )
-from fea.damping import Damping
-from fea.eigen import solve_eigen
-from fea.modes import lowest
-from fea.reduction import reduce_system
-from msa import PlacedStructure, PointMass, system_of
-from msa.constraints import scales
+from strutwork.fea.damping import Damping
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.modes import lowest
+from strutwork.fea.reduction import reduce_system
+from strutwork.msa import PlacedStructure, PointMass, system_of
+from strutwork.msa.constraints import scales
 from tests.structure_cases import LIBRARY
 from tests.structures import BAR, TUBE, Model
 from tests.vibration import BODY, heavy, saddle_point_frequencies, saddle_point_matrices

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kinematics import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import (
     Poses,
     check_coincidence,
     cross_matrix,
@@ -17,9 +18,8 @@ from kinematics import (
     mobility,
     velocity_ellipsoid,
 )
-from machines import HexelHexapod
-from msa import tool_compliance
-from strutwork.errors import ModelError
+from strutwork.machines import HexelHexapod
+from strutwork.msa import tool_compliance
 
 MACHINE = HexelHexapod()
 

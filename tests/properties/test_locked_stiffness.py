@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from msa import (
+from strutwork.errors import SingularPoseError
+from strutwork.msa import (
     axis_stiffness_blocked,
     axis_stiffness_free,
     movable_rank,
@@ -23,7 +24,6 @@ from msa import (
     tool_compliance,
     tool_stiffness,
 )
-from strutwork.errors import SingularPoseError
 from tests.structures import Model
 
 Array = NDArray[Any]

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from kinematics import (
+from strutwork.kinematics import (
     Poses,
     cross_matrix,
     drive_values,
@@ -18,7 +18,7 @@ from kinematics import (
     rotation_z,
     tangent_rotation,
 )
-from machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS, ThreeLegs
+from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS, ThreeLegs
 
 MACHINES = [Proposed3PPRS(), Eclipse3PPRS(), Alizade3PRPS(), Glozman3PRRS(pole_height=0.174)]
 NAMES = [type(m).__name__ for m in MACHINES]

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from meshes import (
+from strutwork.meshes import (
     Mesh,
     block,
     boundary,
@@ -27,7 +27,7 @@ from meshes import (
     surface_of,
     surface_properties,
 )
-from meshes.cells import CUBE
+from strutwork.meshes.cells import CUBE
 from tests.mesh_cases import every_kind
 
 #: Corners moved by less than this share of the edge leave every cell in order.

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kinematics import (
+from strutwork.kinematics import (
     Poses,
     cross_matrix,
     drive_values,
@@ -16,8 +16,8 @@ from kinematics import (
     rotation_y,
     velocity_ellipsoid,
 )
-from machines import MitSS1, WorkTable
-from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from strutwork.machines import MitSS1, WorkTable
+from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
 
 MACHINES = [MitSS1(), MitSS1(pins="revolute", struts="rigid")]
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from machines.model_file import parse_model
-from reports.model_check import check_model
-from reports.model_solution import solve_model
+from strutwork.machines.model_file import parse_model
+from strutwork.reports.model_check import check_model
+from strutwork.reports.model_solution import solve_model
 from strutwork.units import LENGTH, quantity
 from tests.model_files import Content, put, sample, toml
 

@@ -15,7 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from msa import solve, tool_compliance
+from strutwork.msa import solve, tool_compliance
 from tests.random_frames import random_frame, random_load
 from tests.structure_cases import LIBRARY, Example, by_length
 from tests.structures import turned_case

@@ -6,8 +6,8 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from msa import Beam, LoadCase, rigid_map, solve, system_of, tool_compliance
-from msa.beam import local_stiffness, to_global
+from strutwork.msa import Beam, LoadCase, rigid_map, solve, system_of, tool_compliance
+from strutwork.msa.beam import local_stiffness, to_global
 from tests.random_frames import MATERIALS, random_frame, random_load, random_section
 from tests.structure_cases import by_length
 

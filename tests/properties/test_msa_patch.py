@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from msa import LoadCase, solve
+from strutwork.msa import LoadCase, solve
 from tests.structures import BAR, STEEL, Model, vector
 
 LENGTH = 0.8

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from kinematics import DIRECTIONS, JOINT_TYPES
-from msa import LoadCase, PlacedStructure, Structure, solve
-from overconstraint import (
+from strutwork.kinematics import DIRECTIONS, JOINT_TYPES
+from strutwork.msa import LoadCase, PlacedStructure, Structure, solve
+from strutwork.overconstraint import (
     Influence,
     MisfitSources,
     RigidAssembly,

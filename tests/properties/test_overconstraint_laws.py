@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from overconstraint import Responses, allocate, distribution, sensitivity, worst_case
-from overconstraint.scaled_zones import ScaledZones, scaled
+from strutwork.overconstraint import Responses, allocate, distribution, sensitivity, worst_case
+from strutwork.overconstraint.scaled_zones import ScaledZones, scaled
 from tests.random_zones import random_responses
 
 KIND = st.sampled_from(["surface", "uniform", "normal"])

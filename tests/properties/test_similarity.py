@@ -11,9 +11,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fea import modes
-from msa import axis_stiffness_free, tool_compliance
-from studies.similarity import ROLLERS, SIMILAR, JointScaling, scaled
+from strutwork.fea import modes
+from strutwork.msa import axis_stiffness_free, tool_compliance
+from strutwork.studies.similarity import ROLLERS, SIMILAR, JointScaling, scaled
 from tests.random_frames import random_frame
 
 seeds = st.integers(0, 2**32 - 1)

@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from fea.elastic_terms import elasticity
-from fea.solid_static import solve_solid
-from fea.solid_stress import cell_strains, cell_stresses, nodal_stresses
-from fea.solid_supports import Supports
-from meshes import boundary, moved
+from strutwork.fea.elastic_terms import elasticity
+from strutwork.fea.solid_static import solve_solid
+from strutwork.fea.solid_stress import cell_strains, cell_stresses, nodal_stresses
+from strutwork.fea.solid_supports import Supports
+from strutwork.meshes import boundary, moved
 from tests.solid_cases import FIELDS, STEEL, cells_of, distorted, matrices_of
 
 numbers = st.floats(-1.0, 1.0).map(lambda v: round(v, 3))

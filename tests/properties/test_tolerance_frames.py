@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from machines.model_file import parse_model
-from overconstraint import tool_deviation, worst_case
-from overconstraint.responses import tolerance_responses
+from strutwork.machines.model_file import parse_model
+from strutwork.overconstraint import tool_deviation, worst_case
+from strutwork.overconstraint.responses import tolerance_responses
 from strutwork.units import LENGTH, quantity
 from tests.model_files import Content, toml
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from reports.build import WrittenReport, write_report
+from strutwork.reports.build import WrittenReport, write_report
 from tests.reports.browser import Browser, chromium
 
 #: A structure with everything a page may stumble over: markup in names, a load case for each.

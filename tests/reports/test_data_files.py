@@ -12,10 +12,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from reports.build import WrittenReport, write_report
-from reports.data_files import csv_file, json_file
 from strutwork.errors import MechanismError, ModelError, NumericalError
-from studies.published_table import COLUMNS
+from strutwork.reports.build import WrittenReport, write_report
+from strutwork.reports.data_files import csv_file, json_file
+from strutwork.studies.published_table import COLUMNS
 from tests.reports.conftest import text_of
 
 MECHANISM = """

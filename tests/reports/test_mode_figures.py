@@ -8,13 +8,13 @@ import meshio
 import numpy as np
 import pytest
 
-from meshes.block import block
-from meshes.boundary import boundary
-from reports.chapters.mit_ss1_modes import nearly
-from reports.figures.mode_surface import LINE_RADIUS, mode_surface, modes_view, outline
-from reports.figures.modes import energy_bars, frequency_dots, singular_values
-from reports.mode_files import mode_fields, mode_scene
-from studies.mit_ss1_modes import ModePicture
+from strutwork.meshes.block import block
+from strutwork.meshes.boundary import boundary
+from strutwork.reports.chapters.mit_ss1_modes import nearly
+from strutwork.reports.figures.mode_surface import LINE_RADIUS, mode_surface, modes_view, outline
+from strutwork.reports.figures.modes import energy_bars, frequency_dots, singular_values
+from strutwork.reports.mode_files import mode_fields, mode_scene
+from strutwork.studies.mit_ss1_modes import ModePicture
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ from urllib.parse import unquote
 
 import pytest
 
-from reports.build import WrittenReport, write_report
-from reports.page import LINE, plain
+from strutwork.reports.build import WrittenReport, write_report
+from strutwork.reports.page import LINE, plain
 from tests.hard_names import BEAM, CASE, JOINT, LONG, NODES, hard_model
 from tests.reports.browser import Browser
 from tests.reports.conftest import text_of

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from machines.mit_ss1_tolerances import STATIC_RATING
-from machines.published_son import TABLE_2
-from reports.build import WrittenReport, write_report
-from reports.chapters.overconstraint_forces import MOST
-from studies.published_table import COLUMNS
+from strutwork.machines.mit_ss1_tolerances import STATIC_RATING
+from strutwork.machines.published_son import TABLE_2
+from strutwork.reports.build import WrittenReport, write_report
+from strutwork.reports.chapters.overconstraint_forces import MOST
+from strutwork.studies.published_table import COLUMNS
 from tests.reports.conftest import text_of
 from tests.reports.test_data_files import rows_of, specs
 

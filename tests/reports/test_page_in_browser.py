@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from reports.build import WrittenReport
+from strutwork.reports.build import WrittenReport
 from tests.reports.browser import Browser
 
 #: A desktop window and a telephone, px.

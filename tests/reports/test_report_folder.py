@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from reports.manifest import MANIFEST, read_manifest, verify_report
-from reports.report_folder import PAGE, write_set
 from strutwork.errors import ModelError, OutputError
+from strutwork.reports.manifest import MANIFEST, read_manifest, verify_report
+from strutwork.reports.report_folder import PAGE, write_set
 from tests.kills import killed_before
 
 OLD = {PAGE: "old page", "a.csv": "old a", "stale.csv": "old only"}

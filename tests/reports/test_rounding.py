@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from machines.model_file import parse_model, read_model
-from msa import tool_compliance
-from reports.build import write_report
-from reports.model_solution import solve_model
-from reports.numbers import matrix_without_rounding
-from reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.msa import tool_compliance
+from strutwork.reports.build import write_report
+from strutwork.reports.model_solution import solve_model
+from strutwork.reports.numbers import matrix_without_rounding
+from strutwork.reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "cases"

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from machines import MitSS1
-from reports.chapters.scale import scale_chapter
-from reports.content import Chapter, Figure, Page, Row, Table, Text
-from reports.figures.curves import Curve
-from reports.figures.scaling import powers
-from reports.page import render
-from studies.scale import ScaleStudy, scale_study
+from strutwork.machines import MitSS1
+from strutwork.reports.chapters.scale import scale_chapter
+from strutwork.reports.content import Chapter, Figure, Page, Row, Table, Text
+from strutwork.reports.figures.curves import Curve
+from strutwork.reports.figures.scaling import powers
+from strutwork.reports.page import render
+from strutwork.studies.scale import ScaleStudy, scale_study
 
 SIZES = (0.5, 1.0, 2.0)
 

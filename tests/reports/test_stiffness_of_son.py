@@ -7,10 +7,10 @@ import json
 
 import pytest
 
-from machines.published_son import MANIPULABILITY, TABLE_6
-from reports.build import WrittenReport
-from studies.hexapod_manipulability import ROW
-from studies.published_table import COLUMNS
+from strutwork.machines.published_son import MANIPULABILITY, TABLE_6
+from strutwork.reports.build import WrittenReport
+from strutwork.studies.hexapod_manipulability import ROW
+from strutwork.studies.published_table import COLUMNS
 from tests.reports.conftest import text_of
 
 

@@ -7,14 +7,16 @@ import json
 
 import pytest
 
-import reports.chapters.model_loads
-import reports.numbers
-from reports.content import Chapter, Column, Figure, Page, Table, Text
-from reports.numbers import clean, percent, significant
-from reports.page import embedded, render
+import strutwork.reports.chapters.model_loads
+import strutwork.reports.numbers
+from strutwork.reports.content import Chapter, Column, Figure, Page, Table, Text
+from strutwork.reports.numbers import clean, percent, significant
+from strutwork.reports.page import embedded, render
 
 
-@pytest.mark.parametrize("module", [reports.numbers, reports.chapters.model_loads])
+@pytest.mark.parametrize(
+    "module", [strutwork.reports.numbers, strutwork.reports.chapters.model_loads]
+)
 def test_examples_in_docstrings_hold(module: object) -> None:
     results = doctest.testmod(module)  # type: ignore[arg-type]
     assert results.attempted > 0

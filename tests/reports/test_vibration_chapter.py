@@ -8,8 +8,8 @@ import re
 import numpy as np
 import pytest
 
-from fea.uff_read import read_universal
-from reports.build import WrittenReport
+from strutwork.fea.uff_read import read_universal
+from strutwork.reports.build import WrittenReport
 from tests.reports.browser import Browser
 from tests.reports.conftest import text_of
 from tests.reports.test_data_files import rows_of, specs

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelError, NumericalError
-from studies.calibrate import assess, calibrate
-from studies.calibration_problem import Parameter, Target
-from studies.identifiability import identifiability
+from strutwork.studies.calibrate import assess, calibrate
+from strutwork.studies.calibration_problem import Parameter, Target
+from strutwork.studies.identifiability import identifiability
 
 
 def silent(done: int, total: int, /) -> None:

@@ -11,10 +11,10 @@ import scipy.linalg
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fea.block_krylov import KrylovOptions, krylov_reduction
-from fea.block_krylov_damping import MatrixDamping
-from fea.factorize import factorize
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.block_krylov import KrylovOptions, krylov_reduction
+from strutwork.fea.block_krylov_damping import MatrixDamping
+from strutwork.fea.factorize import factorize
 from tests.solids import frame
 
 Array = NDArray[Any]

@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fea.assurance import frac, in_span, mac, subspace_mac
-from fea.compare_files import compare_files
-from fea.frac_scale import frac_with_scale
-from fea.pairing import ModeSet, groups_of, pair_modes
-from fea.uff import FrfRecord, ModeRecord, UniversalFile
 from strutwork.errors import ModelError
+from strutwork.fea.assurance import frac, in_span, mac, subspace_mac
+from strutwork.fea.compare_files import compare_files
+from strutwork.fea.frac_scale import frac_with_scale
+from strutwork.fea.pairing import ModeSet, groups_of, pair_modes
+from strutwork.fea.uff import FrfRecord, ModeRecord, UniversalFile
 
 ENTRIES = st.floats(-10, 10).map(lambda x: 0.0 if abs(x) < 1e-3 else x)
 SHAPES = arrays(float, (2, 2, 7), elements=ENTRIES).map(lambda a: a[0] + 1j * a[1])

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fea import LossFactor, ModalRatio, PartDamping, Rayleigh, complex_modes, modes
 from strutwork.errors import ModelError
+from strutwork.fea import LossFactor, ModalRatio, PartDamping, Rayleigh, complex_modes, modes
 from tests.structures import Model
 from tests.vibration import heavy, oscillators
 

@@ -7,13 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fea import LossFactor, ModalRatio, PartDamping, Rayleigh
-from fea.coupled import damped_matrices, is_coupled, part_matrices
-from fea.damping import modal_ratios
-from fea.eigen import solve_eigen
-from fea.reduction import reduce_system
-from msa import Material, system_of
 from strutwork.errors import ModelError
+from strutwork.fea import LossFactor, ModalRatio, PartDamping, Rayleigh
+from strutwork.fea.coupled import damped_matrices, is_coupled, part_matrices
+from strutwork.fea.damping import modal_ratios
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.reduction import reduce_system
+from strutwork.msa import Material, system_of
 from tests.structures import BAR, Model, cantilever
 from tests.vibration import heavy, oscillators
 

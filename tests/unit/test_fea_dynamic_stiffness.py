@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-import fea.dynamic_stiffness
-from fea import (
+import strutwork.fea.dynamic_stiffness
+from strutwork.errors import ModelError, NumericalError
+from strutwork.fea import (
     LossFactor,
     ModalRatio,
     Port,
@@ -16,8 +17,7 @@ from fea import (
     minimum_dynamic_stiffness,
     worst_direction,
 )
-from fea.damping import Damping
-from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.damping import Damping
 from tests.structure_cases import LIBRARY
 from tests.unit.test_fea_frf import moving_ports
 from tests.vibration import block_on_springs, heavy, oscillators
@@ -188,14 +188,14 @@ def test_bad_input() -> None:
 
 
 def test_a_result_that_breaks_its_bound_is_withheld(monkeypatch: pytest.MonkeyPatch) -> None:
-    inner = fea.dynamic_stiffness.largest_magnitudes
+    inner = strutwork.fea.dynamic_stiffness.largest_magnitudes
 
     def wrong(*arguments):  # type: ignore[no-untyped-def]
         found = inner(*arguments)
         found[..., 1] *= 0.5
         return found
 
-    monkeypatch.setattr(fea.dynamic_stiffness, "largest_magnitudes", wrong)
+    monkeypatch.setattr(strutwork.fea.dynamic_stiffness, "largest_magnitudes", wrong)
     with pytest.raises(NumericalError, match="breaks its two-sided bound at pose 0"):
         minimum_dynamic_stiffness(
             oscillators((1e4, 1.0)).place(), [X], ModalRatio(0.02), (1.0, 100.0)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea.eigen import solve_eigen
-from fea.reduction import reduce_system
-from msa import PointMass, system_of
 from strutwork.errors import MechanismError, ModelError
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.reduction import reduce_system
+from strutwork.msa import PointMass, system_of
 from tests.structure_cases import LIBRARY
 from tests.structures import Model, cantilever
 from tests.unit.test_fea_reduction import swinging_door

@@ -8,15 +8,15 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-import fea.factorize
-import fea.memory
-import fea.ordering
+import strutwork.fea.factorize
+import strutwork.fea.memory
+import strutwork.fea.ordering
 import strutwork.memory
-from fea import factor_cholmod, factor_mumps, factor_superlu
-from fea.factorize import SOLVERS, factorize, installed_solvers
-from fea.memory import foreseen_memory, require_memory
-from fea.ordering import nested_dissection
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea import factor_cholmod, factor_mumps, factor_superlu
+from strutwork.fea.factorize import SOLVERS, factorize, installed_solvers
+from strutwork.fea.memory import foreseen_memory, require_memory
+from strutwork.fea.ordering import nested_dissection
 from strutwork.memory import available_memory
 from tests.solids import frame
 
@@ -113,7 +113,7 @@ def test_without_extras_superlu_runs(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.parametrize("solver", INSTALLED)
 def test_without_metis_each_orders_by_itself(solver: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fea.ordering, "pymetis", None)
+    monkeypatch.setattr(strutwork.fea.ordering, "pymetis", None)
     matrix, right = definite(), np.ones(300)
     factor = factorize(matrix, solver)
     assert factor.memory is None
@@ -139,7 +139,7 @@ def test_fill_is_that_of_the_factor() -> None:
 
 
 def test_what_does_not_fit_is_refused_before_it_starts(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fea.memory, "available_memory", lambda: 1e5)
+    monkeypatch.setattr(strutwork.fea.memory, "available_memory", lambda: 1e5)
     monkeypatch.setattr(factor_mumps, "factorize", lambda *_: pytest.fail("was started"))
     for solver in INSTALLED:
         with pytest.raises(NumericalError, match=r"0\.0001 GB are available.*\n.*coarser"):
@@ -175,13 +175,13 @@ def test_available_memory_is_the_least_of_all_limits(
 
 
 def test_complex_factors_take_twice_the_memory() -> None:
-    for name in fea.memory.BYTES:
+    for name in strutwork.fea.memory.BYTES:
         assert foreseen_memory(10, 10, name, 16) == 2 * foreseen_memory(10, 10, name)
 
 
 def test_the_count_of_fill_is_the_same_uncompiled(monkeypatch: pytest.MonkeyPatch) -> None:
-    compiled = fea.ordering._counts
+    compiled = strutwork.fea.ordering._counts
     stiffness, _, _ = frame(4, 2, 2).held()
     expected = nested_dissection(stiffness)
-    monkeypatch.setattr(fea.ordering, "_counts", getattr(compiled, "py_func", compiled))
+    monkeypatch.setattr(strutwork.fea.ordering, "_counts", getattr(compiled, "py_func", compiled))
     assert nested_dissection(stiffness).fill == expected.fill

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fea import (
+from strutwork.errors import ModelError, NumericalError
+from strutwork.fea import (
     LossFactor,
     ModalRatio,
     PartDamping,
@@ -20,11 +21,10 @@ from fea import (
     modal_model,
     modes,
 )
-from fea.coupled import AnyDamping, part_matrices
-from fea.modal import STATIC_SHARE
-from msa import PlacedStructure, system_of, tool_compliance
-from msa.constraints import scales
-from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.coupled import AnyDamping, part_matrices
+from strutwork.fea.modal import STATIC_SHARE
+from strutwork.msa import PlacedStructure, system_of, tool_compliance
+from strutwork.msa.constraints import scales
 from tests.structure_cases import LIBRARY
 from tests.structures import Model, cantilever
 from tests.vibration import heavy, oscillators, saddle_point_matrices

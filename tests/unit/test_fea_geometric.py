@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import axial_forces, modes
-from fea.geometric import geometric_stiffness, local_geometric_stiffness, pulled
-from msa import rigid_map, rod, solve, system_of
 from strutwork.errors import ModelError
+from strutwork.fea import axial_forces, modes
+from strutwork.fea.geometric import geometric_stiffness, local_geometric_stiffness, pulled
+from strutwork.msa import rigid_map, rod, solve, system_of
 from tests.structures import Model, cantilever, wrench
 
 L = 0.7

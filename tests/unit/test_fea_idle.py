@@ -9,15 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fea import ModalRatio, Port, modal_model, modes
-from fea.idle import free_motions, idle_line, idle_motions
-from fea.validity import beyond, limits, warn_beyond
-from machines.model_file import parse_model
-from msa.mass import mass_properties
-from reports.covering_band import covering_band
-from reports.model_check import check_mass
-from reports.vibration import Target, target_modes
 from strutwork.errors import ModelWarning, ValidityWarning
+from strutwork.fea import ModalRatio, Port, modal_model, modes
+from strutwork.fea.idle import free_motions, idle_line, idle_motions
+from strutwork.fea.validity import beyond, limits, warn_beyond
+from strutwork.machines.model_file import parse_model
+from strutwork.msa.mass import mass_properties
+from strutwork.reports.covering_band import covering_band
+from strutwork.reports.model_check import check_mass
+from strutwork.reports.vibration import Target, target_modes
 from tests.model_files import SAMPLE, toml
 from tests.vibration import heavy
 
@@ -93,7 +93,7 @@ def test_any_superelement_is_asked_how_far_it_holds() -> None:
 
 
 def test_one_mass_for_all() -> None:
-    """Weighed by the check, by `msa.mass` and by the effective masses of modes alike."""
+    """Weighed by the check, by `strutwork.msa.mass` and by the effective masses of modes alike."""
     bare, placed = parse_model(toml(SAMPLE)).placed, with_block(900.0)
     first, second = check_mass(bare), check_mass(placed)
     assert first is not None
@@ -125,7 +125,7 @@ def test_tripods_band_covers_what_gives_way() -> None:
 
 def test_a_band_says_where_it_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     placed = parse_model(Path("examples/03_tripod.toml").read_text(encoding="utf-8")).placed
-    monkeypatch.setattr("reports.covering_band.FARTHEST", 1.5)
+    monkeypatch.setattr("strutwork.reports.covering_band.FARTHEST", 1.5)
     band, stop = covering_band(placed, [Port("TCP", "z")])
     assert band is not None
     assert "The band stops at" in stop

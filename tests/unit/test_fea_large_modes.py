@@ -7,10 +7,10 @@ import pytest
 import scipy.linalg
 import scipy.sparse as sp
 
-from fea import large_modes
-from fea.factorize import installed_solvers
-from fea.large_modes import lowest_modes
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea import large_modes
+from strutwork.fea.factorize import installed_solvers
+from strutwork.fea.large_modes import lowest_modes
 from tests.solids import bricks, frame
 
 

@@ -10,13 +10,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.linalg import eigvals
 
-from fea import LossFactor, ModalRatio, PartDamping, Port, Rayleigh, frequency_response, modes
-from fea.least_stiffness import least_dynamic_stiffness
-from fea.mode_damping import damping_ratios
-from fea.pole_peak import PoleSum, largest_on_band
-from machines.model_file import parse_model
-from msa import PlacedStructure
 from strutwork.errors import ModelError
+from strutwork.fea import (
+    LossFactor,
+    ModalRatio,
+    PartDamping,
+    Port,
+    Rayleigh,
+    frequency_response,
+    modes,
+)
+from strutwork.fea.least_stiffness import least_dynamic_stiffness
+from strutwork.fea.mode_damping import damping_ratios
+from strutwork.fea.pole_peak import PoleSum, largest_on_band
+from strutwork.machines.model_file import parse_model
+from strutwork.msa import PlacedStructure
 from tests.model_files import SAMPLE, put, sample, toml
 
 X = Port("M", "x")

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import (
+from strutwork.errors import ModelError
+from strutwork.fea import (
     LossFactor,
     ModalModel,
     ModalRatio,
@@ -16,8 +17,7 @@ from fea import (
     minimum_dynamic_stiffness,
     modal_model,
 )
-from fea.damping import Damping
-from strutwork.errors import ModelError
+from strutwork.fea.damping import Damping
 from tests.vibration import heavy, oscillators
 
 DAMPINGS = [ModalRatio(0.03), LossFactor(0.05), Rayleigh(2.0, 1e-6)]

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import modes
-from fea.lowest import natural_frequencies
-from fea.modes import CHUNK
-from msa import PointMass, system_of
-from msa.mass import mass_contributions, mass_properties
 from strutwork.errors import ModelError
+from strutwork.fea import modes
+from strutwork.fea.lowest import natural_frequencies
+from strutwork.fea.modes import CHUNK
+from strutwork.msa import PointMass, system_of
+from strutwork.msa.mass import mass_contributions, mass_properties
 from tests.structure_cases import LIBRARY
 from tests.structures import BAR, Model, cantilever
 from tests.unit.test_fea_reduction import swinging_door

@@ -15,7 +15,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from fea.peak import TOLERANCE, largest_magnitudes
+from strutwork.fea.peak import TOLERANCE, largest_magnitudes
 
 Array = NDArray[Any]
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-import fea.petsc
-from fea.factorize import factorize
-from fea.large_modes import lowest_modes
-from fea.petsc import Ranks, petsc_python, petsc_solve
+import strutwork.fea.petsc
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.factorize import factorize
+from strutwork.fea.large_modes import lowest_modes
+from strutwork.fea.petsc import Ranks, petsc_python, petsc_solve
 from tests.solids import bricks, frame
 
 #: Root may start MPI in a container, and two ranks may share one core.
@@ -65,7 +65,7 @@ def test_displacements_on_two_ranks() -> None:
 
 
 def test_what_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(fea.petsc, "petsc_python", lambda: None)
+    monkeypatch.setattr(strutwork.fea.petsc, "petsc_python", lambda: None)
     with pytest.raises(ModelError, match=r"petsc4py.*\n.*python3-slepc4py"):
         petsc_solve(sp.csc_array(sp.eye_array(3)), np.ones(3), Ranks())
     with pytest.raises(ModelError, match="processes"):
@@ -76,8 +76,8 @@ def test_a_worker_that_fails_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: Any, **__: Any) -> subprocess.CompletedProcess[str]:
         return subprocess.CompletedProcess([], 3, "", "no slots")
 
-    monkeypatch.setattr(fea.petsc, "petsc_python", lambda: "python3")
-    monkeypatch.setattr(fea.petsc.shutil, "which", lambda _: "mpiexec")
-    monkeypatch.setattr(fea.petsc.subprocess, "run", fail)
+    monkeypatch.setattr(strutwork.fea.petsc, "petsc_python", lambda: "python3")
+    monkeypatch.setattr(strutwork.fea.petsc.shutil, "which", lambda _: "mpiexec")
+    monkeypatch.setattr(strutwork.fea.petsc.subprocess, "run", fail)
     with pytest.raises(NumericalError, match="ended with 3: no slots"):
         petsc_solve(sp.csc_array(sp.eye_array(3)), np.ones(3), Ranks())

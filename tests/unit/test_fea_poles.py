@@ -9,17 +9,17 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from fea import PartDamping, Port, complex_modes, frequency_response, modes
-from fea.coupled import damped_matrices
-from fea.eigen import solve_eigen
-from fea.least_stiffness import least_dynamic_stiffness
-from fea.mode_damping import damping_ratios
-from fea.poles import find_poles
-from fea.reduction import reduce_system
-from machines.model_file import read_model
-from msa.assembly import system_of
-from reports.vibration import Target, vibration_target
 from strutwork.errors import NumericalError, UnverifiedWarning
+from strutwork.fea import PartDamping, Port, complex_modes, frequency_response, modes
+from strutwork.fea.coupled import damped_matrices
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.least_stiffness import least_dynamic_stiffness
+from strutwork.fea.mode_damping import damping_ratios
+from strutwork.fea.poles import find_poles
+from strutwork.fea.reduction import reduce_system
+from strutwork.machines.model_file import read_model
+from strutwork.msa.assembly import system_of
+from strutwork.reports.vibration import Target, vibration_target
 from tests.vibration import heavy
 
 CASES = Path(__file__).parents[1] / "cases"
@@ -124,7 +124,7 @@ def test_what_residuals_do_not_verify_is_withheld(monkeypatch: pytest.MonkeyPatc
     given = target("models/68.toml")
     assert given.damping is not None
     found = modes(given.placed, 3)
-    monkeypatch.setattr("fea.poles._errors", lambda values, *_: np.full(len(values), 0.1))
+    monkeypatch.setattr("strutwork.fea.poles._errors", lambda values, *_: np.full(len(values), 0.1))
     with pytest.warns(UnverifiedWarning, match=r"modes 1 \(15\.48 Hz\), 2 .* are withheld"):
         ratios = damping_ratios(found, given.damping)
     assert np.isnan(ratios).all()
@@ -157,7 +157,7 @@ def test_direct_solutions_stand_in_for_poles_that_fail(monkeypatch: pytest.Monke
     def fail(*_: Any) -> Any:
         raise NumericalError("poles", "cannot be told apart.", "")
 
-    monkeypatch.setattr("fea.least_stiffness.pole_model", fail)
+    monkeypatch.setattr("strutwork.fea.least_stiffness.pole_model", fail)
     found = least_dynamic_stiffness(given.placed, port, port, given.damping, (1.0, 500.0))
     assert not found.certified
     # the best of a search may miss, and never lies below the minimum

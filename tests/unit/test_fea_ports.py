@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import Port
-from fea.eigen import solve_eigen
-from fea.ports import port_motions
-from fea.reduction import reduce_system
-from msa import system_of
 from strutwork.errors import ModelError
+from strutwork.fea import Port
+from strutwork.fea.eigen import solve_eigen
+from strutwork.fea.ports import port_motions
+from strutwork.fea.reduction import reduce_system
+from strutwork.msa import system_of
 from tests.structures import cantilever
 from tests.unit.test_fea_reduction import swinging_door
 from tests.vibration import heavy

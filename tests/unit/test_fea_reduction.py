@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fea.reduction import Reduced, reduce_system
-from kinematics import mobility
-from msa import PointMass, Spring, system_of
 from strutwork.errors import ModelError
+from strutwork.fea.reduction import Reduced, reduce_system
+from strutwork.kinematics import mobility
+from strutwork.msa import PointMass, Spring, system_of
 from tests.structure_cases import LIBRARY
 from tests.structures import Model, cantilever
 from tests.vibration import BODY, heavy

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from scipy.linalg import eigvalsh
 
-from fea.elastic_terms import assembler, elasticity
-from fea.solid import Solid
-from fea.solid_matrices import solid_matrices
-from meshes import CellBlock, Mesh, block, joined, moved, quadratic
-from msa.materials import Material
 from strutwork.errors import ModelError
+from strutwork.fea.elastic_terms import assembler, elasticity
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import solid_matrices
+from strutwork.meshes import CellBlock, Mesh, block, joined, moved, quadratic
+from strutwork.msa.materials import Material
 from tests.solid_cases import (
     FIELDS,
     GRANITE,
@@ -193,7 +193,7 @@ def test_structural_damping_weighs_each_region_by_its_loss_factor() -> None:
 def test_many_groups_of_cells_give_the_same_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = block(SIZE, (3, 2, 2))
     whole = matrices_of(mesh, 2)
-    monkeypatch.setattr("fea.elastic_terms.GROUP_ENTRIES", 20_000)
+    monkeypatch.setattr("strutwork.fea.elastic_terms.GROUP_ENTRIES", 20_000)
     pieces = matrices_of(mesh, 2)
     assert len(assembler(pieces.solid).groups) == 4
     for one, other in ((whole.stiffness, pieces.stiffness), (whole.mass, pieces.mass)):
@@ -204,10 +204,10 @@ def test_nothing_is_printed_and_numpy_prints_as_before() -> None:
     program = (
         "import numpy as np\n"
         "before = np.get_printoptions()\n"
-        "from fea.solid import Solid\n"
-        "from fea.solid_matrices import solid_matrices\n"
-        "from meshes import block\n"
-        "from msa.materials import Material\n"
+        "from strutwork.fea.solid import Solid\n"
+        "from strutwork.fea.solid_matrices import solid_matrices\n"
+        "from strutwork.meshes import block\n"
+        "from strutwork.msa.materials import Material\n"
         "steel = Material.isotropic(2e11, 0.3, 8000.0)\n"
         "solid_matrices(Solid(block((1, 1, 1), (2, 2, 2)), {'solid': steel}))\n"
         "assert np.get_printoptions() == before\n"

@@ -12,19 +12,19 @@ import meshio
 import numpy as np
 import pytest
 
-from fea.solid_fields import (
+from strutwork.errors import ModelError
+from strutwork.fea.solid_fields import (
     mode_fields,
     static_fields,
     surface_field,
     write_fields,
     write_scene,
 )
-from fea.solid_loads import force_load
-from fea.solid_modes import solid_modes
-from fea.solid_static import SolidStatic, solve_solid
-from fea.solid_stress import cell_stresses
-from meshes import block
-from strutwork.errors import ModelError
+from strutwork.fea.solid_loads import force_load
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.fea.solid_static import SolidStatic, solve_solid
+from strutwork.fea.solid_stress import cell_stresses
+from strutwork.meshes import block
 from tests.solid_cases import FIELDS, cells_of, in_two_regions, matrices_of
 
 SIZE = (1.0, 0.2, 0.3)
@@ -135,8 +135,8 @@ def test_picture_without_a_display(tmp_path: Path, bent: SolidStatic) -> None:
              ("points", "triangles", "values", "displacement")})  # fmt: skip
     program = (
         "import sys, numpy as np\n"
-        "from fea.solid_fields import SurfaceField\n"
-        "from fea.solid_picture import write_picture\n"
+        "from strutwork.fea.solid_fields import SurfaceField\n"
+        "from strutwork.fea.solid_picture import write_picture\n"
         "data = np.load('field.npz')\n"
         "write_picture(SurfaceField(**data, name='displacement (m)'), 'a.png', size=(300, 240))\n"
     )

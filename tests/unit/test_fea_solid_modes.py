@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from fea.solid_matrices import SolidMatrices
-from fea.solid_modes import solid_modes
-from meshes import block, joined, merged, moved, node_set
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.meshes import block, joined, merged, moved, node_set
 from tests.solid_cases import FIELDS, cells_of, matrices_of
 
 

@@ -8,7 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from fea.solid_loads import (
+from strutwork.errors import (
+    InconsistentConstraintsError,
+    MechanismError,
+    ModelError,
+    NumericalError,
+)
+from strutwork.fea.solid_loads import (
     acceleration_load,
     force_load,
     gravity_load,
@@ -16,16 +22,10 @@ from fea.solid_loads import (
     pressure_load,
     traction_load,
 )
-from fea.solid_matrices import SolidMatrices
-from fea.solid_static import solve_solid
-from fea.solid_supports import Supports, supports
-from meshes import Mesh, block, joined, merged, moved, node_set, tube
-from strutwork.errors import (
-    InconsistentConstraintsError,
-    MechanismError,
-    ModelError,
-    NumericalError,
-)
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.fea.solid_static import solve_solid
+from strutwork.fea.solid_supports import Supports, supports
+from strutwork.meshes import Mesh, block, joined, merged, moved, node_set, tube
 from tests.solid_cases import FIELDS, STEEL, cells_of, matrices_of
 
 SIZE = (0.4, 0.2, 0.3)

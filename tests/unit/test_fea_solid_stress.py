@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea.solid import Solid
-from fea.solid_matrices import solid_matrices
-from fea.solid_static import solve_solid
-from fea.solid_stress import (
+from strutwork.errors import ModelError
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import solid_matrices
+from strutwork.fea.solid_static import solve_solid
+from strutwork.fea.solid_stress import (
     cell_stresses,
     nodal_stresses,
     principal_stresses,
     von_mises,
 )
-from meshes import block
-from strutwork.errors import ModelError
+from strutwork.meshes import block
 from tests.solid_cases import GRANITE, STEEL, in_tetrahedra, in_two_regions, matrices_of
 
 
@@ -74,7 +74,7 @@ def test_chunks_make_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:
     matrices = matrices_of(block((1, 1, 1), (3, 3, 2)))
     u = np.random.default_rng(0).normal(size=matrices.size)
     whole = cell_stresses(matrices, u)
-    monkeypatch.setattr("fea.solid_stress.CHUNK", 5)
+    monkeypatch.setattr("strutwork.fea.solid_stress.CHUNK", 5)
     np.testing.assert_allclose(cell_stresses(matrices, u), whole, rtol=1e-12)
 
 

@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-import fea.ordering
-import fea.sparse_modes
-from fea import axial_forces, modes
-from fea.factorize import factorize
-from fea.sparse_modes import SPARSE_FROM
-from fea.sparse_reduction import reduce_sparse
-from msa import PlacedStructure, rod, solve, system_of
+import strutwork.fea.ordering
+import strutwork.fea.sparse_modes
 from strutwork.errors import MechanismError, ModelError, NumericalError
+from strutwork.fea import axial_forces, modes
+from strutwork.fea.factorize import factorize
+from strutwork.fea.sparse_modes import SPARSE_FROM
+from strutwork.fea.sparse_reduction import reduce_sparse
+from strutwork.msa import PlacedStructure, rod, solve, system_of
 from tests.structure_cases import LIBRARY
 from tests.structures import BAR, TUBE, Model, cantilever, wrench
 from tests.vibration import heavy, oscillators
@@ -109,7 +109,7 @@ def test_copies_that_lanczos_missed_are_found(monkeypatch: pytest.MonkeyPatch) -
     """The first run is made to lose one of each group; the next ones bring them back."""
     placed = lattice(2, 2).place()
     expected = modes(placed, 20, method="sparse").frequencies
-    inner = fea.sparse_modes._lanczos
+    inner = strutwork.fea.sparse_modes._lanczos
     runs = []
 
     def forgetful(*arguments):  # type: ignore[no-untyped-def]
@@ -120,7 +120,7 @@ def test_copies_that_lanczos_missed_are_found(monkeypatch: pytest.MonkeyPatch) -
             return values[keep], vectors[:, keep]
         return values, vectors
 
-    monkeypatch.setattr(fea.sparse_modes, "_lanczos", forgetful)
+    monkeypatch.setattr(strutwork.fea.sparse_modes, "_lanczos", forgetful)
     found = modes(placed, 20, method="sparse").frequencies
     assert len(runs) > 3
     np.testing.assert_allclose(found[:19], expected[:19], rtol=1e-9)
@@ -187,7 +187,7 @@ def test_bad_input_is_told_as_by_the_dense_method() -> None:
 
 def test_a_stiffness_that_is_not_positive_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     # the package's name fea.modes is the function
-    module = importlib.import_module("fea.modes")
+    module = importlib.import_module("strutwork.fea.modes")
     inner = module.reduce_sparse
 
     def weakened(*arguments):  # type: ignore[no-untyped-def]
@@ -200,13 +200,13 @@ def test_a_stiffness_that_is_not_positive_is_named(monkeypatch: pytest.MonkeyPat
 
 
 def test_an_inaccurate_mode_is_withheld(monkeypatch: pytest.MonkeyPatch) -> None:
-    inner = fea.sparse_modes._lanczos
+    inner = strutwork.fea.sparse_modes._lanczos
 
     def rough(*arguments):  # type: ignore[no-untyped-def]
         values, vectors = inner(*arguments)
         return values, vectors * (1.0 + 1e-5 * np.arange(len(vectors)))[:, None]
 
-    monkeypatch.setattr(fea.sparse_modes, "_lanczos", rough)
+    monkeypatch.setattr(strutwork.fea.sparse_modes, "_lanczos", rough)
     with pytest.raises(NumericalError, match=r"residual of the mode at .* withheld"):
         modes(cantilever(elements=20).place(), 3, method="sparse")
 
@@ -222,7 +222,7 @@ def test_factorisations_solve_and_tell_their_name(
     ordering: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if ordering == "none":
-        monkeypatch.setattr(fea.ordering, "pymetis", None)
+        monkeypatch.setattr(strutwork.fea.ordering, "pymetis", None)
     matrix = laplacian(12)
     factor = factorize(matrix, "superlu")
     assert factor.name == ("SuperLU" if ordering == "none" else "SuperLU ordered by METIS")
@@ -248,7 +248,7 @@ def test_a_singular_matrix_is_an_error() -> None:
 def test_without_metis_the_modes_are_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     placed = cantilever(BAR, elements=20).place()
     ordered = modes(placed, 6, method="sparse")
-    monkeypatch.setattr(fea.ordering, "pymetis", None)
+    monkeypatch.setattr(strutwork.fea.ordering, "pymetis", None)
     plain = modes(placed, 6, method="sparse")
     assert plain.solver == ORDERED.removesuffix(" ordered by METIS")
     np.testing.assert_allclose(plain.frequencies, ordered.frequencies, rtol=1e-10)

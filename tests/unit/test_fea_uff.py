@@ -13,11 +13,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from fea import uff_read
-from fea.uff import FrfRecord, ModeRecord, UniversalFile
-from fea.uff_read import read_universal
-from fea.uff_write import write_universal
 from strutwork.errors import ModelError, OutputError
+from strutwork.fea import uff_read
+from strutwork.fea.uff import FrfRecord, ModeRecord, UniversalFile
+from strutwork.fea.uff_read import read_universal
+from strutwork.fea.uff_write import write_universal
 
 RNG = np.random.default_rng(11)
 LINES = np.linspace(1.0, 500.0, 333)
@@ -382,7 +382,7 @@ def test_a_failed_write_leaves_the_old_file(path: Path, monkeypatch: pytest.Monk
     def broken(_: Any) -> None:
         raise OSError("disk full")
 
-    monkeypatch.setattr("fea.uff_write.read_universal", broken)
+    monkeypatch.setattr("strutwork.fea.uff_write.read_universal", broken)
     with pytest.raises(OutputError, match="disk full"):
         write_universal(path, UniversalFile((FUNCTION,)))
     assert path.read_bytes() == before

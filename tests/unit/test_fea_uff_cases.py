@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from fea.compare_files import compare_files
-from fea.uff_read import read_universal
 from strutwork.errors import ModelError
+from strutwork.fea.compare_files import compare_files
+from strutwork.fea.uff_read import read_universal
 
 CASES = Path(__file__).parents[1] / "cases"
 UFF = CASES / "uff"

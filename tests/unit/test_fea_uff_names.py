@@ -9,10 +9,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fea.uff import FrfRecord, ModeRecord, UniversalFile
-from fea.uff_names import LONGEST_NAME, fits, fitted_names
-from fea.uff_read import read_universal
-from fea.uff_write import write_universal
+from strutwork.fea.uff import FrfRecord, ModeRecord, UniversalFile
+from strutwork.fea.uff_names import LONGEST_NAME, fits, fitted_names
+from strutwork.fea.uff_read import read_universal
+from strutwork.fea.uff_write import write_universal
 
 LINES = np.linspace(1.0, 50.0, 7)
 VALUES = np.linspace(1.0, 2.0, 7) * (1 + 1j)

@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from fea import (
+from strutwork.errors import ModelWarning, ValidityWarning
+from strutwork.fea import (
     ModalRatio,
     PartDamping,
     Port,
@@ -20,12 +21,11 @@ from fea import (
     modes,
     preloaded,
 )
-from fea.least_stiffness import least_dynamic_stiffness
-from machines.model_file import parse_model, read_model
-from msa import LoadCase
-from reports.model_damping import model_damping
-from reports.vibration import Target, target_modes, target_response
-from strutwork.errors import ModelWarning, ValidityWarning
+from strutwork.fea.least_stiffness import least_dynamic_stiffness
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.msa import LoadCase
+from strutwork.reports.model_damping import model_damping
+from strutwork.reports.vibration import Target, target_modes, target_response
 from tests.model_files import SAMPLE, put, sample, toml
 from tests.unit.test_fea_idle import with_block
 

@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from meshes import Surface
-from meshes.surfaces import write_surface
 from strutwork.errors import OutputError
 from strutwork.files import write_text, write_whole
+from strutwork.meshes import Surface
+from strutwork.meshes.surfaces import write_surface
 from strutwork.staging import PREFIX, clean, staging
-from studies.chunks import ChunkStore
-from studies.dataset_files import read_netcdf, write_csv, write_json, write_netcdf
+from strutwork.studies.chunks import ChunkStore
+from strutwork.studies.dataset_files import read_netcdf, write_csv, write_json, write_netcdf
 from tests.kills import killed_before
 
 #: Smaller than any of the files below, bytes.

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fea import ModalRatio, Port, modal_model
-from fea.modal import STATIC_SHARE
-from machines.model_file import read_model
-from msa import PlacedStructure, PointMass, rod
-from reports.covering_band import covering_band
-from reports.vibration import Target, TargetModes, target_modes
+from strutwork.fea import ModalRatio, Port, modal_model
+from strutwork.fea.modal import STATIC_SHARE
+from strutwork.machines.model_file import read_model
+from strutwork.msa import PlacedStructure, PointMass, rod
+from strutwork.reports.covering_band import covering_band
+from strutwork.reports.vibration import Target, TargetModes, target_modes
 from tests.structures import Model
 from tests.vibration import heavy
 

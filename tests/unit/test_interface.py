@@ -5,13 +5,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fea.interface import Interface, tie
-from fea.reduce_solid import tied
-from fea.solid import Solid
-from meshes import block
-from msa.materials import Material
-from msa.structure import rigid_map
 from strutwork.errors import ModelError
+from strutwork.fea.interface import Interface, tie
+from strutwork.fea.reduce_solid import tied
+from strutwork.fea.solid import Solid
+from strutwork.meshes import block
+from strutwork.msa.materials import Material
+from strutwork.msa.structure import rigid_map
 
 STEEL = Material.isotropic(200e9, 0.3, density=7800.0, name="steel")
 

@@ -9,7 +9,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from kinematics import (
+from strutwork.errors import (
+    ModelError,
+    NumericalError,
+    SingularPoseError,
+    StrutworkError,
+    UnreachableError,
+)
+from strutwork.kinematics import (
     FoundPoses,
     Mechanism,
     Poses,
@@ -17,20 +24,13 @@ from kinematics import (
     forward_kinematics,
     jacobians,
 )
-from machines import (
+from strutwork.machines import (
     Alizade3PRPS,
     Eclipse3PPRS,
     HexelHexapod,
     MitSS1,
     Proposed3PPRS,
     Prototype3PPPRS,
-)
-from strutwork.errors import (
-    ModelError,
-    NumericalError,
-    SingularPoseError,
-    StrutworkError,
-    UnreachableError,
 )
 from tests.linkages import gough
 

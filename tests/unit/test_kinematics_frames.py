@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import angle, axes_frame, cross_matrix, rotation_y, rotation_z, tangent_rotation
-from kinematics.frames import cross, dot, frame, gathered, turned, vector
 from strutwork.errors import ModelError
+from strutwork.kinematics import (
+    angle,
+    axes_frame,
+    cross_matrix,
+    rotation_y,
+    rotation_z,
+    tangent_rotation,
+)
+from strutwork.kinematics.frames import cross, dot, frame, gathered, turned, vector
 
 # round-off of a few products of numbers of order one
 TINY = 1e-14

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import (
     Joint,
     Linkage,
     Mechanism,
@@ -16,7 +17,6 @@ from kinematics import (
     forward_kinematics,
     jacobians,
 )
-from strutwork.errors import ModelError
 from tests.linkages import Gough, chain, gough
 
 RNG = np.random.default_rng(3)

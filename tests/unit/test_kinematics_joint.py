@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kinematics import DIRECTIONS, GROUND, JOINT_TYPES, Body, Joint, Linkage, State
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, GROUND, JOINT_TYPES, Body, Joint, Linkage, State
 
 AB = ("a", "b")
 FREE = {

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kinematics import Body, Joint, Linkage, Placement, Poses, jacobians
-from kinematics.leg_chains import leg_chains
-from kinematics.motion_spaces import motion_spaces
-from kinematics.singular_values import FEW, singular_values
-from machines import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import Body, Joint, Linkage, Placement, Poses, jacobians
+from strutwork.kinematics.leg_chains import leg_chains
+from strutwork.kinematics.motion_spaces import motion_spaces
+from strutwork.kinematics.singular_values import FEW, singular_values
+from strutwork.machines import (
     Alizade3PRPS,
     Eclipse3PPRS,
     Glozman3PRRS,
@@ -21,7 +22,6 @@ from machines import (
     Proposed3PPRS,
     Prototype3PPPRS,
 )
-from strutwork.errors import ModelError
 from tests.linkages import gough, open_chain, slider_crank
 
 MACHINES: dict[str, Any] = {

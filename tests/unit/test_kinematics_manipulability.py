@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kinematics import velocity_ellipsoid
 from strutwork.errors import ModelError
+from strutwork.kinematics import velocity_ellipsoid
 
 
 def test_semi_axes_of_drives_at_right_angles() -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kinematics import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import (
     GROUND,
     Body,
     Joint,
@@ -17,7 +18,6 @@ from kinematics import (
     mobility,
     rotation_z,
 )
-from strutwork.errors import ModelError
 from tests.linkages import chain, gough
 
 FOUR_BAR = [[0, 0, 0], [0.2, 0.5, 0], [1.1, 0.7, 0], [1.0, 0, 0]]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, constraint_rows, mobility
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, constraint_rows, mobility
 
 TYPES = ("fixed", "revolute", "prismatic", "spherical", "bushing", "universal", "planar")
 
@@ -41,7 +41,7 @@ def test_blocks_agree_with_one_decomposition(seed: int, monkeypatch: pytest.Monk
     linkage, placement = random_linkage(seed)
     dense = mobility(linkage, placement)
     # the package's function of the same name hides the module
-    monkeypatch.setattr(sys.modules["kinematics.mobility"], "LARGE", 0)
+    monkeypatch.setattr(sys.modules["strutwork.kinematics.mobility"], "LARGE", 0)
     blocks = mobility(linkage, placement)
     assert blocks.mobility == dense.mobility
     assert blocks.redundant == dense.redundant

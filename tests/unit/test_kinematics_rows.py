@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import (
+from strutwork.errors import ModelError, UnreachableError
+from strutwork.kinematics import (
     GROUND,
     Body,
     Joint,
@@ -21,7 +22,6 @@ from kinematics import (
     check_coincidence,
     constraint_rows,
 )
-from strutwork.errors import ModelError, UnreachableError
 from tests.linkages import chain, gough
 
 RNG = np.random.default_rng(7)

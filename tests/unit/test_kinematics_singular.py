@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import Joint, Linkage, Placement, Poses, jacobians
+from strutwork.kinematics import Joint, Linkage, Placement, Poses, jacobians
 from tests.linkages import gough, open_chain, slider_crank
 
 FRAMES = [None, Rotation.from_rotvec([0.3, 0.5, -0.8]).as_matrix()]

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kinematics import (
+from strutwork.errors import ModelError, UnreachableError
+from strutwork.kinematics import (
     Mechanism,
     Poses,
     check_coincidence,
@@ -17,7 +18,7 @@ from kinematics import (
     rotation_z,
     tangent_rotation,
 )
-from machines import (
+from strutwork.machines import (
     CATALOGUE,
     Alizade3PRPS,
     Eclipse3PPRS,
@@ -28,8 +29,7 @@ from machines import (
     hemisphere_poses,
     roll_angles,
 )
-from msa import Material, axis_stiffness_blocked, tool_compliance
-from strutwork.errors import ModelError, UnreachableError
+from strutwork.msa import Material, axis_stiffness_blocked, tool_compliance
 
 MACHINES: tuple[type[Any], ...] = (Proposed3PPRS, Eclipse3PPRS, Alizade3PRPS, Glozman3PRRS)
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from kinematics import Mechanism
-from machines import CATALOGUE, get
-from machines import published_son as son
-from machines.published_azulay import TABLE_2, TABLE_4, TABLES
 from strutwork.errors import ModelError
+from strutwork.kinematics import Mechanism
+from strutwork.machines import CATALOGUE, get
+from strutwork.machines import published_son as son
+from strutwork.machines.published_azulay import TABLE_2, TABLE_4, TABLES
 
 
 def test_every_entry_makes_its_machine() -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from machines import hemisphere_normals, hemisphere_poses, roll_angles
 from strutwork.errors import ModelError
+from strutwork.machines import hemisphere_normals, hemisphere_poses, roll_angles
 
 
 def test_the_lattice_has_the_number_of_points_of_the_paper() -> None:

@@ -8,7 +8,8 @@ from math import pi, radians
 import numpy as np
 import pytest
 
-from kinematics import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import (
     GROUND,
     Poses,
     check_coincidence,
@@ -18,11 +19,10 @@ from kinematics import (
     mobility,
     tangent_rotation,
 )
-from machines import Prototype3PPPRS, check_limits, hemisphere_poses
-from machines.legs import full, seat
-from msa.mass import mass_properties
-from strutwork.errors import ModelError
-from studies.filters import moving_machine
+from strutwork.machines import Prototype3PPPRS, check_limits, hemisphere_poses
+from strutwork.machines.legs import full, seat
+from strutwork.msa.mass import mass_properties
+from strutwork.studies.filters import moving_machine
 
 MOVED = Prototype3PPPRS(stage_angles=(0.15, -0.20, 0.05))
 

@@ -7,8 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import Mesh, cell_volumes, face_normals, patch_area, quadratic, read_mesh, write_mesh
 from strutwork.errors import ModelError
+from strutwork.meshes import (
+    Mesh,
+    cell_volumes,
+    face_normals,
+    patch_area,
+    quadratic,
+    read_mesh,
+    write_mesh,
+)
 from tests.mesh_cases import every_kind
 
 #: Four unit cubes in a row along x.

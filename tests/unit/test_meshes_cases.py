@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshes import cell_volumes, patch_area, read_mesh
 from strutwork.errors import ModelError
+from strutwork.meshes import cell_volumes, patch_area, read_mesh
 
 CASES = Path(__file__).parents[1] / "cases"
 MESHES = [

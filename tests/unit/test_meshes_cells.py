@@ -7,8 +7,8 @@ from math import factorial, prod
 import numpy as np
 import pytest
 
-from meshes.cells import CELL_TYPES, CellType, cell_type
 from strutwork.errors import ModelError
+from strutwork.meshes.cells import CELL_TYPES, CellType, cell_type
 
 EVERY = pytest.mark.parametrize("kind", list(CELL_TYPES.values()), ids=lambda kind: kind.name)
 SOLID = [kind for kind in CELL_TYPES.values() if kind.dimension == 3]

@@ -11,7 +11,8 @@ import meshio
 import numpy as np
 import pytest
 
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.meshes import (
     CellBlock,
     Faces,
     Mesh,
@@ -22,8 +23,7 @@ from meshes import (
     read_mesh,
     write_mesh,
 )
-from meshes.mesh_files import FORMATS
-from strutwork.errors import ModelError
+from strutwork.meshes.mesh_files import FORMATS
 from tests.mesh_cases import every_kind, two_regions
 
 ALL = list(FORMATS)

@@ -7,7 +7,8 @@ from math import pi, sin
 import numpy as np
 import pytest
 
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.meshes import (
     Mesh,
     block,
     boundary,
@@ -22,7 +23,6 @@ from meshes import (
     quality,
     tube,
 )
-from strutwork.errors import ModelError
 
 #: Of sums of a few thousand terms of order one.
 ROUNDING = 1e-12

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.meshes import (
     Mesh,
     block,
     boundary,
@@ -27,8 +28,7 @@ from meshes import (
     tube,
     write_mesh,
 )
-from meshes.surfaces import Surface
-from strutwork.errors import ModelError
+from strutwork.meshes.surfaces import Surface
 
 INSTALLED = importlib.util.find_spec("gmsh") is not None
 
@@ -151,7 +151,7 @@ def test_a_gmsh_without_its_libraries_says_so(monkeypatch: pytest.MonkeyPatch) -
     def load(_: str) -> ModuleType:
         raise OSError("libGLU.so.1: cannot open shared object file")
 
-    monkeypatch.setattr("meshes.gmsh_volumes.import_module", load)
+    monkeypatch.setattr("strutwork.meshes.gmsh_volumes.import_module", load)
     with pytest.raises(ModelError, match=r"libGLU.so.1.*\n.*libglu1-mesa"):
         tetrahedra(cylinder(), 0.1)
 

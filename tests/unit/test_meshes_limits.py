@@ -9,9 +9,9 @@ import h5py
 import numpy as np
 import pytest
 
-from meshes import block, limits, read_mesh, write_mesh
-from meshes.deck_lines import DeckLines
 from strutwork.errors import ModelError
+from strutwork.meshes import block, limits, read_mesh, write_mesh
+from strutwork.meshes.deck_lines import DeckLines
 
 INCLUDES = {".inp": "*INCLUDE, INPUT={}\n", ".bdf": "BEGIN BULK\nINCLUDE '{}'\n"}
 SUFFIXES = list(INCLUDES)
@@ -79,7 +79,7 @@ def test_includes_share_one_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     with pytest.raises(ModelError, match=r"line 4 includes 'b.inc': the file has .* is the limit"):
         read_mesh(path)
     monkeypatch.setattr(limits, "LARGEST_FILE", 10**6)
-    monkeypatch.setattr("meshes.deck_lines.MOST_INCLUDES", 5)
+    monkeypatch.setattr("strutwork.meshes.deck_lines.MOST_INCLUDES", 5)
     with pytest.raises(ModelError, match="line 6 is include 6; 5 is the limit"):
         read_mesh(path)
 

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import Mesh, cell_volumes, read_mesh
 from strutwork.errors import ModelError
+from strutwork.meshes import Mesh, cell_volumes, read_mesh
 
 #: Two unit cubes along x, numbers with a gap; the first is in two groups.
 PLACES = [(x, y, z) for x in range(3) for y, z in [(0, 0), (1, 0), (1, 1), (0, 1)]]

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from meshes import read_mesh, write_mesh
 from strutwork.errors import ModelError
+from strutwork.meshes import read_mesh, write_mesh
 from tests.mesh_cases import every_kind
 
 CASES = Path(__file__).parents[1] / "cases"

@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import Mesh, cell_volumes, face_normals, read_mesh, write_mesh
-from meshes.format_nastran import sixteen
-from meshes.nastran_cards import real
 from strutwork.errors import ModelError
+from strutwork.meshes import Mesh, cell_volumes, face_normals, read_mesh, write_mesh
+from strutwork.meshes.format_nastran import sixteen
+from strutwork.meshes.nastran_cards import real
 from tests.mesh_cases import every_kind
 
 PLACES = [(x, y, z) for x in range(5) for y, z in [(0, 0), (1, 0), (1, 1), (0, 1)]]

@@ -8,7 +8,8 @@ from math import cos, radians, sqrt
 import numpy as np
 import pytest
 
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.meshes import (
     CellBlock,
     Faces,
     Mesh,
@@ -29,7 +30,6 @@ from meshes import (
     refined,
     without_orphans,
 )
-from strutwork.errors import ModelError
 from tests.mesh_cases import every_kind, five_tetrahedra, two_regions
 
 

@@ -8,10 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import Mesh, block, boundary, read_mesh, surface_of, tetrahedra, tube, write_mesh
-from meshes.self_intersections import TOGETHER, check_simple
-from meshes.surfaces import Surface, check_closed, check_one_body, read_surface, welded
 from strutwork.errors import ModelError
+from strutwork.meshes import (
+    Mesh,
+    block,
+    boundary,
+    read_mesh,
+    surface_of,
+    tetrahedra,
+    tube,
+    write_mesh,
+)
+from strutwork.meshes.self_intersections import TOGETHER, check_simple
+from strutwork.meshes.surfaces import Surface, check_closed, check_one_body, read_surface, welded
 from tests.unit.test_meshes_surface_cases import CORNERS, SIDES
 
 
@@ -66,7 +75,7 @@ def test_cells_with_a_cavity_and_long_thin_triangles_pass() -> None:
 
 def test_all_pairs_agree_with_a_search_without_a_tree() -> None:
     """On random triangles; each pair was compared with every other."""
-    from meshes.self_intersections import _crossings, _overlapping  # noqa: PLC0415
+    from strutwork.meshes.self_intersections import _crossings, _overlapping  # noqa: PLC0415
 
     generator = np.random.default_rng(3)
     centres = generator.random((300, 1, 3))

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.meshes import (
     block,
     boundary,
     face_areas,
@@ -19,7 +20,6 @@ from meshes import (
     quadratic,
     tube,
 )
-from strutwork.errors import ModelError
 from tests.mesh_cases import every_kind, five_tetrahedra, two_regions
 
 EVERY = pytest.mark.parametrize(

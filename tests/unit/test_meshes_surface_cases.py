@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import quality, tetrahedra
-from meshes.surfaces import Surface, check_closed, read_surface, surface_properties
 from strutwork.errors import ModelError
+from strutwork.meshes import quality, tetrahedra
+from strutwork.meshes.surfaces import Surface, check_closed, read_surface, surface_properties
 
 CASES = Path(__file__).parents[1] / "cases" / "surface"
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.meshes import (
     GltfPart,
     Surface,
     block,
@@ -32,7 +33,6 @@ from meshes import (
     write_gltf,
     write_surface,
 )
-from strutwork.errors import ModelError
 
 
 def cube(size: float = 1.0, at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Surface:

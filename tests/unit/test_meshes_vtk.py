@@ -12,8 +12,8 @@ from vtkmodules.vtkCommonCore import vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkUnstructuredGrid
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
-from meshes import Mesh, cell_volumes, limits, read_mesh, write_mesh
 from strutwork.errors import ModelError
+from strutwork.meshes import Mesh, cell_volumes, limits, read_mesh, write_mesh
 from tests.mesh_cases import every_kind, two_regions
 
 NUMBER = {"hexahedron": 12, "hexahedron20": 25, "hexahedron27": 29, "tetra": 10, "tetra10": 24}

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kinematics import Poses, check_coincidence, mobility, rotation_y, rotation_z
-from machines import MitSS1, check_limits
-from machines import mit_ss1_parts as parts
-from machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from machines.published_son import DIMENSIONS, MACHINE
-from msa import tool_compliance
-from msa.mass import mass_properties
 from strutwork.errors import ModelError, UnreachableError
+from strutwork.kinematics import Poses, check_coincidence, mobility, rotation_y, rotation_z
+from strutwork.machines import MitSS1, check_limits
+from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from strutwork.machines.published_son import DIMENSIONS, MACHINE
+from strutwork.msa import tool_compliance
+from strutwork.msa.mass import mass_properties
 
 IN_PLANE = np.ix_([0, 2, 4], [0, 2, 4])
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kinematics import cross_matrix, mobility
-from machines import StrutAssembly, strut_width
-from machines.mit_ss1_assembly import CALIBRATED_ON_CASE_I, CASES, TILT, joint
-from machines.published_son import TABLE_2, table_2_row
-from msa import tool_compliance
 from strutwork.errors import ModelError
+from strutwork.kinematics import cross_matrix, mobility
+from strutwork.machines import StrutAssembly, strut_width
+from strutwork.machines.mit_ss1_assembly import CALIBRATED_ON_CASE_I, CASES, TILT, joint
+from strutwork.machines.published_son import TABLE_2, table_2_row
+from strutwork.msa import tool_compliance
 
 numerals = pytest.mark.parametrize("numeral", CASES)
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea.modes import Modes, modes
-from kinematics import GROUND
-from machines import MitSS1
-from msa.mass import mass_properties
 from strutwork.errors import ModelError
-from studies.mode_matching import matched, pattern_shares
+from strutwork.fea.modes import Modes, modes
+from strutwork.kinematics import GROUND
+from strutwork.machines import MitSS1
+from strutwork.msa.mass import mass_properties
+from strutwork.studies.mode_matching import matched, pattern_shares
 
 MACHINE = MitSS1(drive_stiffness=1e8)
 

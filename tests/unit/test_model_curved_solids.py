@@ -10,13 +10,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fea import modes
-from fea.solid_modes import solid_modes
-from machines.model_solid_mesh import solid_mesh
-from machines.model_solid_schema import SolidTable
-from meshes import cell_volumes, tube, write_mesh
-from msa import rod
 from strutwork.errors import ModelWarning
+from strutwork.fea import modes
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.machines.model_solid_mesh import solid_mesh
+from strutwork.machines.model_solid_schema import SolidTable
+from strutwork.meshes import cell_volumes, tube, write_mesh
+from strutwork.msa import rod
 from tests.solid_cases import STEEL, matrices_of
 from tests.structures import Model
 

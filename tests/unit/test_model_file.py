@@ -5,11 +5,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kinematics import GROUND, Body
-from machines.model import Damping, Model, ModelWarning
-from machines.model_file import parse_model, read_model
-from msa import solve
 from strutwork.errors import ModelError, UnitError
+from strutwork.kinematics import GROUND, Body
+from strutwork.machines.model import Damping, Model, ModelWarning
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.msa import solve
 from tests.model_files import EXAMPLES, SAMPLE, Edit, add, drop, put, sample, toml
 
 

@@ -9,16 +9,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from fea import modes
-from fea.interface import Interface
-from fea.mode_damping import damping_ratios
-from fea.reduce_solid import reduce_solid
-from fea.solid import Solid
-from kinematics import GROUND, Body
-from machines.model import ModelWarning
-from machines.model_file import parse_model, read_model
-from machines.model_solid_element import SolidElement
-from meshes import (
+from strutwork.errors import ModelError
+from strutwork.fea import modes
+from strutwork.fea.interface import Interface
+from strutwork.fea.mode_damping import damping_ratios
+from strutwork.fea.reduce_solid import reduce_solid
+from strutwork.fea.solid import Solid
+from strutwork.kinematics import GROUND, Body
+from strutwork.machines.model import ModelWarning
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.meshes import (
     block,
     grid,
     joined,
@@ -29,13 +30,12 @@ from meshes import (
     surface_of,
     write_mesh,
 )
-from meshes.boundary import boundary
-from meshes.surfaces import write_surface
-from msa import Material, tool_compliance
-from msa.mass import mass_properties
-from reports.model_check import check_model
-from reports.model_damping import model_damping
-from strutwork.errors import ModelError
+from strutwork.meshes.boundary import boundary
+from strutwork.meshes.surfaces import write_surface
+from strutwork.msa import Material, tool_compliance
+from strutwork.msa.mass import mass_properties
+from strutwork.reports.model_check import check_model
+from strutwork.reports.model_damping import model_damping
 from strutwork.units import LENGTH, quantity
 from tests.model_files import Content, drop, put, toml
 from tests.solid_models import brick, column, from_file, model_of

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from machines import model_solid_mesh
-from meshes import (
+from strutwork.errors import ModelError, StrutworkError
+from strutwork.machines import model_solid_mesh
+from strutwork.meshes import (
     block,
     write_mesh,
 )
-from strutwork.errors import ModelError, StrutworkError
 from tests.model_files import Edit, add, drop, put
 from tests.solid_models import brick, from_file, model_of
 

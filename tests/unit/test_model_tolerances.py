@@ -5,11 +5,11 @@ from typing import Any
 
 import pytest
 
-from machines.model import Model
-from machines.model_file import parse_model
-from machines.model_schema import ToleranceTable
-from overconstraint import DISTRIBUTIONS, KINDS
 from strutwork.errors import ModelError, UnitError
+from strutwork.machines.model import Model
+from strutwork.machines.model_file import parse_model
+from strutwork.machines.model_schema import ToleranceTable
+from strutwork.overconstraint import DISTRIBUTIONS, KINDS
 from tests.model_files import Content, Edit, add, sample, toml
 
 TILT = {"name": "bore", "kind": "parallelism", "joint": "hinge", "slope": "300 um/m"}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kinematics import Placement
-from msa import solve
+from strutwork.kinematics import Placement
+from strutwork.msa import solve
 from tests.structure_cases import LIBRARY
 
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from msa import Beam, Section, solve, tool_compliance
-from msa.beam import beam_axes, local_stiffness
 from strutwork.errors import ModelError
+from strutwork.msa import Beam, Section, solve, tool_compliance
+from strutwork.msa.beam import beam_axes, local_stiffness
 from tests.structures import BAR, STEEL, Model, cantilever, cantilever_compliance, wrench
 
 X, Y, Z = np.eye(3)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from msa import compliance_budget, tool_compliance
 from strutwork.errors import MechanismError
+from strutwork.msa import compliance_budget, tool_compliance
 from tests.structure_cases import LIBRARY, stewart
 from tests.structures import BAR, STEEL, TUBE, Model, cantilever_compliance
 

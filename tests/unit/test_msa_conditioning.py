@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement
-from msa import Beam, Material, PlacedStructure, Structure, rod, tool_compliance
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement
+from strutwork.msa import Beam, Material, PlacedStructure, Structure, rod, tool_compliance
 
 STEEL, DIAMETER = 205e9, 0.02
 BENDING = STEEL * np.pi * DIAMETER**4 / 64

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from msa import LineLoad, LoadCase, solve, tool_compliance
 from strutwork.errors import MechanismError, NumericalError
+from strutwork.msa import LineLoad, LoadCase, solve, tool_compliance
 from tests.structure_cases import four_bar, stewart, tripod_of_pinned_rods
 from tests.structures import BAR, TUBE, Model, cantilever, wrench
 

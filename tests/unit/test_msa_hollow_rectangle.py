@@ -11,8 +11,8 @@ import pytest
 import scipy.sparse as sp
 from scipy.sparse.linalg import splu
 
-from msa import box, rectangle
-from msa.hollow_rectangle import _Grid, hollow_rectangle
+from strutwork.msa import box, rectangle
+from strutwork.msa.hollow_rectangle import _Grid, hollow_rectangle
 
 SHAPES = [
     (1.0, h, share * min(1.0, h) / 2)
@@ -78,7 +78,7 @@ def test_torsion_of_a_thick_square_box() -> None:
 def test_another_order_of_elements_agrees(order: int, monkeypatch: pytest.MonkeyPatch) -> None:
     shape, nu = (1.0, 2.0, 0.2), 0.3
     found = hollow_rectangle(*shape)
-    monkeypatch.setattr("msa.hollow_rectangle.ORDER", order)
+    monkeypatch.setattr("strutwork.msa.hollow_rectangle.ORDER", order)
     other = hollow_rectangle.__wrapped__(*shape)
     tolerance = 2e-3 if order == 2 else 2e-5
     assert other.torsion_constant == pytest.approx(found.torsion_constant, rel=tolerance)

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import DIRECTIONS, JOINT_TYPES
-from msa import LoadCase, PlacedStructure, solve
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, JOINT_TYPES
+from strutwork.msa import LoadCase, PlacedStructure, solve
 from tests.structures import BAR, TUBE, Model, cantilever_compliance, wrench
 
 KINDS = [kind for kind in JOINT_TYPES if kind not in ("support", "bushing")]

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from msa import Beam, LineLoad, LoadCase, StaticSolution, solve
-from msa.beam import fixed_end_loads
+from strutwork.msa import Beam, LineLoad, LoadCase, StaticSolution, solve
+from strutwork.msa.beam import fixed_end_loads
 from tests.structures import BAR, STEEL, Model, cantilever, cantilever_compliance
 
 LENGTH = 0.5

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from machines import HexelHexapod
-from machines.model_file import read_model
-from msa import PlacedStructure, compliance_and_outcome, system_of, tool_compliance
-from msa.compiled import compiled_compliance, program_of
 from strutwork.errors import MechanismError
+from strutwork.machines import HexelHexapod
+from strutwork.machines.model_file import read_model
+from strutwork.msa import PlacedStructure, compliance_and_outcome, system_of, tool_compliance
+from strutwork.msa.compiled import compiled_compliance, program_of
 from tests.structure_cases import stewart
 from tests.structures import Model
 

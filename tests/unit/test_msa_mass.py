@@ -9,8 +9,9 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from kinematics import DIRECTIONS
-from msa import (
+from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa import (
     LoadCase,
     Material,
     PlacedStructure,
@@ -21,7 +22,7 @@ from msa import (
     solve,
     system_of,
 )
-from msa.mass import (
+from strutwork.msa.mass import (
     local_mass,
     mass_contributions,
     mass_matrix,
@@ -29,7 +30,6 @@ from msa.mass import (
     point_mass_matrix,
     sparse_mass,
 )
-from strutwork.errors import ModelError
 from tests.structures import BAR, STEEL, Model, cantilever
 
 Array = NDArray[np.float64]

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from msa import Material
 from strutwork.errors import ModelError
+from strutwork.msa import Material
 
 
 def test_isotropic_material_has_the_shear_modulus_of_its_poissons_ratio() -> None:

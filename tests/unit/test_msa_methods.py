@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-import msa
-from kinematics import mobility
-from msa import PlacedStructure, StaticSolution, solve, system_of, tool_compliance
-from msa.compiled import compiled_compliance, program_of
+from strutwork import msa
 from strutwork.errors import MechanismError, ModelError
+from strutwork.kinematics import mobility
+from strutwork.msa import PlacedStructure, StaticSolution, solve, system_of, tool_compliance
+from strutwork.msa.compiled import compiled_compliance, program_of
 from tests.structure_cases import LIBRARY, Example, by_length
 
 TOLERANCE = 1e-9

@@ -13,8 +13,8 @@ from math import pi
 
 import pytest
 
-from msa import Section, box, rectangle, rod, tube
 from strutwork.errors import ModelError
+from strutwork.msa import Section, box, rectangle, rod, tube
 
 # products and powers of doubles
 ROUND_OFF = 1e-14

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from kinematics import DIRECTIONS
-from msa import LineLoad, LoadCase, PointMass, solve
 from strutwork.errors import InconsistentConstraintsError, ModelError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa import LineLoad, LoadCase, PointMass, solve
 from tests.structure_cases import LIBRARY, door_on_two_hinges, rigid_table, stewart
 from tests.structures import BAR, STEEL, Model, cantilever, wrench
 

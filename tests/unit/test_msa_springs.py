@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from msa import LoadCase, PointMass, Spring, solve
 from strutwork.errors import ModelError
+from strutwork.msa import LoadCase, PointMass, Spring, solve
 from tests.structures import Model, every_direction, wrench
 
 

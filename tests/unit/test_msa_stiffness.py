@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from machines.model_file import read_model
-from msa import (
+from strutwork.errors import SingularPoseError
+from strutwork.machines.model_file import read_model
+from strutwork.msa import (
     axis_stiffness_blocked,
     axis_stiffness_free,
     compliance_budget,
@@ -20,8 +21,7 @@ from msa import (
     tool_compliance,
     tool_stiffness,
 )
-from msa.movable import always_movable
-from strutwork.errors import SingularPoseError
+from strutwork.msa.movable import always_movable
 from tests.structure_cases import LIBRARY
 from tests.structures import Model, cantilever
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import GROUND, Body, Linkage, Placement
-from msa import (
+from strutwork.errors import ModelError, UnreachableError
+from strutwork.kinematics import GROUND, Body, Linkage, Placement
+from strutwork.msa import (
     Beam,
     LoadCase,
     PointMass,
@@ -21,7 +22,6 @@ from msa import (
     system_of,
     tool_compliance,
 )
-from strutwork.errors import ModelError, UnreachableError
 from tests.structure_cases import LIBRARY
 from tests.structures import BAR, STEEL, Model, cantilever, wrench
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
-from msa import (
+from strutwork.errors import ModelError, SingularPoseError
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.msa import (
     PlacedStructure,
     Structure,
     axis_stiffness_blocked,
@@ -17,8 +18,7 @@ from msa import (
     tool_compliance,
     tool_stiffness,
 )
-from msa.tool import COMPILED_FROM
-from strutwork.errors import ModelError, SingularPoseError
+from strutwork.msa.tool import COMPILED_FROM
 from tests.structure_cases import LIBRARY, stewart
 from tests.structures import BAR, STEEL, Model, cantilever
 

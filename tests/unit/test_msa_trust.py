@@ -5,12 +5,12 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement
-from machines.model_file import parse_model
-from msa import LoadCase, PlacedStructure, Structure, solve, system_of, tool_compliance
-from msa.nodal import unbalanced
-from msa.trust import HELD, TRUSTED, solve_trusted
 from strutwork.errors import MechanismError, NumericalError
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement
+from strutwork.machines.model_file import parse_model
+from strutwork.msa import LoadCase, PlacedStructure, Structure, solve, system_of, tool_compliance
+from strutwork.msa.nodal import unbalanced
+from strutwork.msa.trust import HELD, TRUSTED, solve_trusted
 
 METHODS = ["saddle_point", "null_space", "condensed", "sparse"]
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from machines.model import ModelWarning
-from machines.model_file import parse_model, read_model
-from msa import Spring, rod, solve
-from msa.unjoined import in_words, unjoined_nodes
 from strutwork.errors import MechanismError
+from strutwork.machines.model import ModelWarning
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.msa import Spring, rod, solve
+from strutwork.msa.unjoined import in_words, unjoined_nodes
 from tests.structures import Model, wrench
 
 CASES = Path(__file__).parents[1] / "cases" / "models"

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog, minimize
 
-from overconstraint import (
+from strutwork.errors import ModelError
+from strutwork.overconstraint import (
     Responses,
     Tolerance,
     allocate,
@@ -14,11 +15,10 @@ from overconstraint import (
     tolerance_responses,
     worst_case,
 )
-from overconstraint.distribution import SEED
-from overconstraint.least_cost import cost_bound, least_cost, sizes_for
-from overconstraint.sampled_zones import SampledZones
-from overconstraint.scaled_zones import ScaledZones, by_parameter, scaled
-from strutwork.errors import ModelError
+from strutwork.overconstraint.distribution import SEED
+from strutwork.overconstraint.least_cost import cost_bound, least_cost, sizes_for
+from strutwork.overconstraint.sampled_zones import SampledZones
+from strutwork.overconstraint.scaled_zones import ScaledZones, by_parameter, scaled
 from tests.random_zones import random_responses
 from tests.three_struts import LIMITS, case, one_of_each, three_struts, tilted_axes
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from overconstraint import Responses, distribution, draw, worst_case
-from overconstraint.distribution import SEED
-from overconstraint.sampling import SCRAMBLES, uniform_numbers, variances
-from overconstraint.spread import BINS
-from overconstraint.tally import Tally
 from strutwork.errors import ModelError, NumericalError
+from strutwork.overconstraint import Responses, distribution, draw, worst_case
+from strutwork.overconstraint.distribution import SEED
+from strutwork.overconstraint.sampling import SCRAMBLES, uniform_numbers, variances
+from strutwork.overconstraint.spread import BINS
+from strutwork.overconstraint.tally import Tally
 from tests.random_zones import random_responses
 from tests.three_struts import LIMITS, case, one_of_each, tilted_axes
 

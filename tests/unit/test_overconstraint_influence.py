@@ -9,9 +9,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kinematics import Poses
-from msa import LoadCase, PlacedStructure, Spring, Structure, rigid_map, solve
-from overconstraint import (
+from strutwork.errors import (
+    InconsistentConstraintsError,
+    MechanismError,
+    ModelError,
+    NumericalError,
+)
+from strutwork.kinematics import Poses
+from strutwork.msa import LoadCase, PlacedStructure, Spring, Structure, rigid_map, solve
+from strutwork.overconstraint import (
     Quantity,
     RigidAssembly,
     Tolerance,
@@ -24,12 +30,6 @@ from overconstraint import (
     rigid_equilibrium,
     tolerance_responses,
     worst_case,
-)
-from strutwork.errors import (
-    InconsistentConstraintsError,
-    MechanismError,
-    ModelError,
-    NumericalError,
 )
 from tests.assemblies import block_on_joints, square, unbalanced
 from tests.linkages import gough

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from overconstraint import (
+from strutwork.errors import ModelError
+from strutwork.overconstraint import (
     Tolerance,
     bearing_limit,
     distribution,
@@ -14,7 +15,6 @@ from overconstraint import (
     sensitivity,
     worst_case,
 )
-from strutwork.errors import ModelError
 from tests.three_struts import case, one_of_each, tilted_axes
 
 KINDS = ("surface", "uniform", "normal")

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from overconstraint import KINDS, Tolerance, misfit_sources
 from strutwork.errors import ModelError
+from strutwork.overconstraint import KINDS, Tolerance, misfit_sources
 from tests.assemblies import block_on_joints
 
 GOOD = Tolerance("bore", "position", ("J0",), size=1e-5)

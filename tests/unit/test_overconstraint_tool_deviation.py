@@ -6,7 +6,8 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from overconstraint import (
+from strutwork.errors import ModelError, NumericalError
+from strutwork.overconstraint import (
     Disc,
     Interval,
     Responses,
@@ -15,9 +16,8 @@ from overconstraint import (
     tool_deviation,
     worst_case,
 )
-from overconstraint.sources import Block
-from overconstraint.tool_deviation import _sphere
-from strutwork.errors import ModelError, NumericalError
+from strutwork.overconstraint.sources import Block
+from strutwork.overconstraint.tool_deviation import _sphere
 from tests.three_struts import case, one_of_each, three_struts, tilted_axes
 
 
@@ -94,7 +94,7 @@ def test_a_still_tool_and_no_tolerance() -> None:
 
 def test_a_certificate_that_cannot_be_had(monkeypatch: pytest.MonkeyPatch) -> None:
     # the package has a function of the module's name
-    monkeypatch.setattr(import_module("overconstraint.tool_deviation"), "MOST", 2000)
+    monkeypatch.setattr(import_module("strutwork.overconstraint.tool_deviation"), "MOST", 2000)
     worst = worst_case(with_blocks(np.eye(3), [Interval(), Disc()]))
     assert tool_deviation(worst, 1e-2).largest == pytest.approx(np.sqrt(2), rel=1e-9)
     with pytest.raises(NumericalError, match="larger tolerance"):

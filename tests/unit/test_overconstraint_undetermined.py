@@ -5,10 +5,10 @@ import warnings
 import numpy as np
 import pytest
 
-from kinematics import GROUND, Body, Joint, Linkage, Placement
-from msa import PlacedStructure, Structure
-from overconstraint import influence
-from overconstraint.influence import UndeterminedWarning
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement
+from strutwork.msa import PlacedStructure, Structure
+from strutwork.overconstraint import influence
+from strutwork.overconstraint.influence import UndeterminedWarning
 
 PLACES = ([0.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.6, 0.0, 0.5])
 

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from overconstraint import Ball, Disc, Interval, PlaneZone, UnitSet
+from strutwork.overconstraint import Ball, Disc, Interval, PlaneZone, UnitSet
 
 Array = NDArray[Any]
 

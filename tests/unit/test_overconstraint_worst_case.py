@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from overconstraint import Responses, Tolerance, tolerance_responses, worst_case
+from strutwork.overconstraint import Responses, Tolerance, tolerance_responses, worst_case
 from tests.assemblies import block_on_joints
 from tests.structures import Model
 
@@ -113,7 +113,7 @@ def test_a_force_that_is_alike_in_every_direction_is_certified_at_once(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Every direction is as bad, and no arc can be left out: S = 4/5 k, by hand."""
-    monkeypatch.setattr(import_module("overconstraint.worst_case"), "STEPS", 1)
+    monkeypatch.setattr(import_module("strutwork.overconstraint.worst_case"), "STEPS", 1)
     asked = tolerance_responses(around().place(), [Tolerance("c", "position", ("C",), size=2e-5)])
     worst = worst_case(asked)
     q = asked.index("C", "radial force")
@@ -126,7 +126,7 @@ def test_round_and_cornered_zones_together_are_certified_in_a_few_steps(
     roundness: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """From a line to nearly a circle: never more steps than a slender ellipse takes."""
-    monkeypatch.setattr(import_module("overconstraint.worst_case"), "STEPS", 10)
+    monkeypatch.setattr(import_module("strutwork.overconstraint.worst_case"), "STEPS", 10)
     tolerances = [
         Tolerance("c", "position", ("C",), size=2e-5),
         Tolerance("l", "length", ("C",), limits=(-1e-7, 3e-7), axis=(0.6, 0.8, 0.0)),

@@ -13,8 +13,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from msa import PlacedStructure
-from overconstraint import MisfitSources, Tolerance, ToleranceWarning, misfit_sources
+from strutwork.msa import PlacedStructure
+from strutwork.overconstraint import MisfitSources, Tolerance, ToleranceWarning, misfit_sources
 from tests.structures import Model, vector
 
 Array = NDArray[Any]

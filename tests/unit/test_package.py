@@ -16,7 +16,9 @@ from strutwork import errors
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
-ROOMS = PROJECT["tool"]["mypy"]["packages"]
+PACKAGE = ROOT / "strutwork"
+#: The package and the folders beside it that are its subpackages, by links.
+ROOMS = ["strutwork", *sorted(p.name for p in PACKAGE.iterdir() if p.is_symlink())]
 LONGEST_FILE = 400
 
 
@@ -37,16 +39,23 @@ def test_each_package_says_that_it_is_typed(room: str) -> None:
     assert (ROOT / room / "py.typed").is_file()
 
 
-def test_every_list_of_packages_is_the_same() -> None:
-    tool = PROJECT["tool"]
-    installed = [
-        name for name in tool["setuptools"]["packages"]["find"]["include"] if name in ROOMS
+def test_every_folder_of_code_is_reached_through_the_package() -> None:
+    folders = {p.parent.name for p in ROOT.glob("*/__init__.py")}
+    assert folders - {"tests", "benchmarks"} == set(ROOMS)
+    for room in ROOMS[1:]:
+        assert (PACKAGE / room).readlink() == Path("..") / room
+        module = importlib.import_module(f"strutwork.{room}")
+        assert Path(str(module.__file__)).resolve() == ROOT / room / "__init__.py"
+
+
+def test_no_code_takes_a_folder_for_a_package_of_its_own() -> None:
+    # a user may have a kinematics.py, and another distribution may install reports
+    alone = re.compile(rf"^\s*(?:from|import) ({'|'.join(ROOMS[1:])})\b", re.MULTILINE)
+    texts = [*sources(), *ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
+    texts += [
+        p for name in ("tests", "benchmarks", "examples") for p in (ROOT / name).rglob("*.py")
     ]
-    assert installed == ROOMS
-    assert tool["importlinter"]["root_packages"] == ROOMS
-    assert set(ROOMS) <= set(tool["ruff"]["lint"]["isort"]["known-first-party"])
-    forbidden = [f"error:::{room}" for room in ROOMS]
-    assert forbidden == tool["pytest"]["ini_options"]["filterwarnings"]
+    assert {str(p) for p in texts if alone.search(p.read_text(encoding="utf-8"))} == set()
 
 
 def test_version_is_written_once() -> None:
@@ -89,14 +98,13 @@ def test_every_extra_that_is_advised_exists() -> None:
 def test_every_error_of_the_packages_is_of_the_family() -> None:
     modules = [
         importlib.import_module(module.name)
-        for room in ROOMS
-        for module in pkgutil.walk_packages(importlib.import_module(room).__path__, f"{room}.")
+        for module in pkgutil.walk_packages(strutwork.__path__, "strutwork.")
         if not module.name.endswith("__main__")
     ]
     values = [value for module in modules for value in vars(module).values()]
     classes = [value for value in values if isinstance(value, type)]
     found = [c for c in classes if issubclass(c, Exception) and not issubclass(c, Warning)]
-    ours = [error for error in found if error.__module__.split(".")[0] in ROOMS]
+    ours = [error for error in found if error.__module__.startswith("strutwork.")]
     assert errors.UnitError in ours
     assert [error for error in ours if not issubclass(error, errors.StrutworkError)] == []
 

@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-from kinematics import Poses
-from machines.catalogue import CATALOGUE
-from machines.model_file import parse_model
-from msa import tube
 from strutwork.errors import ModelError, ProportionWarning
+from strutwork.kinematics import Poses
+from strutwork.machines.catalogue import CATALOGUE
+from strutwork.machines.model_file import parse_model
+from strutwork.msa import tube
 
 #: A fresh machine a test: a structure warns once.
 NAMES = list(CATALOGUE)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelError
-from studies.removal_rate import (
+from strutwork.studies.removal_rate import (
     actuator_force,
     cutting_force,
     cutting_force_at_rate,

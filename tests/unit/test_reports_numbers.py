@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reports.numbers import (
+from strutwork.reports.numbers import (
     clean,
     matrix_without_rounding,
     six_without_rounding,

@@ -8,16 +8,17 @@ from math import nan
 import numpy as np
 import pytest
 
-from fea import PartDamping, complex_modes, modes
-from fea.interface import Interface
-from fea.reduce_solid import tied
-from fea.solid import Solid
-from fea.solid_matrices import solid_matrices
-from fea.superelement import Superelement, superelement
-from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement
-from machines import MitSS1
-from meshes import block
-from msa import (
+from strutwork.errors import ModelError
+from strutwork.fea import PartDamping, complex_modes, modes
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import tied
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import solid_matrices
+from strutwork.fea.superelement import Superelement, superelement
+from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement
+from strutwork.machines import MitSS1
+from strutwork.meshes import block
+from strutwork.msa import (
     Beam,
     PlacedStructure,
     PointMass,
@@ -26,9 +27,8 @@ from msa import (
     rectangle,
     tool_compliance,
 )
-from msa.materials import Material
-from strutwork.errors import ModelError
-from studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
+from strutwork.msa.materials import Material
+from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
 from tests.structures import STEEL, Model, cantilever
 
 STONE = Material.isotropic(78e9, 0.25, 3000.0, name="stone")

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from fea import modes
-from machines import Proposed3PPRS, Prototype3PPPRS
-from msa import PlacedStructure, compliance_and_outcome, tool_compliance
-from msa.tool import COMPILED_FROM
-from overconstraint import influence
 from strutwork import MechanismError, ModelError, NumericalError, Outcome, PoseWarning
 from strutwork.errors import StrutworkError
+from strutwork.fea import modes
+from strutwork.machines import Proposed3PPRS, Prototype3PPPRS
+from strutwork.msa import PlacedStructure, compliance_and_outcome, tool_compliance
+from strutwork.msa.tool import COMPILED_FROM
 from strutwork.outcome import solve_poses
-from studies import CheckPoints, hemisphere
+from strutwork.overconstraint import influence
+from strutwork.studies import CheckPoints, hemisphere
 from tests.structures import cantilever
 
 Poses = NDArray[np.intp]

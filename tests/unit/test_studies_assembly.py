@@ -7,27 +7,33 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kinematics import Poses
-from machines import MitSS1, StrutAssembly
-from machines.mit_ss1_designs import DESIGNS, Design, datum, design_tolerances, placed_design
-from machines.mit_ss1_tolerances import (
+from strutwork.errors import ModelError, UnreachableError
+from strutwork.kinematics import Poses
+from strutwork.machines import MitSS1, StrutAssembly
+from strutwork.machines.mit_ss1_designs import (
+    DESIGNS,
+    Design,
+    datum,
+    design_tolerances,
+    placed_design,
+)
+from strutwork.machines.mit_ss1_tolerances import (
     STATIC_RATING,
     bearing_limits,
     machine_bearings,
     mit_ss1_tolerances,
     table_2_tolerances,
 )
-from overconstraint import tolerance_responses, worst_case
-from strutwork.errors import ModelError, UnreachableError
-from studies.assembly_map import (
+from strutwork.overconstraint import tolerance_responses, worst_case
+from strutwork.studies.assembly_map import (
     FORCES,
     assembly_map,
     bearing_quantities,
     compare_designs,
     machine_worst_case,
 )
-from studies.assembly_scale import assembly_scale
-from studies.assembly_table import calibrate_assembly, joint_forces, table_2_worst_case
+from strutwork.studies.assembly_scale import assembly_scale
+from strutwork.studies.assembly_table import calibrate_assembly, joint_forces, table_2_worst_case
 
 
 def test_lengths_of_a_batch_are_those_one_by_one() -> None:

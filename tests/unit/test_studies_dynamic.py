@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from fea import LossFactor, ModalRatio, modes
-from kinematics import Poses, rotation_y
-from machines import (
+from strutwork.errors import ModelError
+from strutwork.fea import LossFactor, ModalRatio, modes
+from strutwork.kinematics import Poses, rotation_y
+from strutwork.machines import (
     Platform,
     Proposed3PPRS,
     Prototype3PPPRS,
@@ -19,10 +20,9 @@ from machines import (
     dynamic_machine,
     hemisphere_poses,
 )
-from msa import tool_compliance
-from msa.mass import mass_properties
-from strutwork.errors import ModelError
-from studies import (
+from strutwork.msa import tool_compliance
+from strutwork.msa.mass import mass_properties
+from strutwork.studies import (
     azulay_table_5,
     dynamic_link_lengths,
     dynamic_stiffness,
@@ -35,8 +35,8 @@ from studies import (
     write_netcdf,
     write_published,
 )
-from studies.dynamic import at_home, grid_minimum, modal_data, tool_ports
-from studies.synthetic_measurement import prototype_outputs
+from strutwork.studies.dynamic import at_home, grid_minimum, modal_data, tool_ports
+from strutwork.studies.synthetic_measurement import prototype_outputs
 
 
 @pytest.fixture(scope="module")

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from fea import LossFactor, ModalRatio, Port, minimum_dynamic_stiffness, modes
-from machines import Proposed3PPRS, Prototype3PPPRS, VibratingLegs, dynamic_machine
-from msa import Structure
 from strutwork.errors import ModelError, NumericalError
-from studies import (
+from strutwork.fea import LossFactor, ModalRatio, Port, minimum_dynamic_stiffness, modes
+from strutwork.machines import Proposed3PPRS, Prototype3PPPRS, VibratingLegs, dynamic_machine
+from strutwork.msa import Structure
+from strutwork.studies import (
     CheckPoints,
     Filters,
     PoseStatus,
@@ -31,7 +31,7 @@ from studies import (
 )
 
 #: The function has the name of its module.
-module = importlib.import_module("studies.dynamic_map")
+module = importlib.import_module("strutwork.studies.dynamic_map")
 
 ROLLS = np.arange(6) * np.pi / 9
 FILTERS = Filters(joint_kinds=("revolute",))

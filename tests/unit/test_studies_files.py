@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from machines import Proposed3PPRS
 from strutwork.errors import ModelError
-from studies import (
+from strutwork.machines import Proposed3PPRS
+from strutwork.studies import (
     PublishedRow,
     hemisphere,
     read_netcdf,

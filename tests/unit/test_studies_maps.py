@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from kinematics import rotation_z, tangent_rotation
-from machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS
-from msa import Structure, axis_stiffness_blocked, tool_compliance
 from strutwork.errors import ModelError
-from studies import (
+from strutwork.kinematics import rotation_z, tangent_rotation
+from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS
+from strutwork.msa import Structure, axis_stiffness_blocked, tool_compliance
+from strutwork.studies import (
     AS_IN_AZULAY,
     CheckPoints,
     Filters,
@@ -30,10 +30,10 @@ from studies import (
     summary,
     sweep,
 )
-from studies.description import study_key
-from studies.evaluation import Evaluated, compliance_where_possible
-from studies.filters import moving_machine, tool_radius
-from studies.stiffness_map import stiffest_roll
+from strutwork.studies.description import study_key
+from strutwork.studies.evaluation import Evaluated, compliance_where_possible
+from strutwork.studies.filters import moving_machine, tool_radius
+from strutwork.studies.stiffness_map import stiffest_roll
 
 ROLLS = np.arange(6) * pi / 9
 
@@ -147,7 +147,7 @@ def test_a_third_of_a_turn_changes_nothing() -> None:
 
 
 def test_an_interrupted_map_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    module = importlib.import_module("studies.stiffness_map")
+    module = importlib.import_module("strutwork.studies.stiffness_map")
     monkeypatch.setattr(module, "CHUNK", 60)
     machine = Proposed3PPRS()
     points = hemisphere(machine, lattice=3)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kinematics import drive_values
-from machines import MitSS1
-from machines.published_son import MACHINE, MANIPULABILITY
 from strutwork.errors import ModelError
-from studies.planar_kinematics import (
+from strutwork.kinematics import drive_values
+from strutwork.machines import MitSS1
+from strutwork.machines.published_son import MACHINE, MANIPULABILITY
+from strutwork.studies.planar_kinematics import (
     SINGULAR_X,
     parallel_determinant,
     planar_kinematics,

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kinematics import rotation_y
-from machines import GridMachine, HexelHexapod, MitSS1, PoseGrid, Proposed3PPRS
-from msa import axis_stiffness_free, tool_compliance
 from strutwork.errors import ModelError
-from studies import on_plane, plane_map, stiffness_falls
-from studies.son_stiffness import planar_compliance, planar_stiffness_map
+from strutwork.kinematics import rotation_y
+from strutwork.machines import GridMachine, HexelHexapod, MitSS1, PoseGrid, Proposed3PPRS
+from strutwork.msa import axis_stiffness_free, tool_compliance
+from strutwork.studies import on_plane, plane_map, stiffness_falls
+from strutwork.studies.son_stiffness import planar_compliance, planar_stiffness_map
 
 
 def test_map_holds_every_place_with_every_tilt() -> None:

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelError
-from studies.chunks import Arrays, ChunkStore
-from studies.executor import Threads, default_executor
-from studies.progress import INTERVAL, PATIENCE, Lines, share
-from studies.run import Chunk, Run, fill
+from strutwork.studies.chunks import Arrays, ChunkStore
+from strutwork.studies.executor import Threads, default_executor
+from strutwork.studies.progress import INTERVAL, PATIENCE, Lines, share
+from strutwork.studies.run import Chunk, Run, fill
 
 KEY = "0123456789abcdef" * 4
 

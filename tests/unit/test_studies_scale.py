@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from msa import tool_compliance
 from strutwork.errors import ModelError, NumericalError
-from studies.removal_rate import removal_exponents
-from studies.scale import FACTORS, joint_share, power_law, scale_study
-from studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling
+from strutwork.msa import tool_compliance
+from strutwork.studies.removal_rate import removal_exponents
+from strutwork.studies.scale import FACTORS, joint_share, power_law, scale_study
+from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling
 from tests.structures import Model, cantilever
 
 SIZES = (0.5, 1.0, 2.0)

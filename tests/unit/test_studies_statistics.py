@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from machines import hemisphere_normals
 from strutwork.errors import ModelError
-from studies import PoseStatus, area_weights, statistics, summary
-from studies.variables import stiffness_variables
+from strutwork.machines import hemisphere_normals
+from strutwork.studies import PoseStatus, area_weights, statistics, summary
+from strutwork.studies.variables import stiffness_variables
 
 # every number below is exact in a few binary digits but for one rounding of a sum
 EXACT = pytest.approx

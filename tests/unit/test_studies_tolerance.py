@@ -8,21 +8,21 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from machines import MitSS1
-from machines.mit_ss1_tolerances import machine_bearings, mit_ss1_tolerances
-from machines.model_file import read_model
-from overconstraint import (
+from strutwork.errors import ModelError
+from strutwork.machines import MitSS1
+from strutwork.machines.mit_ss1_tolerances import machine_bearings, mit_ss1_tolerances
+from strutwork.machines.model_file import read_model
+from strutwork.overconstraint import (
     allocate,
     limit_vector,
     tolerance_responses,
     tool_deviation,
     worst_case,
 )
-from strutwork.errors import ModelError
-from studies.assembly_map import nominal_grid
-from studies.tolerance_result import ToleranceStudy, write_table
-from studies.tolerance_study import StudyOptions, at_pose, in_a_row, tolerance_study
-from studies.toleranced_machines import toleranced_machine
+from strutwork.studies.assembly_map import nominal_grid
+from strutwork.studies.tolerance_result import ToleranceStudy, write_table
+from strutwork.studies.tolerance_study import StudyOptions, at_pose, in_a_row, tolerance_study
+from strutwork.studies.toleranced_machines import toleranced_machine
 
 RAILS = Path(__file__).parents[2] / "examples" / "06_table_on_two_rails.toml"
 MACHINE = MitSS1()

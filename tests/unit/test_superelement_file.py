@@ -9,20 +9,20 @@ from typing import NoReturn
 import numpy as np
 import pytest
 
-from fea import superelement_file
-from fea.interface import Interface
-from fea.reduce_solid import reduce_solid
-from fea.solid import Solid
-from fea.superelement import Superelement
-from fea.superelement_file import (
+from strutwork.errors import CacheWarning, ModelError
+from strutwork.fea import superelement_file
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import reduce_solid
+from strutwork.fea.solid import Solid
+from strutwork.fea.superelement import Superelement
+from strutwork.fea.superelement_file import (
     cached_superelement,
     fingerprint,
     read_superelement,
     write_superelement,
 )
-from meshes import block
-from msa.materials import Material
-from strutwork.errors import CacheWarning, ModelError
+from strutwork.meshes import block
+from strutwork.msa.materials import Material
 
 STEEL = Material.isotropic(200e9, 0.3, density=7800.0, name="steel")
 
@@ -45,7 +45,7 @@ def test_second_time_from_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     def refuse(*_: object) -> None:
         raise AssertionError
 
-    monkeypatch.setattr("fea.reduce_solid.superelement", refuse)
+    monkeypatch.setattr("strutwork.fea.reduce_solid.superelement", refuse)
     same(first, make(tmp_path))
     # another content is another file
     with pytest.raises(AssertionError):

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from fea import Port, frequency_response, modes
-from fea.damping import LossFactor
-from msa import PlacedStructure, PointMass, rectangle
-from msa.mass import mass_properties
+from strutwork.fea import Port, frequency_response, modes
+from strutwork.fea.damping import LossFactor
+from strutwork.msa import PlacedStructure, PointMass, rectangle
+from strutwork.msa.mass import mass_properties
 from tests.structure_cases import LIBRARY
 from tests.structures import STEEL, Model
 

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fea import modes
+from strutwork.fea import modes
 from tests.frame_files import chain, frame_file, read, support
 
 MATERIAL = {"youngs_modulus": "71240 MPa", "poissons_ratio": 0.31, "density": "5000 kg/m^3"}

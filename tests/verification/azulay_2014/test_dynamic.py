@@ -16,7 +16,7 @@ Asserted are what symmetry and mechanics force on either, and, of the calibrated
 fitted to: the rankings, and how far each number is from the print. Joint compliance is left out
 and the damping is 1 % viscous in every mode, as the paper says.
 
-Every published number is read from `machines.published_azulay`.
+Every published number is read from `strutwork.machines.published_azulay`.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from fea import ModalRatio, Port, frequency_response
-from machines import DYNAMIC_SETS, DynamicSet, VibratingLegs, dynamic_machine
-from machines.published_azulay import TABLE_5
-from studies import (
+from strutwork.fea import ModalRatio, Port, frequency_response
+from strutwork.machines import DYNAMIC_SETS, DynamicSet, VibratingLegs, dynamic_machine
+from strutwork.machines.published_azulay import TABLE_5
+from strutwork.studies import (
     AzulayDynamics,
     azulay_table_5,
     closed_form_stiffness,
     dynamic_stiffness,
     published_dynamic_ranking,
 )
-from studies.comparison import machines
-from studies.dynamic import at_home
+from strutwork.studies.comparison import machines
+from strutwork.studies.dynamic import at_home
 
 SETS: tuple[DynamicSet, ...] = tuple(DYNAMIC_SETS)
 

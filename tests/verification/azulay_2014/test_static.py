@@ -15,7 +15,7 @@ that Table 4 is met best (calibrated). Two joint models are computed: true spher
 links clamped in the platform, which is wrong for the machine and comes close to the tables (the
 apparent model). What is asserted of each, and why no more, stands at each test.
 
-Every published number is read from `machines.published_azulay`.
+Every published number is read from `strutwork.machines.published_azulay`.
 """
 
 from __future__ import annotations
@@ -25,18 +25,24 @@ from math import pi
 import numpy as np
 import pytest
 
-from kinematics import Body, Joint, Linkage, Placement
-from machines import Eclipse3PPRS, PublishedTable, ThreeLegs, hemisphere_poses, roll_angles
-from machines.published_azulay import TABLE_2, TABLE_4
-from machines.three_legs import AISI_1018, TUBE_19_14
-from msa import (
+from strutwork.kinematics import Body, Joint, Linkage, Placement
+from strutwork.machines import (
+    Eclipse3PPRS,
+    PublishedTable,
+    ThreeLegs,
+    hemisphere_poses,
+    roll_angles,
+)
+from strutwork.machines.published_azulay import TABLE_2, TABLE_4
+from strutwork.machines.three_legs import AISI_1018, TUBE_19_14
+from strutwork.msa import (
     Beam,
     Structure,
     axis_stiffness_blocked,
     axis_stiffness_free,
     tool_compliance,
 )
-from studies import (
+from strutwork.studies import (
     AzulayComparison,
     Filters,
     compare_azulay,
@@ -45,7 +51,7 @@ from studies import (
     summary,
     variant,
 )
-from studies.comparison import DIRECTIONS, MODELS, Model, machines
+from strutwork.studies.comparison import DIRECTIONS, MODELS, Model, machines
 
 PROPOSED = "proposed-3pprs"
 LENGTHS = tuple(f"{PROPOSED} L={length} mm" for length in (196, 216, 236))

@@ -18,8 +18,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import modes
-from msa import Material, PlacedStructure, Section
+from strutwork.fea import modes
+from strutwork.msa import Material, PlacedStructure, Section
 from tests.structures import Model
 
 PUBLISHED = [0.589541, 5.52695, 16.5878]

@@ -16,8 +16,8 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from fea import Modes, modes
-from msa import Material, rod
+from strutwork.fea import Modes, modes
+from strutwork.msa import Material, rod
 from tests.structures import Model
 
 Array = NDArray[np.float64]

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from overconstraint import allocate, sensitivity, worst_case
+from strutwork.overconstraint import allocate, sensitivity, worst_case
 from tests.three_struts import TILT, case
 
 

@@ -27,11 +27,11 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from fea import ModalRatio, Port, frequency_response, modes, preloaded
-from machines.model_file import parse_model, read_model
-from msa import LoadCase, Material, PointMass, rectangle, rod
-from msa import Section as MsaSection
 from strutwork.errors import NumericalError
+from strutwork.fea import ModalRatio, Port, frequency_response, modes, preloaded
+from strutwork.machines.model_file import parse_model, read_model
+from strutwork.msa import LoadCase, Material, PointMass, rectangle, rod
+from strutwork.msa import Section as MsaSection
 from tests.structures import Model, every_direction
 
 CASES = Path(__file__).parents[2] / "cases" / "models"

@@ -19,11 +19,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import modes
-from fea.solid_loads import force_load, gravity_load
-from fea.solid_modes import solid_modes
-from fea.solid_static import solve_solid
-from meshes import block
+from strutwork.fea import modes
+from strutwork.fea.solid_loads import force_load, gravity_load
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.fea.solid_static import solve_solid
+from strutwork.meshes import block
 from tests.frame_files import chain, frame_file, read, support
 from tests.solid_cases import STEEL, in_tetrahedra, matrices_of
 

@@ -18,12 +18,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea.elastic_terms import elasticity
-from fea.solid_matrices import SolidMatrices
-from fea.solid_modes import solid_modes
-from fea.solid_static import solve_solid
-from fea.solid_supports import Supports
-from meshes import boundary
+from strutwork.fea.elastic_terms import elasticity
+from strutwork.fea.solid_matrices import SolidMatrices
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.fea.solid_static import solve_solid
+from strutwork.fea.solid_supports import Supports
+from strutwork.meshes import boundary
 from tests.solid_cases import FIELDS, STEEL, cells_of, matrices_of
 
 U, K, PHASE = np.array([1.0, -0.5, 0.7]) * 1e-3, np.array([1.8, 1.2, -1.5]), 0.4

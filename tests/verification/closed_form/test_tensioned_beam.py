@@ -18,9 +18,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import axial_forces, modes
-from msa import Material, Section, rod, solve
 from strutwork.errors import NumericalError
+from strutwork.fea import axial_forces, modes
+from strutwork.msa import Material, Section, rod, solve
 from tests.structures import Model, wrench
 
 LENGTH, TENSION = 100.0, 54.6e6

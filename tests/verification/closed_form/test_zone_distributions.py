@@ -22,8 +22,16 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from overconstraint import Ball, Disc, Interval, Responses, Tolerance, UnitSet, distribution
-from overconstraint.sources import Block
+from strutwork.overconstraint import (
+    Ball,
+    Disc,
+    Interval,
+    Responses,
+    Tolerance,
+    UnitSet,
+    distribution,
+)
+from strutwork.overconstraint.sources import Block
 from tests.three_struts import case
 
 SAMPLES = 2**20

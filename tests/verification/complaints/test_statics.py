@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from msa import LoadCase, PointMass, solve, tool_compliance
 from strutwork.errors import MechanismError
+from strutwork.msa import LoadCase, PointMass, solve, tool_compliance
 from tests.structure_cases import LIBRARY, portal_frame, stewart, tripod_machine
 from tests.structures import Model, wrench
 

@@ -20,8 +20,8 @@ from itertools import product
 import numpy as np
 import pytest
 
-from kinematics import mobility
-from msa import (
+from strutwork.kinematics import mobility
+from strutwork.msa import (
     LoadCase,
     PlacedStructure,
     axis_stiffness_blocked,

@@ -18,7 +18,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from msa import Beam, Material, rectangle, solve
+from strutwork.msa import Beam, Material, rectangle, solve
 from tests.structures import Model, cantilever_compliance, wrench
 
 # straight: length 6, 0.2 deep in its plane, 0.1 thick

@@ -19,9 +19,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea.solid_modes import SolidModes, solid_modes
-from fea.solid_supports import Supports
-from meshes import block
+from strutwork.fea.solid_modes import SolidModes, solid_modes
+from strutwork.fea.solid_supports import Supports
+from strutwork.meshes import block
 from tests.solid_cases import matrices_of
 
 TARGET = np.array([1.622, 2.360, 2.922, 4.233, 4.233, 7.416, 7.416])

@@ -20,9 +20,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fea.solid_modes import solid_modes
-from fea.solid_supports import Supports
-from meshes import hexahedral_block
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.fea.solid_supports import Supports
+from strutwork.meshes import hexahedral_block
 from tests.solid_cases import matrices_of
 
 TARGET = np.array([133.95, 201.41, 265.81, 283.68, 334.45])

@@ -18,8 +18,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea.solid_modes import solid_modes
-from meshes import hexahedral_block
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.meshes import hexahedral_block
 from tests.solid_cases import matrices_of
 
 TARGET = np.array([44.623, 130.03, 162.70, 246.05, 379.90, 391.44])

@@ -20,8 +20,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import modes
-from msa import PlacedStructure
+from strutwork.fea import modes
+from strutwork.msa import PlacedStructure
 from tests.frame_files import chain, frame_file, read, support
 
 STEEL = {"youngs_modulus": "200 GPa", "poissons_ratio": 0.3, "density": "8000 kg/m^3"}

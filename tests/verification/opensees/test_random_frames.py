@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from msa import PlacedStructure, solve, tool_compliance
+from strutwork.msa import PlacedStructure, solve, tool_compliance
 from tests.random_frames import random_frame, random_load
 
 TOLERANCE = 1e-9

@@ -24,9 +24,9 @@ import numpy as np
 import pytest
 from scipy.linalg import null_space
 
-from kinematics import Poses, mobility
-from msa import PlacedStructure, Structure
-from overconstraint import (
+from strutwork.kinematics import Poses, mobility
+from strutwork.msa import PlacedStructure, Structure
+from strutwork.overconstraint import (
     Influence,
     RigidAssembly,
     Tolerance,

@@ -29,8 +29,8 @@ import numpy as np
 import pytest
 from scipy.linalg import null_space
 
-from kinematics import DIRECTIONS, mobility
-from msa import LoadCase, PlacedStructure, solve
+from strutwork.kinematics import DIRECTIONS, mobility
+from strutwork.msa import LoadCase, PlacedStructure, solve
 from tests.structure_cases import bricard, four_bar, plate_on_four
 from tests.structures import Model
 

@@ -21,7 +21,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from msa import LineLoad, LoadCase, Section, solve
+from strutwork.msa import LineLoad, LoadCase, Section, solve
 from tests.structures import STEEL, Model, cantilever, wrench
 
 HEIGHT, SPAN = 3.0, 5.0

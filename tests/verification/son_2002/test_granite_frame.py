@@ -21,8 +21,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from fea.solid_modes import solid_modes
-from meshes import l_frame
+from strutwork.fea.solid_modes import solid_modes
+from strutwork.meshes import l_frame
 from tests.solid_cases import GRANITE, matrices_of
 
 REFERENCE = np.array([269.33, 320.83])

@@ -23,10 +23,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from machines import HexelHexapod, MitSS1
-from machines.published_son import MANIPULABILITY
-from studies import plane_map, stiffness_falls
-from studies.hexapod_manipulability import ROW, hexapod_manipulability, manipulability_rows
+from strutwork.machines import HexelHexapod, MitSS1
+from strutwork.machines.published_son import MANIPULABILITY
+from strutwork.studies import plane_map, stiffness_falls
+from strutwork.studies.hexapod_manipulability import (
+    ROW,
+    hexapod_manipulability,
+    manipulability_rows,
+)
 
 
 @cache

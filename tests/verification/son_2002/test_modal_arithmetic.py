@@ -12,9 +12,9 @@ from math import pi
 
 import pytest
 
-from machines import MitSS1
-from machines.published_son import MODES, TABLE_6, table_6_row
-from studies.mit_ss1_calibration import MOVING_MASS
+from strutwork.machines import MitSS1
+from strutwork.machines.published_son import MODES, TABLE_6, table_6_row
+from strutwork.studies.mit_ss1_calibration import MOVING_MASS
 
 #: Equivalent stiffness of the tilt along x, N/m, and from the tilting centre to the spindle's
 #: end, m (section 9.2.1).

@@ -19,23 +19,23 @@ import pytest
 import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 
-from fea.modes import modes
-from fea.reduce_solid import tied
-from fea.superelement import superelement
-from kinematics import mobility
-from machines.mit_ss1_calibrated import (
+from strutwork.errors import ModelError
+from strutwork.fea.modes import modes
+from strutwork.fea.reduce_solid import tied
+from strutwork.fea.superelement import superelement
+from strutwork.kinematics import mobility
+from strutwork.machines.mit_ss1_calibrated import (
     CALIBRATED_MEASURED,
     CALIBRATED_MOUNTS,
     CALIBRATED_MOVING,
     calibrated_machine,
 )
-from machines.mit_ss1_frame import GraniteFrame
-from machines.mit_ss1_whole import MitSS1Whole
-from machines.published_son import MODES, MOUNT_MODES
-from msa.mass import mass_properties
-from strutwork.errors import ModelError
-from studies.calibration_problem import Target
-from studies.mit_ss1_calibration import (
+from strutwork.machines.mit_ss1_frame import GraniteFrame
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.machines.published_son import MODES, MOUNT_MODES
+from strutwork.msa.mass import mass_properties
+from strutwork.studies.calibration_problem import Target
+from strutwork.studies.mit_ss1_calibration import (
     K_X,
     K_Y,
     MASS,
@@ -45,7 +45,7 @@ from studies.mit_ss1_calibration import (
     moving_targets,
     stored_calibration,
 )
-from studies.mit_ss1_modes import (
+from strutwork.studies.mit_ss1_modes import (
     BENDING,
     SCREW,
     STRUTS,
@@ -56,7 +56,7 @@ from studies.mit_ss1_modes import (
     mode_rows,
     named_modes,
 )
-from studies.mit_ss1_tilt import pin_width_for_tilt, posture_frequencies
+from strutwork.studies.mit_ss1_tilt import pin_width_for_tilt, posture_frequencies
 
 #: Thicknesses and mounts for which the full solid was calculated by another program.
 REFERENCE = GraniteFrame(plate=0.223, base=0.162)

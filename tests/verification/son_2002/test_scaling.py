@@ -17,19 +17,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from fea import modes
-from machines.mit_ss1_calibrated import calibrated_machine
-from machines.mit_ss1_whole import MitSS1Whole
-from msa import LoadCase, PlacedStructure, axis_stiffness_free, solve, tool_compliance
-from studies.mit_ss1_scale import mit_ss1_scale
-from studies.removal_rate import (
+from strutwork.fea import modes
+from strutwork.machines.mit_ss1_calibrated import calibrated_machine
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.msa import LoadCase, PlacedStructure, axis_stiffness_free, solve, tool_compliance
+from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.studies.removal_rate import (
     actuator_force,
     cutting_force,
     frequency_exponent,
     removal_exponents,
 )
-from studies.scale import FACTORS, ScaleStudy
-from studies.similarity import scaled
+from strutwork.studies.scale import FACTORS, ScaleStudy
+from strutwork.studies.similarity import scaled
 from tests.structures import BAR, cantilever
 
 #: Section 3.2, Fig. 8: material, specific cutting energy (W s/mm³), cutting force (N).

@@ -21,19 +21,19 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kinematics import jacobians
-from machines import MitSS1
-from machines.published_son import FIGURE_29_TICK
-from msa import tool_compliance
-from studies.planar_kinematics import strut_rows
-from studies.son_stiffness import (
+from strutwork.kinematics import jacobians
+from strutwork.machines import MitSS1
+from strutwork.machines.published_son import FIGURE_29_TICK
+from strutwork.msa import tool_compliance
+from strutwork.studies.planar_kinematics import strut_rows
+from strutwork.studies.son_stiffness import (
     STRUT_STIFFNESS,
     Formula,
     map_figures,
     planar_compliance,
     planar_stiffness_map,
 )
-from studies.stiffness_table import (
+from strutwork.studies.stiffness_table import (
     PLACES,
     READINGS,
     ColumnFit,

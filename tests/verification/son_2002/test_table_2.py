@@ -7,10 +7,11 @@
   year   = {2002}
 }
 
-Section 6.6 and Table 2, page 85; the printed forces are read from `machines.published_son`. The
-structure is reconstructed, since figures 40 and 42 are not at hand, and its two stiffnesses are
-calibrated: agreement with the print is a fit. Cases II and III test it where the stiffnesses
-were fitted to Case I alone, and then only as far as the structure is right.
+Section 6.6 and Table 2, page 85; the printed forces are read from
+`strutwork.machines.published_son`. The structure is reconstructed, since figures 40 and 42 are not
+at hand, and its two stiffnesses are calibrated: agreement with the print is a fit. Cases II and III
+test it where the stiffnesses were fitted to Case I alone, and then only as far as the structure is
+right.
 """
 
 from __future__ import annotations
@@ -21,10 +22,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from machines import StrutAssembly
-from machines.mit_ss1_assembly import CASES, TILT
-from machines.mit_ss1_tolerances import table_2_joints, table_2_tolerances
-from overconstraint import (
+from strutwork.machines import StrutAssembly
+from strutwork.machines.mit_ss1_assembly import CASES, TILT
+from strutwork.machines.mit_ss1_tolerances import table_2_joints, table_2_tolerances
+from strutwork.overconstraint import (
     RigidAssembly,
     WorstCase,
     assembly_forces,
@@ -33,7 +34,7 @@ from overconstraint import (
     tolerance_responses,
     worst_case,
 )
-from studies.assembly_table import (
+from strutwork.studies.assembly_table import (
     calibrate_assembly,
     joint_forces,
     published_forces,

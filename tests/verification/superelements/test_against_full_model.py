@@ -22,19 +22,19 @@ import pytest
 import scipy.linalg as sla
 from scipy.spatial.transform import Rotation
 
-from fea import modes
-from fea.interface import Interface
-from fea.reduce_solid import tied
-from fea.solid import Solid
-from fea.solid_matrices import solid_matrices
-from fea.superelement import Superelement, superelement
-from fea.tied_solid import TiedSolid
-from kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement
-from meshes import block
-from msa import LoadCase, PlacedStructure, PointMass, Structure, solve, tool_compliance
-from msa.mass import mass_properties
-from msa.materials import Material
 from strutwork.errors import ModelError
+from strutwork.fea import modes
+from strutwork.fea.interface import Interface
+from strutwork.fea.reduce_solid import tied
+from strutwork.fea.solid import Solid
+from strutwork.fea.solid_matrices import solid_matrices
+from strutwork.fea.superelement import Superelement, superelement
+from strutwork.fea.tied_solid import TiedSolid
+from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement
+from strutwork.meshes import block
+from strutwork.msa import LoadCase, PlacedStructure, PointMass, Structure, solve, tool_compliance
+from strutwork.msa.mass import mass_properties
+from strutwork.msa.materials import Material
 
 ALUMINIUM = Material.isotropic(70e9, 0.3, density=2700.0, name="aluminium")
 MOUNT = {d: 1e8 if d in "xyz" else 1e6 for d in DIRECTIONS}
