@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.kinematics.frames import cross
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.placement import Placement
@@ -87,23 +88,19 @@ class ConstraintRows:
         if references is None:
             references = body_references(linkage, self.placement)
         bodies = len(linkage.body_names)
-        rows = np.zeros((*self.axes.shape[:-1], 6 * bodies), dtype=self.axes.dtype)
-        owner = linkage.body_of_node
-        for r, pair in enumerate(self.nodes):
-            if owner[pair[0]] == owner[pair[1]]:
-                # nothing to hold: only the rounding of the coordinates would be left
-                continue
-            for node, sign in zip(pair, (-1.0, 1.0), strict=True):
-                body = owner[node]
-                if body < 0:
-                    continue
-                e = self.axes[..., r, :]
-                arm = positions[..., node, :] - references[..., body, :]
-                rows[..., r, 6 * body : 6 * body + 3] += sign * e[..., :3]
-                rows[..., r, 6 * body + 3 : 6 * body + 6] += sign * (
-                    np.cross(arm, e[..., :3]) + e[..., 3:]
-                )
-        return rows
+        shape = self.axes.shape[:-1]
+        rows = np.zeros((*shape, bodies, 6), dtype=self.axes.dtype)
+        owner = linkage.body_of_node[self.nodes]
+        # within one body there is nothing to hold: only the rounding of coordinates would be left
+        apart = owner[:, 0] != owner[:, 1]
+        for side, sign in enumerate((-1.0, 1.0)):
+            r = np.flatnonzero(apart & (owner[:, side] >= 0))
+            body = owner[r, side]
+            e = sign * self.axes[..., r, :]
+            arm = positions[..., self.nodes[r, side], :] - references[..., body, :]
+            rows[..., r, body, :3] = e[..., :3]
+            rows[..., r, body, 3:] = cross(arm, e[..., :3]) + e[..., 3:]
+        return rows.reshape(*shape, 6 * bodies)
 
 
 def constraint_rows(

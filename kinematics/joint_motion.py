@@ -1,0 +1,217 @@
+"""Finite motion of joints: what their held directions leave open, and their coordinates.
+
+The axes of a joint move with the body of its first node, and so does what its free translations
+are measured along; of a joint with two free rotations the first axis, z of a universal joint,
+moves with the first body and the second, x, with the second.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError
+from strutwork.kinematics.frames import cross, turned
+from strutwork.kinematics.joint import DIRECTIONS
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.rows import body_references
+from strutwork.kinematics.turns import rotation_vector
+
+Array = NDArray[Any]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class BodyPoses:
+    """Where the moving bodies of a linkage are.
+
+    Parameters
+    ----------
+    position : (p, b, 3)
+        Of the bodies' reference points, m.
+    rotation : (p, b, 3, 3)
+        From home.
+    """
+
+    position: Array
+    rotation: Array
+
+    def __getitem__(self, index: Any) -> BodyPoses:
+        return BodyPoses(self.position[index], self.rotation[index])
+
+
+@dataclass(frozen=True)
+class JointMotion:
+    """The joints of a linkage on their way from one placement, its home.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    home : Placement
+        One pose, without batch axes.
+
+    Raises
+    ------
+    ModelError
+        A node slides along its body in one joint and belongs to another joint too.
+    """
+
+    linkage: Linkage
+    home: Placement
+
+    def __post_init__(self) -> None:
+        _ = self.nodes
+
+    @cached_property
+    def held(self) -> Mask:
+        """Joint directions that do not move: locked or elastic, and not driven, (j, 6)."""
+        return np.asarray(self.linkage.elastic_or_locked() & ~self.linkage.driven_mask())
+
+    @cached_property
+    def names(self) -> tuple[tuple[str, str], ...]:
+        """Joint and direction of every coordinate, in joint order."""
+        joints = self.linkage.joints
+        return tuple((joints[j].name, DIRECTIONS[d]) for j, d in np.argwhere(~self.held))
+
+    @cached_property
+    def nodes(self) -> NDArray[np.intp]:
+        """First and second node of each joint, (j, 2)."""
+        index = self.linkage.node_index
+        found = np.asarray(
+            [[index[n] for n in j.between] for j in self.linkage.joints], dtype=np.intp
+        ).reshape(-1, 2)
+        sliding = self.sliding
+        used = np.bincount(found.ravel(), minlength=len(self.linkage.nodes))
+        for j in np.flatnonzero(sliding):
+            joint, node = self.linkage.joints[j], self.linkage.nodes[found[j, 0]]
+            if used[found[j, 0]] > 1:
+                raise ModelError(
+                    f"joint {joint.name}",
+                    f'slides on node "{node}", which another joint has too: it cannot follow both.',
+                    "Give each sliding joint a node of its own on the body along which it slides.",
+                )
+        return found
+
+    @cached_property
+    def sliding(self) -> Mask:
+        """Joints with a free translation: their first node follows the second, (j,)."""
+        return np.asarray(~self.held[:, :3].all(axis=1))
+
+    @cached_property
+    def _references(self) -> Array:
+        return body_references(self.linkage, self.home)
+
+    def start(self, poses: int) -> BodyPoses:
+        """All bodies at home, `poses` times."""
+        bodies = self._references
+        return BodyPoses(
+            np.tile(bodies, (poses, 1, 1)), np.tile(np.eye(3), (poses, len(bodies), 1, 1))
+        )
+
+    def place(self, bodies: BodyPoses) -> tuple[Array, Array, Array]:
+        """Node positions and joint frames of bodies.
+
+        Returns
+        -------
+        positions : (p, n, 3)
+            The nodes of a joint stand where its second node is.
+        frames : (p, j, 3, 3)
+        gaps : (p, j, 3)
+            From the first node's place on its body to the second's, m.
+        """
+        owner = self.linkage.body_of_node
+        home = self.home.positions
+        count = len(bodies.position)
+        positions = np.empty((count, len(home), 3))
+        positions[:, owner < 0] = home[owner < 0]
+        for b in range(bodies.position.shape[1]):
+            mine = owner == b
+            arms = home[mine] - self._references[b]
+            positions[:, mine] = bodies.position[:, b, None] + turned(bodies.rotation[:, b], arms)
+        first, second = self._frames(bodies)
+        frames = first.copy()
+        two = np.flatnonzero(self._turning == 2)
+        for j in two:
+            frames[:, j] = _crossed(first[:, j], second[:, j], int(np.flatnonzero(self._locks[j])[0]))
+        a, b_ = self.nodes.T
+        gaps = positions[:, b_] - positions[:, a]
+        moved = np.flatnonzero(self.sliding)
+        positions[:, a[moved]] = positions[:, b_[moved]]
+        return positions, frames, gaps
+
+    @cached_property
+    def _locks(self) -> Mask:
+        return np.asarray(self.held[:, 3:])
+
+    @cached_property
+    def _turning(self) -> NDArray[np.intp]:
+        """Number of free rotations of each joint, (j,)."""
+        return np.asarray((~self._locks).sum(axis=1))
+
+    def _frames(self, bodies: BodyPoses) -> tuple[Array, Array]:
+        """Joint axes that move with the first and with the second body, (p, j, 3, 3)."""
+        owner = self.linkage.body_of_node[self.nodes]
+        turns = np.concatenate(
+            [bodies.rotation, np.broadcast_to(np.eye(3), (len(bodies.rotation), 1, 3, 3))], axis=1
+        )
+        # the ground is −1, the last
+        return tuple(turns[:, owner[:, k]] @ self.home.frames for k in (0, 1))  # type: ignore[return-value]
+
+    def residuals(self, bodies: BodyPoses, gaps: Array) -> Array:
+        """What the held directions leave open, m and rad, zero in the others, (p, j, 6)."""
+        first, second = self._frames(bodies)
+        relative = np.swapaxes(first, -1, -2) @ second
+        open_ = np.zeros((len(gaps), len(self.held), 6))
+        open_[..., :3] = np.einsum("pjik,pji->pjk", first, gaps)
+        for j, locks in enumerate(self._locks):
+            turn = relative[:, j]
+            if locks.all():
+                open_[:, j, 3:] = rotation_vector(turn)
+            elif locks.sum() == 2:
+                (e,) = np.flatnonzero(~locks)
+                # R e = e + θ × e to first order
+                open_[:, j, 3:] = cross(np.broadcast_to(np.eye(3)[e], turn[..., e].shape), turn[..., e])
+            elif locks.any():
+                (d,) = np.flatnonzero(locks)
+                open_[:, j, 3 + d] = -turn[:, (d + 1) % 3, (d + 2) % 3]
+        return np.where(self.held, open_, 0.0)
+
+    def coordinates(self, bodies: BodyPoses, gaps: Array) -> Array:
+        """Joint coordinates, m and rad, zero at home and in held directions, (p, j, 6).
+
+        A turn is between −π and π; three free rotations are a rotation vector.
+        """
+        first, second = self._frames(bodies)
+        relative = np.swapaxes(first, -1, -2) @ second
+        value = np.zeros((len(gaps), len(self.held), 6))
+        value[..., :3] = np.einsum("pjik,pji->pjk", first, gaps)
+        for j, locks in enumerate(self._locks):
+            turn, free = relative[:, j], ~locks
+            if free.all():
+                value[:, j, 3:] = rotation_vector(turn)
+            elif free.sum() == 1:
+                (e,) = np.flatnonzero(free)
+                f, g = (e + 1) % 3, (e + 2) % 3
+                value[:, j, 3 + e] = np.arctan2(turn[:, g, f], turn[:, f, f])
+            elif free.sum() == 2:
+                (d,) = np.flatnonzero(locks)
+                e, f = (d + 1) % 3, (d + 2) % 3
+                value[:, j, 3 + e] = np.arctan2(turn[:, d, f], turn[:, f, f])
+                value[:, j, 3 + f] = np.arctan2(turn[:, e, d], turn[:, e, e])
+        return np.where(self.held, 0.0, value)
+
+
+def _crossed(first: Array, second: Array, locked: int) -> Array:
+    """Axes of a joint that turns about e of the first body and f of the second, (p, 3, 3)."""
+    e, f = (locked + 1) % 3, (locked + 2) % 3
+    frame = np.empty_like(first)
+    frame[..., e] = first[..., e]
+    across = cross(first[..., e], second[..., f])
+    frame[..., locked] = across / np.linalg.norm(across, axis=-1, keepdims=True)
+    frame[..., f] = cross(frame[..., locked], frame[..., e])
+    return frame

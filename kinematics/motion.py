@@ -1,0 +1,182 @@
+"""Motion of a linkage from its joints alone: where its bodies stand for poses, tasks or drives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from strutwork.kinematics.given import Given, given
+from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.mechanism import Poses
+from strutwork.kinematics.placement import Placement, check_coincidence
+from strutwork.kinematics.walk import Walk
+
+Array = NDArray[Any]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Moved:
+    """Where a linkage was moved to.
+
+    Parameters
+    ----------
+    placement : Placement
+        Its values are the coordinates of all joints, turns counted on along the way; its status
+        and reasons say which poses were not reached. Those stand where the way ended.
+    tool : Poses
+        Of the tool: where the way ended, for poses that were not reached.
+    share : (...)
+        Of the way that was gone, 1 where the pose was reached.
+    error : (...)
+        Largest gap that is left in a joint or in what was given, m, turns at the characteristic
+        length.
+    steps : (...) of int
+        Steps made.
+    """
+
+    placement: Placement
+    tool: Poses
+    share: Array
+    error: Array
+    steps: NDArray[np.intp]
+
+    def __repr__(self) -> str:
+        found = self.placement.reachable
+        return f"<Moved: {found.size} poses, {int(np.count_nonzero(found))} reached>"
+
+    @property
+    def reached(self) -> Mask:
+        """True where the pose was reached, (...)."""
+        return self.placement.reachable
+
+    def coordinate(self, joint: str, direction: str) -> Array:
+        """Coordinate of a joint, m or rad, (...)."""
+        return np.asarray(self.placement.values[..., self.placement.names.index((joint, direction))])
+
+
+@dataclass(frozen=True)
+class Motion:
+    """How a linkage moves: rigid bodies, whose joints' held directions stay closed.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Elastic directions are held, driven ones are free.
+    home : Placement
+        Where all motion starts, one pose without batch axes. Joint coordinates that it names
+        keep their values there; all others are zero at home.
+    rotation : (3, 3)
+        Of the tool at home.
+
+    Raises
+    ------
+    ModelError
+        The joints do not close at home (names the joint and its gap), or a node slides in one
+        joint and belongs to another.
+    """
+
+    linkage: Linkage
+    home: Placement
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+
+    def __post_init__(self) -> None:
+        check_coincidence(self.linkage, self.home)
+        _ = self.joints.nodes
+
+    @cached_property
+    def joints(self) -> JointMotion:
+        """Finite motion of the joints."""
+        return JointMotion(self.linkage, self.home)
+
+    @cached_property
+    def home_values(self) -> Array:
+        """Coordinates at home in the order of `joints.names`, m or rad, (c,)."""
+        known = dict(zip(self.home.names, np.ravel(self.home.values), strict=False))
+        return np.array([float(known.get(name, 0.0)) for name in self.joints.names])
+
+    @property
+    def home_pose(self) -> Poses:
+        """The tool at home."""
+        tool = self.linkage.node_index[self.linkage.tool or ""]
+        return Poses(self.home.positions[tool], self.rotation)
+
+    def move(
+        self,
+        tool: Poses | None = None,
+        task: Mapping[str, ArrayLike] | None = None,
+        joints: Mapping[tuple[str, str], ArrayLike] | None = None,
+    ) -> Moved:
+        """Move from home to a batch of targets, all at once.
+
+        What is given goes from its value at home to its target: places and coordinates straight,
+        a rotation about one axis. Where more can move than is given, the bodies move least
+        (in the sum of squares of their twists, turns at the characteristic length) from step to
+        step. Each step is Newton's method from the one before and counts only where its
+        corrections shrink at once (Deuflhard 2011, section 5.1), so that the assembly mode stays;
+        otherwise it is halved.
+
+        Parameters
+        ----------
+        tool : Poses, optional
+            Poses of the tool. Directions in which it cannot move from home are not moved and
+            must agree.
+        task : mapping of direction to (...), optional
+            Some coordinates of the tool: x, y, z of the tool centre point, m, and rx, ry, rz,
+            components of its rotation vector from home, rad.
+        joints : mapping of (joint, direction) to (...), optional
+            Joint coordinates, m or rad, driven or not. Where more are given than freedoms, they
+            must agree.
+
+        Returns
+        -------
+        Moved
+            Poses that were not reached are marked with a reason.
+
+        Raises
+        ------
+        ModelError
+            Nothing is given, both `tool` and `task` are, a joint or direction that does not
+            exist or cannot move at home, or values that are not finite.
+        """
+        wanted = given(self.joints, self.home_pose, self.home_values, tool, task, joints)
+        walk = Walk(self.joints, self.rotation, wanted)
+        walk.go()
+        return self._moved(walk, wanted)
+
+    def place(self, poses: Poses) -> Placement:
+        """Inverse kinematics of poses of the tool; those that cannot be taken are marked."""
+        return self.move(tool=poses).placement
+
+    def _moved(self, walk: Walk, wanted: Given) -> Moved:
+        batch = wanted.batch
+        bodies: BodyPoses = walk.bodies
+        positions, frames, _ = self.joints.place(bodies)
+        values = walk.coordinates + self.home_values
+        body = self.linkage.tool_body
+        tool = self.linkage.node_index[self.linkage.tool or ""]
+        if body < 0:
+            turned = np.broadcast_to(self.rotation, (len(positions), 3, 3))
+        else:
+            turned = bodies.rotation[:, body] @ self.rotation
+        placement = Placement(
+            positions.reshape(*batch, *positions.shape[1:]),
+            frames.reshape(*batch, *frames.shape[1:]),
+            values.reshape(*batch, values.shape[1]),
+            self.joints.names,
+            walk.status.reshape(batch),
+            tuple(walk.reasons),
+        )
+        return Moved(
+            placement,
+            Poses(positions[:, tool].reshape(*batch, 3), turned.reshape(*batch, 3, 3)),
+            walk.share.reshape(batch),
+            walk.error.reshape(batch),
+            walk.steps.reshape(batch),
+        )

@@ -1,0 +1,47 @@
+"""Rotation vectors of stacks of rotations, and their derivative."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.kinematics.frames import cross_matrix
+
+Array = NDArray[Any]
+
+
+def rotation_matrix(vector: Array) -> Array:
+    """Rotation about a vector by its length in rad, (..., 3) to (..., 3, 3) (Rodrigues)."""
+    turn = np.linalg.norm(vector, axis=-1)[..., None, None]
+    k = cross_matrix(vector)
+    # sin t / t and (1 − cos t) / t², finite at zero
+    s, c = np.sinc(turn / np.pi), 0.5 * np.sinc(turn / (2.0 * np.pi)) ** 2
+    return np.asarray(np.eye(3) + s * k + c * (k @ k))
+
+
+def rotation_vector(matrix: Array) -> Array:
+    """Axis times angle, 0 to π, of rotations, (..., 3, 3) to (..., 3)."""
+    # imported late: it takes a third of a small command's start
+    from scipy.spatial.transform import Rotation  # noqa: PLC0415
+
+    flat = np.reshape(matrix, (-1, 3, 3))
+    if not len(flat):
+        return np.zeros((*matrix.shape[:-2], 3))
+    return np.asarray(Rotation.from_matrix(flat).as_rotvec().reshape(*matrix.shape[:-2], 3))
+
+
+def vector_rates(vector: Array) -> Array:
+    """Matrix from the angular velocity to the rate of the rotation vector, (..., 3, 3).
+
+    ω is in the axes in which the rotation acts, R' = [ω]× R. Inverse of the left Jacobian of
+    SO(3): 1 − [v]×/2 + (1/t² − (1 + cos t)/(2 t sin t)) [v]×², t = |v| (Solà et al. 2018, eq. 146).
+    """
+    t = np.linalg.norm(vector, axis=-1)[..., None, None]
+    k = cross_matrix(vector)
+    small = t < 1e-2
+    safe = np.where(small, 1.0, t)
+    exact = 1.0 / safe**2 - (1.0 + np.cos(safe)) / (2.0 * safe * np.sin(safe))
+    share = np.where(small, 1.0 / 12.0 + t**2 / 720.0, exact)
+    return np.asarray(np.eye(3) - 0.5 * k + share * (k @ k))

@@ -1,0 +1,241 @@
+"""Newton's method along the way from home to many targets, each by steps of its own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.kinematics.given import Given
+from strutwork.kinematics.independent import independent_rows
+from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.rows import characteristic_length, constraint_rows
+from strutwork.kinematics.turns import rotation_matrix, rotation_vector, vector_rates
+
+Array = NDArray[Any]
+Indices = NDArray[np.intp]
+
+#: Each correction of a step is at most this share of the one before (Deuflhard 2011: 1/4 to 1/2);
+#: from a few lengths of rounding on, nothing is asked.
+SHRINK = 0.3
+#: Largest first correction of a step: turn, rad, and shift as a share of the machine's size.
+FARTHEST = 0.6
+#: Corrections of a step; they square, so that more mean that it was too long.
+CORRECTIONS = 8
+#: Gap that is left in a joint, as a share of the machine's size, and what rounding alone leaves.
+CLOSED, ROUNDING = 1e-11, 1e-14
+#: Rows that depend on the others may be this many times as open: they are not solved for.
+ELSE = 1e3
+#: Shortest step, as a share of the whole way, and steps allowed.
+SHORTEST, MOST = 1e-6, 2000
+#: A singular value of the rows, as a share of the largest, below which the way ends at it.
+SINGULAR = 3e-3
+
+REACH = "out of reach: on the way a leg comes to the end of its working mode"
+PARALLEL = "a singularity lies on the way, where what is given no longer holds the tool"
+CONTRADICT = "what is given contradicts itself or the joints: no pose near the way has it"
+LOST = "the way was not walked to its end in the steps allowed"
+
+
+class Walk:
+    """Poses on their way, each at its own share of it."""
+
+    def __init__(self, joints: JointMotion, rotation: Array, wanted: Given) -> None:
+        count = wanted.poses
+        self.joints, self.given, self.rotation = joints, wanted, rotation
+        self.length = characteristic_length(joints.home)
+        self.bodies = joints.start(count)
+        self.coordinates = np.zeros((count, len(joints.names)))
+        self.share, self.stride = np.zeros(count), np.ones(count)
+        self.error = np.zeros(count)
+        self.steps = np.zeros(count, dtype=np.intp)
+        self.status = np.zeros(count, dtype=np.int8)
+        self.reasons: list[str] = []
+        self.active = np.ones(count, dtype=bool)
+        self.bodies_in_tool = joints.linkage.tool_body
+        held = np.argwhere(joints.held)
+        pairs = np.concatenate([held, np.stack([wanted.joint, wanted.direction], axis=-1)])
+        self.joint, self.direction = pairs[:, 0], pairs[:, 1]
+        self.select = np.zeros_like(joints.held)
+        self.select[self.joint, self.direction] = True
+        # rows come joint by joint: where each of ours stands among them
+        rank = np.cumsum(self.select.ravel()) - 1
+        self.order = rank[6 * self.joint + self.direction]
+        _, matrix = self._system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
+        self.kept = independent_rows(matrix[0], len(held), self)
+
+    def go(self) -> None:
+        """Walk until every pose has arrived or its way has ended."""
+        for _ in range(MOST):
+            at = np.flatnonzero(self.active)
+            if not at.size:
+                return
+            self._step(at)
+        self._end(np.flatnonzero(self.active), LOST)
+
+    def _step(self, at: Indices) -> None:
+        self.steps[at] += 1
+        share = np.minimum(self.share[at] + self.stride[at], 1.0)
+        bodies, good, error = self._newton(at, share)
+        done = at[good]
+        _, _, gaps = self.joints.place(bodies[good])
+        found = self._coordinates(bodies[good], gaps, done)
+        self.coordinates[done] = found
+        self.bodies.position[done] = bodies.position[good]
+        self.bodies.rotation[done] = bodies.rotation[good]
+        self.share[done], self.error[done] = share[good], self.length * error[good]
+        self.stride[done] *= 2.0
+        self.active[done[self.share[done] >= 1.0]] = False
+        failed = at[~good]
+        self.stride[failed] = 0.5 * np.minimum(self.stride[failed], 1.0 - self.share[failed])
+        ended = failed[self.stride[failed] < SHORTEST]
+        if ended.size:
+            self._give_up(ended)
+
+    def _newton(self, at: Indices, share: Array) -> tuple[BodyPoses, NDArray[np.bool_], Array]:
+        """Bodies at a share of the way, where a step there holds, and what is left open."""
+        bodies = self.bodies[at]
+        bodies = BodyPoses(bodies.position.copy(), bodies.rotation.copy())
+        going, good = np.arange(at.size), np.zeros(at.size, dtype=bool)
+        error = np.full(at.size, np.inf)
+        before = np.full(at.size, np.inf)
+        first: Array | None = None
+        for _ in range(CORRECTIONS):
+            left, matrix = self._system(at[going], bodies[going], share[going])
+            matrix = matrix[:, self.kept]
+            if first is None:
+                first = matrix
+            whole = np.abs(left).max(axis=-1, initial=0.0)
+            size = np.abs(left[:, self.kept]).max(axis=-1, initial=0.0)
+            error[going] = whole
+            # rounding reached, or a whole correction after the gaps had closed
+            closed = (size <= ROUNDING) | ((size <= CLOSED) & (before[going] <= 1e-6))
+            there = going[closed]
+            good[there] = (whole[closed] <= ELSE * CLOSED) & _alike(first[there], matrix[closed])
+            going, left, matrix = going[~closed], left[~closed], matrix[~closed]
+            change = -_least(matrix, left[:, self.kept])
+            norm = np.abs(change).max(axis=-1, initial=0.0)
+            fits = (norm <= FARTHEST) & ((norm <= SHRINK * before[going]) | (norm <= 1e-9))
+            going = going[fits]
+            if not going.size:
+                break
+            before[going] = norm[fits]
+            blocks = change[fits].reshape(len(going), -1, 6)
+            bodies.position[going] += self.length * blocks[..., :3]
+            bodies.rotation[going] = rotation_matrix(blocks[..., 3:]) @ bodies.rotation[going]
+        return bodies, good, error
+
+    def _system(self, at: Indices, bodies: BodyPoses, share: Array) -> tuple[Array, Array]:
+        """What is open, lengths over L, and derivatives by twists (v / L, ω), (k, r), (k, r, 6b)."""
+        positions, frames, gaps = self.joints.place(bodies)
+        placement = Placement(positions, frames, np.zeros((len(positions), 0)))
+        matrix = constraint_rows(self.joints.linkage, placement, self.select).on_bodies(bodies.position)[:, self.order]
+        open_ = self.joints.residuals(bodies, gaps)[:, self.joint, self.direction]
+        m = len(self.given.joint)
+        if m:
+            target = share[:, None] * self.given.values[at]
+            open_[:, -m:] = self._given_coordinates(bodies, gaps, at) - target
+        matrix = np.concatenate([matrix, *self._tool_rows(at, bodies)], axis=1)
+        open_ = np.concatenate([open_, *self._tool_open(at, bodies, share)], axis=1)
+        rows = np.concatenate([self.direction, np.array(self._tool_directions, dtype=int)])
+        over = np.where(rows < 3, 1.0 / self.length, 1.0)
+        unit = np.tile(np.repeat([self.length, 1.0], 3), matrix.shape[-1] // 6)
+        return open_ * over, matrix * over[:, None] * unit
+
+    @property
+    def _tool_directions(self) -> tuple[int, ...]:
+        return tuple(range(6)) if self.given.tool is not None else self.given.task
+
+    def _tool(self, bodies: BodyPoses) -> tuple[Array, Array]:
+        b = self.bodies_in_tool
+        return bodies.position[:, b], bodies.rotation[:, b] @ self.rotation
+
+    def _tool_rows(self, at: Indices, bodies: BodyPoses) -> list[Array]:
+        asked = list(self._tool_directions)
+        if not asked:
+            return []
+        rows = np.zeros((len(at), 6, bodies.position.shape[1] * 6))
+        block = rows[:, :, 6 * self.bodies_in_tool : 6 * self.bodies_in_tool + 6]
+        block[:] = np.eye(6)
+        if self.given.tool is None:
+            turn = rotation_vector(bodies.rotation[:, self.bodies_in_tool])
+            block[:, 3:, 3:] = vector_rates(turn)
+        return [rows[:, asked]]
+
+    def _tool_open(self, at: Indices, bodies: BodyPoses, share: Array) -> list[Array]:
+        asked = list(self._tool_directions)
+        if not asked:
+            return []
+        place, rotation = self._tool(bodies)
+        if self.given.tool is not None:
+            wanted, turned = self.given.pose(at, share)
+            apart = rotation_vector(rotation @ np.swapaxes(turned, -1, -2))
+            return [np.concatenate([place - wanted, apart], axis=1)]
+        turn = rotation_vector(bodies.rotation[:, self.bodies_in_tool])
+        now = np.concatenate([place, turn], axis=1)[:, asked]
+        home = np.concatenate([self.given.start.position, np.zeros(3)])[asked]
+        return [now - home - share[:, None] * (self.given.task_values[at] - home)]
+
+    def _coordinates(self, bodies: BodyPoses, gaps: Array, at: Indices) -> Array:
+        """Joint coordinates, turns counted on from the last step's, (k, c)."""
+        found = self.joints.coordinates(bodies, gaps)[:, ~self.joints.held]
+        turns = np.nonzero(~self.joints.held)[1] >= 3
+        ahead = found - self.coordinates[at]
+        return self.coordinates[at] + np.where(turns, np.angle(np.exp(1j * ahead)), ahead)
+
+    def _given_coordinates(self, bodies: BodyPoses, gaps: Array, at: Indices) -> Array:
+        names = list(map(tuple, np.argwhere(~self.joints.held)))
+        asked = zip(self.given.joint, self.given.direction, strict=True)
+        return self._coordinates(bodies, gaps, at)[:, [names.index(pair) for pair in asked]]
+
+    def _give_up(self, at: Indices) -> None:
+        """End poses whose steps have become too short, with the reason."""
+        _, matrix = self._system(at, self.bodies[at], self.share[at])
+        values = np.linalg.svd(matrix[:, self.kept], compute_uv=False)
+        singular = values[:, -1] <= SINGULAR * values[:, 0]
+        tool = bool(self._tool_directions)
+        self._end(at[singular], REACH if tool else PARALLEL)
+        self._end(at[~singular], CONTRADICT)
+
+    def _end(self, at: Indices, reason: str) -> None:
+        if not at.size:
+            return
+        if reason not in self.reasons:
+            self.reasons.append(reason)
+        self.status[at] = self.reasons.index(reason) + 1
+        self.active[at] = False
+
+
+def _alike(before: Array, after: Array) -> NDArray[np.bool_]:
+    """Whether rows span their space with one sense, (k, r, n) twice, (k).
+
+    Two branches that part at a singularity have determinants of opposite sign: a step that slips
+    from one to the other shows there.
+    """
+    sign, _ = np.linalg.slogdet(after @ np.swapaxes(before, -1, -2))
+    return np.asarray(sign > 0)
+
+
+def _least(matrix: Array, right: Array) -> Array:
+    """Smallest x with A x = b, (k, r, n) and (k, r), for independent rows."""
+    if matrix.shape[1] == matrix.shape[2]:
+        square, vector = matrix, right[..., None]
+        return np.asarray(_solve(square, vector)[..., 0])
+    across = np.swapaxes(matrix, -1, -2)
+    return np.asarray((across @ _solve(matrix @ across, right[..., None]))[..., 0])
+
+
+def _solve(matrix: Array, right: Array) -> Array:
+    try:
+        return np.linalg.solve(matrix, right)
+    except np.linalg.LinAlgError:
+        # one matrix without an inverse must not end the others: its step is refused
+        found = np.full(right.shape, np.inf)
+        for k in range(len(matrix)):
+            try:
+                found[k] = np.linalg.solve(matrix[k], right[k])
+            except np.linalg.LinAlgError:
+                continue
+        return found
