@@ -26,8 +26,8 @@ class Given:
     Parameters
     ----------
     batch : tuple of int
-    start : Poses
-        The tool at home.
+    start : Poses or None
+        The tool at home, where it is given something.
     tool : Poses or None
         (p)
     task : tuple of int
@@ -41,7 +41,7 @@ class Given:
     """
 
     batch: tuple[int, ...]
-    start: Poses
+    start: Poses | None
     tool: Poses | None
     task: tuple[int, ...]
     task_values: Array
@@ -57,6 +57,7 @@ class Given:
     def pose(self, index: NDArray[np.intp], share: Array) -> tuple[Array, Array]:
         """Position and rotation of the tool at a share of the way, (k, 3) and (k, 3, 3)."""
         assert self.tool is not None  # noqa: S101 - asked for only where it is given
+        assert self.start is not None  # noqa: S101
         start, part = self.start, share[:, None]
         end = self.tool.rotation[index]
         position = start.position + part * (self.tool.position[index] - start.position)
@@ -70,7 +71,7 @@ class Given:
 
 def given(
     joints: JointMotion,
-    start: Poses,
+    start: Poses | None,
     home_values: Array,
     tool: Poses | None,
     task: Mapping[str, ArrayLike] | None,
@@ -152,7 +153,10 @@ def _check_coordinate(joints: JointMotion, pair: tuple[str, str]) -> None:
     name, direction = pair
     if pair in joints.names:
         joint = joints.linkage.joints[joints.linkage.joint_index[name]]
-        if direction.startswith("r") and not joints.held[joints.linkage.joint_index[name], 3:].any():
+        if (
+            direction.startswith("r")
+            and not joints.held[joints.linkage.joint_index[name], 3:].any()
+        ):
             raise ModelError(
                 f"joint {name}",
                 f"turns freely in all ways: {direction} alone is no coordinate of it.",

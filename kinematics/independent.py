@@ -9,8 +9,8 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.given import Given
+from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.mobility import RANK_TOLERANCE
 
 Array = NDArray[Any]

@@ -137,7 +137,9 @@ class JointMotion:
         frames = first.copy()
         two = np.flatnonzero(self._turning == 2)
         for j in two:
-            frames[:, j] = _crossed(first[:, j], second[:, j], int(np.flatnonzero(self._locks[j])[0]))
+            frames[:, j] = _crossed(
+                first[:, j], second[:, j], int(np.flatnonzero(self._locks[j])[0])
+            )
         a, b_ = self.nodes.T
         gaps = positions[:, b_] - positions[:, a]
         moved = np.flatnonzero(self.sliding)
@@ -175,7 +177,9 @@ class JointMotion:
             elif locks.sum() == 2:
                 (e,) = np.flatnonzero(~locks)
                 # R e = e + θ × e to first order
-                open_[:, j, 3:] = cross(np.broadcast_to(np.eye(3)[e], turn[..., e].shape), turn[..., e])
+                open_[:, j, 3:] = cross(
+                    np.broadcast_to(np.eye(3)[e], turn[..., e].shape), turn[..., e]
+                )
             elif locks.any():
                 (d,) = np.flatnonzero(locks)
                 open_[:, j, 3 + d] = -turn[:, (d + 1) % 3, (d + 2) % 3]

@@ -30,8 +30,8 @@ class Moved:
     placement : Placement
         Its values are the coordinates of all joints, turns counted on along the way; its status
         and reasons say which poses were not reached. Those stand where the way ended.
-    tool : Poses
-        Of the tool: where the way ended, for poses that were not reached.
+    tool : Poses or None
+        Of the tool: where the way ended, for poses that were not reached. None without a tool.
     share : (...)
         Of the way that was gone, 1 where the pose was reached.
     error : (...)
@@ -42,7 +42,7 @@ class Moved:
     """
 
     placement: Placement
-    tool: Poses
+    tool: Poses | None
     share: Array
     error: Array
     steps: NDArray[np.intp]
@@ -58,7 +58,9 @@ class Moved:
 
     def coordinate(self, joint: str, direction: str) -> Array:
         """Coordinate of a joint, m or rad, (...)."""
-        return np.asarray(self.placement.values[..., self.placement.names.index((joint, direction))])
+        return np.asarray(
+            self.placement.values[..., self.placement.names.index((joint, direction))]
+        )
 
 
 @dataclass(frozen=True)
@@ -103,7 +105,14 @@ class Motion:
 
     @property
     def home_pose(self) -> Poses:
-        """The tool at home."""
+        """The tool at home.
+
+        Raises
+        ------
+        ModelError
+            The linkage has no tool.
+        """
+        _ = self.linkage.tool_body
         tool = self.linkage.node_index[self.linkage.tool or ""]
         return Poses(self.home.positions[tool], self.rotation)
 
@@ -145,7 +154,8 @@ class Motion:
             Nothing is given, both `tool` and `task` are, a joint or direction that does not
             exist or cannot move at home, or values that are not finite.
         """
-        wanted = given(self.joints, self.home_pose, self.home_values, tool, task, joints)
+        start = self.home_pose if tool is not None or task else None
+        wanted = given(self.joints, start, self.home_values, tool, task, joints)
         walk = Walk(self.joints, self.rotation, wanted)
         walk.go()
         return self._moved(walk, wanted)
@@ -159,12 +169,6 @@ class Motion:
         bodies: BodyPoses = walk.bodies
         positions, frames, _ = self.joints.place(bodies)
         values = walk.coordinates + self.home_values
-        body = self.linkage.tool_body
-        tool = self.linkage.node_index[self.linkage.tool or ""]
-        if body < 0:
-            turned = np.broadcast_to(self.rotation, (len(positions), 3, 3))
-        else:
-            turned = bodies.rotation[:, body] @ self.rotation
         placement = Placement(
             positions.reshape(*batch, *positions.shape[1:]),
             frames.reshape(*batch, *frames.shape[1:]),
@@ -175,8 +179,17 @@ class Motion:
         )
         return Moved(
             placement,
-            Poses(positions[:, tool].reshape(*batch, 3), turned.reshape(*batch, 3, 3)),
+            self._tool(bodies, positions, batch),
             walk.share.reshape(batch),
             walk.error.reshape(batch),
             walk.steps.reshape(batch),
         )
+
+    def _tool(self, bodies: BodyPoses, positions: Array, batch: tuple[int, ...]) -> Poses | None:
+        if self.linkage.tool is None:
+            return None
+        body, node = self.linkage.tool_body, self.linkage.node_index[self.linkage.tool]
+        turned = np.broadcast_to(self.rotation, (len(positions), 3, 3))
+        if body >= 0:
+            turned = bodies.rotation[:, body] @ self.rotation
+        return Poses(positions[:, node].reshape(*batch, 3), turned.reshape(*batch, 3, 3))

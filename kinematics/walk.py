@@ -54,7 +54,8 @@ class Walk:
         self.status = np.zeros(count, dtype=np.int8)
         self.reasons: list[str] = []
         self.active = np.ones(count, dtype=bool)
-        self.bodies_in_tool = joints.linkage.tool_body
+        # the ground's tool never moves: what it is asked depends on nothing and is refused
+        self.tool_body = joints.linkage.tool_body if self._tool_directions else -1
         held = np.argwhere(joints.held)
         pairs = np.concatenate([held, np.stack([wanted.joint, wanted.direction], axis=-1)])
         self.joint, self.direction = pairs[:, 0], pairs[:, 1]
@@ -131,7 +132,9 @@ class Walk:
         """What is open, lengths over L, and derivatives by twists (v / L, ω), (k, r), (k, r, 6b)."""
         positions, frames, gaps = self.joints.place(bodies)
         placement = Placement(positions, frames, np.zeros((len(positions), 0)))
-        matrix = constraint_rows(self.joints.linkage, placement, self.select).on_bodies(bodies.position)[:, self.order]
+        matrix = constraint_rows(self.joints.linkage, placement, self.select).on_bodies(
+            bodies.position
+        )[:, self.order]
         open_ = self.joints.residuals(bodies, gaps)[:, self.joint, self.direction]
         m = len(self.given.joint)
         if m:
@@ -149,7 +152,7 @@ class Walk:
         return tuple(range(6)) if self.given.tool is not None else self.given.task
 
     def _tool(self, bodies: BodyPoses) -> tuple[Array, Array]:
-        b = self.bodies_in_tool
+        b = self.tool_body
         return bodies.position[:, b], bodies.rotation[:, b] @ self.rotation
 
     def _tool_rows(self, at: Indices, bodies: BodyPoses) -> list[Array]:
@@ -157,10 +160,10 @@ class Walk:
         if not asked:
             return []
         rows = np.zeros((len(at), 6, bodies.position.shape[1] * 6))
-        block = rows[:, :, 6 * self.bodies_in_tool : 6 * self.bodies_in_tool + 6]
+        block = rows[:, :, 6 * self.tool_body : 6 * self.tool_body + 6]
         block[:] = np.eye(6)
         if self.given.tool is None:
-            turn = rotation_vector(bodies.rotation[:, self.bodies_in_tool])
+            turn = rotation_vector(bodies.rotation[:, self.tool_body])
             block[:, 3:, 3:] = vector_rates(turn)
         return [rows[:, asked]]
 
@@ -173,9 +176,12 @@ class Walk:
             wanted, turned = self.given.pose(at, share)
             apart = rotation_vector(rotation @ np.swapaxes(turned, -1, -2))
             return [np.concatenate([place - wanted, apart], axis=1)]
-        turn = rotation_vector(bodies.rotation[:, self.bodies_in_tool])
+        turn = rotation_vector(bodies.rotation[:, self.tool_body])
         now = np.concatenate([place, turn], axis=1)[:, asked]
-        home = np.concatenate([self.given.start.position, np.zeros(3)])[asked]
+        start = self.given.start
+        home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])[
+            asked
+        ]
         return [now - home - share[:, None] * (self.given.task_values[at] - home)]
 
     def _coordinates(self, bodies: BodyPoses, gaps: Array, at: Indices) -> Array:
