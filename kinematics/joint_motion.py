@@ -162,7 +162,7 @@ class JointMotion:
             [bodies.rotation, np.broadcast_to(np.eye(3), (len(bodies.rotation), 1, 3, 3))], axis=1
         )
         # the ground is −1, the last
-        return tuple(turns[:, owner[:, k]] @ self.home.frames for k in (0, 1))  # type: ignore[return-value]
+        return tuple(turns[:, owner[:, k]] @ self.home.frames for k in (0, 1))
 
     def residuals(self, bodies: BodyPoses, gaps: Array) -> Array:
         """What the held directions leave open, m and rad, zero in the others, (p, j, 6)."""

@@ -129,7 +129,7 @@ class Walk:
         return bodies, good, error
 
     def _system(self, at: Indices, bodies: BodyPoses, share: Array) -> tuple[Array, Array]:
-        """What is open, lengths over L, and derivatives by twists (v / L, ω), (k, r), (k, r, 6b)."""
+        """What is open, lengths over L, and its rates by (v / L, ω), (k, r) and (k, r, 6b)."""
         positions, frames, gaps = self.joints.place(bodies)
         placement = Placement(positions, frames, np.zeros((len(positions), 0)))
         matrix = constraint_rows(self.joints.linkage, placement, self.select).on_bodies(

@@ -136,7 +136,7 @@ def test_one_coordinate_of_the_tool() -> None:
 def test_the_end_of_reach_is_named_and_the_way_to_it_kept() -> None:
     motion = motion_of(gough())
     start = motion.home_pose
-    far = Poses.of(start.position + [[0.0, 0.0, 0.01], [5.0, 0.0, 0.0]], start.rotation)
+    far = Poses.of(start.position + np.array([[0.0, 0.0, 0.01], [5.0, 0.0, 0.0]]), start.rotation)
     linkage, home = slider_crank(0.7)
     crank = Motion(linkage, home)
     found = crank.move(task={"x": [0.39, 0.41]})
@@ -172,7 +172,9 @@ def test_a_redundant_coordinate_is_fixed_or_moves_least() -> None:
     machine = Prototype3PPPRS()
     motion = motion_of(machine.locked())
     home = motion.home_pose
-    poses = Poses.of(home.position + [[0.0, 0.0, 0.005], [0.004, 0.0, 0.0]], home.rotation)
+    poses = Poses.of(
+        home.position + np.array([[0.0, 0.0, 0.005], [0.004, 0.0, 0.0]]), home.rotation
+    )
     assert motion.move(tool=poses).reached.all()
     linkage, placement = open_chain([[0, 0, 0], [1, 0, 0], [1, 1, 0], [2, 1, 0]], [[0, 0, 1.0]] * 4)
     arm = Motion(linkage, placement)
