@@ -21,6 +21,8 @@ Ints = NDArray[np.int64]
 FULL = {
     "hexahedron": "hexahedron27", "quad": "quad9", "tetra": "tetra10", "triangle": "triangle6"
 }  # fmt: skip
+#: Distance of a middle node from the middle, as a share of its edge, that rounding explains.
+ROUNDED = 1e-6
 SERENDIPITY = {**FULL, "hexahedron": "hexahedron20", "quad": "quad8"}
 
 
@@ -91,6 +93,24 @@ def linear(mesh: Mesh) -> Mesh:
         },
     )
     return without_orphans(lowered)
+
+
+def is_straight(mesh: Mesh) -> bool:
+    """Whether every middle node stands in the middle of its corners, so that `linear` keeps all.
+
+    Nodes off by a millionth of their edge, the rounding of a file, count as in the middle.
+    """
+    return not any(bent_cells(mesh.points, block).any() for block in mesh.blocks)
+
+
+def bent_cells(points: Array, block: CellBlock) -> NDArray[np.bool_]:
+    """Whether a middle node of each cell stands off the middle of its corners, (m,)."""
+    bent = np.zeros(len(block.nodes), dtype=bool)
+    for column in range(block.type.corners, block.type.size):
+        ends = points[block.nodes[:, list(block.type.parents[column])]]
+        off = np.linalg.norm(points[block.nodes[:, column]] - ends.mean(axis=1), axis=-1)
+        bent |= off > ROUNDED * np.linalg.norm(np.ptp(ends, axis=1), axis=-1)
+    return bent
 
 
 def without_orphans(mesh: Mesh) -> Mesh:

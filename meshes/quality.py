@@ -15,6 +15,8 @@ from strutwork.meshes.mesh import CellBlock, Mesh
 Array = NDArray[Any]
 #: Below this a cell is as good as flat, whatever its sign.
 FLAT = 1e-10
+#: Cells worked on at a time: some 100 MB.
+CHUNK = 20_000
 
 
 @dataclass(frozen=True, repr=False)
@@ -24,7 +26,7 @@ class Quality:
     Parameters
     ----------
     scaled_jacobian : (m,)
-        Least over the nodes of a cell: det J over the product of the lengths of its columns,
+        Least over the nodes of a cell, and over the Gauss points of a quadratic one: det J over the product of the lengths of its columns,
         for tetrahedra over the largest such product of a corner, times √2 (Knupp 2000,
         Verdict). 1 is a brick or a regular tetrahedron, 0 flat, negative inverted.
     aspect_ratio : (m,)
@@ -79,7 +81,11 @@ class Quality:
 
 def quality(mesh: Mesh) -> Quality:
     """The quality of every cell."""
-    parts = [_block_quality(mesh.points, block) for block in mesh.blocks if len(block.nodes)]
+    parts = [
+        _block_quality(mesh.points, CellBlock(b.kind, b.nodes[part], b.region[part]))
+        for b in mesh.blocks
+        for part in (slice(i, i + CHUNK) for i in range(0, len(b.nodes), CHUNK))
+    ]
     return Quality(*(np.concatenate(values) for values in zip(*parts, strict=True)))
 
 
@@ -101,13 +107,16 @@ def check_quality(mesh: Mesh, least: float = FLAT) -> Quality:
     bad = np.flatnonzero(~(found.scaled_jacobian > least))
     if len(bad):
         inverted = least <= FLAT
+        bent = any(b.type.order > 1 for b in mesh.blocks)
         raise ModelError(
             f"mesh {mesh.name}",
             f"{len(bad)} of {len(found.volume)} cells are "
             + ("inverted or flat" if inverted else f"below a scaled Jacobian of {least:g}")
             + f"; the worst is cell {found.worst} at {_place(found.centres[found.worst])} "
             f"with a scaled Jacobian of {found.scaled_jacobian[found.worst]:.3g}.",
-            "Check the order of the nodes of these cells, or mesh that place anew.",
+            "Check the order of the nodes of these cells"
+            + (", put middle nodes nearer to the middle of their edges" if bent else "")
+            + ", or mesh that place anew.",
         )
     return found
 
@@ -132,7 +141,11 @@ def _jacobians(points: Array, block: CellBlock, at: Array) -> Array:
 
 def _block_quality(points: Array, block: CellBlock) -> tuple[Array, Array, Array, Array]:
     type_ = block.type
-    jacobians = _jacobians(points, block, type_.reference)
+    at = type_.reference
+    if type_.order > 1:
+        # a bent cell can be inside out where it has no node
+        at = np.concatenate([at, type_.quadrature(type_.field_degree)[0]])
+    jacobians = _jacobians(points, block, at)
     determinants = np.linalg.det(jacobians)
     places = points[block.nodes[:, : type_.corners]]
     edges = np.array(type_.corner_edges)

@@ -11,7 +11,8 @@ import pytest
 from scipy.linalg import eigvalsh
 
 from strutwork.errors import ModelError
-from strutwork.fea.elastic_terms import assembler, elasticity
+from strutwork.fea.elastic_terms import assembler
+from strutwork.fea.elasticity import elasticity
 from strutwork.fea.solid import Solid
 from strutwork.fea.solid_matrices import solid_matrices
 from strutwork.meshes import CellBlock, Mesh, block, joined, moved, quadratic
