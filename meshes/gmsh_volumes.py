@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.meshes.boundary import boundary
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
-from strutwork.meshes.order import without_orphans
+from strutwork.meshes.order import straightened, without_orphans
 from strutwork.meshes.quality import check_quality, quality
 from strutwork.meshes.rows import row_groups
 from strutwork.meshes.self_intersections import check_simple
@@ -70,7 +70,7 @@ def tetrahedra(
     -----
     UserWarning
         The mesh of a STEP file lacks or adds more than 1 % of the exact volume, with the size
-        that reaches it; or curved edges would turn cells inside out and are straight.
+        that reaches it; or curved edges would turn cells inside out, and are straight there.
 
     Raises
     ------
@@ -116,21 +116,29 @@ def tetrahedra(
         if order == 2 and not straight:
             gmsh.model.mesh.optimize("HighOrder")
         mesh = _collect(gmsh, name, scale)
-        inverted = len(quality(mesh).inverted)
-        if inverted and order == 2 and not straight:
-            warnings.warn(
-                f"mesh {name}: {inverted} cells would be inside out with curved edges; all edges "
-                "are straight. Choose smaller cells to keep the curves.",
-                stacklevel=2,
-            )
-            gmsh.model.mesh.setOrder(1)
-            gmsh.option.setNumber("Mesh.SecondOrderLinear", 1)
-            gmsh.model.mesh.setOrder(2)
-            straight, mesh = True, _collect(gmsh, name, scale)
+    if order == 2 and not straight:
+        mesh = _unbent(mesh)
     found = float(check_quality(mesh).volume.sum())
     if not isinstance(source, Surface):
         _compare_volume(name, found, exact, size, curved=order == 2 and not straight)
     return mesh
+
+
+def _unbent(mesh: Mesh) -> Mesh:
+    """The mesh with straight edges where curved ones would turn cells inside out."""
+    # an edge that is made straight may turn a neighbour inside out
+    unbent = np.zeros(0, dtype=np.int64)
+    made = mesh
+    while len(left := np.setdiff1d(quality(made).inverted, unbent)):
+        unbent = np.union1d(unbent, left)
+        made = straightened(made, left)
+    if len(unbent):
+        warnings.warn(
+            f"mesh {mesh.name}: {len(unbent)} of {mesh.cell_count} cells would be inside out with "
+            "curved edges; theirs are straight. Choose smaller cells to keep the curves.",
+            stacklevel=3,
+        )
+    return made
 
 
 def _volume(gmsh: Any, source: Surface | Path | str) -> float:

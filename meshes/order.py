@@ -113,6 +113,27 @@ def bent_cells(points: Array, block: CellBlock) -> NDArray[np.bool_]:
     return bent
 
 
+def straightened(mesh: Mesh, cells: Ints) -> Mesh:
+    """The mesh with the middle nodes of some cells put in the middle of their corners.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    cells : (k,) int
+        Index of each cell, blocks one after another.
+    """
+    points = mesh.points.copy()
+    chosen = np.zeros(mesh.cell_count, dtype=bool)
+    chosen[cells] = True
+    ends = np.cumsum([len(b.nodes) for b in mesh.blocks])[:-1]
+    for block, own in zip(mesh.blocks, np.split(chosen, ends), strict=True):
+        for column in range(block.type.corners, block.type.size):
+            nodes = block.nodes[own]
+            corners = mesh.points[nodes[:, list(block.type.parents[column])]]
+            points[nodes[:, column]] = corners.mean(axis=1)
+    return replace(mesh, points=points)
+
+
 def without_orphans(mesh: Mesh) -> Mesh:
     """The mesh without points that no cell uses; they leave the node sets too."""
     used = np.zeros(len(mesh.points), dtype=bool)

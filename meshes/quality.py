@@ -16,7 +16,7 @@ Array = NDArray[Any]
 #: Below this a cell is as good as flat, whatever its sign.
 FLAT = 1e-10
 #: Cells worked on at a time: some 100 MB.
-CHUNK = 20_000
+CHUNK = 10_000
 
 
 @dataclass(frozen=True, repr=False)
@@ -26,9 +26,11 @@ class Quality:
     Parameters
     ----------
     scaled_jacobian : (m,)
-        Least over the nodes of a cell, and over the Gauss points of a quadratic one: det J over the product of the lengths of its columns,
+        Least over the nodes of a cell: det J over the product of the lengths of its columns,
         for tetrahedra over the largest such product of a corner, times √2 (Knupp 2000,
-        Verdict). 1 is a brick or a regular tetrahedron, 0 flat, negative inverted.
+        Verdict). 1 is a brick or a regular tetrahedron, 0 flat, negative inverted. Of a
+        quadratic cell that is inverted at a point of integration, det J there over the largest
+        of those products.
     aspect_ratio : (m,)
         Longest over shortest edge of a hexahedron; of a tetrahedron its longest edge over
         2√6 times the radius of the inscribed sphere. 1 is best; infinite when flat.
@@ -141,11 +143,7 @@ def _jacobians(points: Array, block: CellBlock, at: Array) -> Array:
 
 def _block_quality(points: Array, block: CellBlock) -> tuple[Array, Array, Array, Array]:
     type_ = block.type
-    at = type_.reference
-    if type_.order > 1:
-        # a bent cell can be inside out where it has no node
-        at = np.concatenate([at, type_.quadrature(type_.field_degree)[0]])
-    jacobians = _jacobians(points, block, at)
+    jacobians = _jacobians(points, block, type_.reference)
     determinants = np.linalg.det(jacobians)
     places = points[block.nodes[:, : type_.corners]]
     edges = np.array(type_.corner_edges)
@@ -161,8 +159,22 @@ def _block_quality(points: Array, block: CellBlock) -> tuple[Array, Array, Array
         scale = np.linalg.norm(jacobians, axis=-1).prod(axis=-1)
         longest, shortest = lengths.max(axis=1), lengths.min(axis=1)
     scaled = np.divide(determinants, scale, out=np.zeros_like(scale), where=scale > 0)
+    least = scaled.min(axis=1)
+    if type_.order > 1:
+        # a bent cell can be inside out where it has no node
+        between = _between_nodes(points, block)
+        largest = scale.max(axis=1)
+        share = np.divide(between, largest, out=np.zeros_like(between), where=largest > 0)
+        least = np.where(share > FLAT, least, np.minimum(least, share))
     aspect = np.divide(longest, shortest, out=np.full_like(longest, np.inf), where=shortest > 0)
-    return scaled.min(axis=1), aspect, volumes, places.mean(axis=1)
+    return least, aspect, volumes, places.mean(axis=1)
+
+
+def _between_nodes(points: Array, block: CellBlock) -> Array:
+    """Least det J of each cell over the Gauss points of stiffness and mass, (m,)."""
+    degrees = (block.type.field_degree, block.type.mass_degree)
+    at = np.concatenate([block.type.quadrature(degree)[0] for degree in degrees])
+    return np.asarray(np.linalg.det(_jacobians(points, block, at)).min(axis=1))
 
 
 def _corner_products(jacobians: Array) -> Array:

@@ -47,7 +47,7 @@ def test_order_is_one_or_two(order: int) -> None:
         Solid(block(SIZE, (1, 1, 1)), {"solid": STEEL}, order)
 
 
-def test_quadratic_geometry_is_refused_with_what_to_do() -> None:
+def test_linear_displacements_on_quadratic_cells_are_refused_with_what_to_do() -> None:
     with pytest.raises(ModelError, match=r"hexahedron27[\s\S]*order=2"):
         Solid(quadratic(block(SIZE, (1, 1, 1))), {"solid": STEEL})
 
