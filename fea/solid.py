@@ -71,7 +71,7 @@ class Solid:
 
     @property
     def kind(self) -> str:
-        """The kind of its cells: `hexahedron`, `hexahedron20`, `hexahedron27`, `tetra`, `tetra10`."""
+        """The kind of its cells: one of `LINEAR` or `QUADRATIC`."""
         return self.mesh.blocks[0].kind
 
     @property

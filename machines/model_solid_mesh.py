@@ -104,7 +104,8 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
     """The mesh of a solid in its own frame, with a patch for every interface.
 
     Mesh lines of a block and of an l_frame fall on the edges of the interfaces' boxes. Curved
-    cells stay so where the order is 2; else their corners are kept. A patch found by a box is named as `patch_name` says.
+    cells stay so where the order is 2; else their corners are kept. A patch found by a box is
+    named as `patch_name` says.
 
     Parameters
     ----------
