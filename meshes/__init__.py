@@ -12,7 +12,14 @@ from strutwork.meshes.l_frame import l_frame
 from strutwork.meshes.mass_properties import MassProperties, mass_properties
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
 from strutwork.meshes.mesh_files import read_mesh, write_mesh
-from strutwork.meshes.order import linear, quadratic, refined, without_orphans
+from strutwork.meshes.order import (
+    is_straight,
+    linear,
+    quadratic,
+    refined,
+    straightened,
+    without_orphans,
+)
 from strutwork.meshes.plate import plate_with_patches
 from strutwork.meshes.quality import Quality, cell_volumes, check_quality, quality
 from strutwork.meshes.selection import in_box, node_set, patch, patches
@@ -63,6 +70,7 @@ __all__ = [
     "grid",
     "hexahedral_block",
     "in_box",
+    "is_straight",
     "joined",
     "l_frame",
     "linear",
@@ -84,6 +92,7 @@ __all__ = [
     "read_mesh",
     "read_surface",
     "refined",
+    "straightened",
     "surface_of",
     "surface_properties",
     "tetrahedra",

@@ -69,8 +69,8 @@ def tetrahedra(
     Warns
     -----
     UserWarning
-        The mesh of a STEP file lacks or adds more than 1 % of the exact volume, with the size
-        that reaches it; or curved edges would turn cells inside out, and are straight there.
+        The mesh lacks or adds more than 1 % of the volume of the part or the surface, with the
+        size that reaches it; or curved edges would turn cells inside out, and are straight there.
 
     Raises
     ------
@@ -119,8 +119,7 @@ def tetrahedra(
     if order == 2 and not straight:
         mesh = _unbent(mesh)
     found = float(check_quality(mesh).volume.sum())
-    if not isinstance(source, Surface):
-        _compare_volume(name, found, exact, size, curved=order == 2 and not straight)
+    _compare_volume(name, found, exact, size, order, straight=straight)
     return mesh
 
 
@@ -149,14 +148,17 @@ def _volume(gmsh: Any, source: Surface | Path | str) -> float:
     return 1e-9 * float(cubic_mm)
 
 
-def _compare_volume(name: str, found: float, exact: float, size: float, *, curved: bool) -> None:
+def _compare_volume(
+    name: str, found: float, exact: float, size: float, order: int, *, straight: bool
+) -> None:
     """Warn of a mesh whose volume is not that of the part, and say which cells would reach it."""
     error = found / exact - 1.0
     if abs(error) <= VOLUME_ERROR:
         return
+    chords = straight or order == 1
     # chords err by the square of the size, parabolas by its fourth power at best
-    reach = 0.9 * size * (VOLUME_ERROR / abs(error)) ** (1.0 / (3.0 if curved else 2.0))
-    other = "" if curved else ", or quadratic cells (order 2)"
+    reach = 0.9 * size * (VOLUME_ERROR / abs(error)) ** (1.0 / (2.0 if chords else 3.0))
+    other = ", or quadratic cells (order 2)" if chords and not straight else ""
     warnings.warn(
         f"mesh {name}: its volume {found:.5g} m³ is {100 * error:+.1f} % off the exact "
         f"{exact:.5g} m³. Cells of {reach:.2g} m should reach 1 %{other}.",
