@@ -209,11 +209,6 @@ def test_cells_bent_within_bounds_keep_their_quality() -> None:
     assert len(found.inverted) == 0
 
 
-def test_linear_displacements_on_quadratic_cells_are_refused() -> None:
-    with pytest.raises(ModelError, match=r"tetra10.*order is 1[\s\S]*order=2[\s\S]*linear"):
-        Solid(bent(cells_of("tetra", SIZE, (1, 1, 1))), {"solid": STEEL}, 1)
-
-
 def test_middle_nodes_in_the_middle_are_straight_up_to_the_rounding_of_a_file() -> None:
     mesh = moved(quadratic(block(SIZE, (2, 1, 1))), translation=(1.0, 2.0, 3.0))
     assert is_straight(mesh)

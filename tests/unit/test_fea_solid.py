@@ -49,7 +49,7 @@ def test_order_is_one_or_two(order: int) -> None:
 
 def test_linear_displacements_on_quadratic_cells_are_refused_with_what_to_do() -> None:
     with pytest.raises(ModelError, match=r"hexahedron27[\s\S]*order=2"):
-        Solid(quadratic(block(SIZE, (1, 1, 1))), {"solid": STEEL})
+        Solid(quadratic(block(SIZE, (1, 1, 1))), {"solid": STEEL}, 1)
 
 
 def test_mixed_cells_are_refused() -> None:
