@@ -14,13 +14,14 @@ import numpy as np
 
 from strutwork.errors import ModelError, ModelWarning, StrutworkError
 from strutwork.machines.model_solid_schema import SolidTable
+from strutwork.meshes.curves import is_straight
 from strutwork.meshes.gmsh_volumes import VOLUME_ERROR, tetrahedra
 from strutwork.meshes.grading import lines_through
 from strutwork.meshes.grids import grid
 from strutwork.meshes.l_frame import l_frame
 from strutwork.meshes.mesh import Mesh
 from strutwork.meshes.mesh_files import read_mesh
-from strutwork.meshes.order import is_straight, linear
+from strutwork.meshes.order import linear
 from strutwork.meshes.quality import cell_volumes, check_quality
 from strutwork.meshes.selection import Box, patches
 from strutwork.meshes.surfaces import read_surface
@@ -136,7 +137,8 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
     if source == "mesh" and table.mesh is not None:
         path = part_file(table.mesh, folder, f"{field}.mesh")
         with at_field(f"{field}.mesh"):
-            mesh = read_mesh(path, table.unit or "m")
+            # of order 1 curves are dropped, and inverted cells that they make with them
+            mesh = read_mesh(path, table.unit or "m", check=table.order == 2)
     elif source == "step" and table.step is not None:
         path = part_file(table.step, folder, f"{field}.step")
         with at_field(f"{field}.step"):
@@ -150,14 +152,18 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
             mesh = _generated(table)
     with at_field(field):
         if any(b.type.order > 1 for b in mesh.blocks):
-            if table.order == 1:
-                curved = float(cell_volumes(mesh).sum())
-                mesh = linear(mesh)
-                check_quality(mesh)
-                _warn_of_lost_volume(table, curved, float(cell_volumes(mesh).sum()))
-            elif is_straight(mesh):
-                mesh = linear(mesh)
+            mesh = _of_order(table, mesh)
     return _with_patches(table, mesh)
+
+
+def _of_order(table: SolidTable, mesh: Mesh) -> Mesh:
+    """Quadratic cells where they are curved and the order is 2, else those of their corners."""
+    if table.order == 2:
+        return linear(mesh) if is_straight(mesh) else mesh
+    corners = linear(mesh)
+    check_quality(corners)
+    _warn_of_lost_volume(table, *(float(cell_volumes(m).sum()) for m in (mesh, corners)))
+    return corners
 
 
 def _warn_of_lost_volume(table: SolidTable, curved: float, straight: float) -> None:

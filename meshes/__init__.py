@@ -4,6 +4,7 @@ from strutwork.meshes.block import block, hexahedral_block
 from strutwork.meshes.boundary import boundary
 from strutwork.meshes.cells import CELL_TYPES, CellType
 from strutwork.meshes.connectivity import Connectivity, check_connectivity, connectivity
+from strutwork.meshes.curves import is_straight, straightened, unbent
 from strutwork.meshes.gltf import GltfPart, to_glb, write_gltf
 from strutwork.meshes.gmsh_volumes import tetrahedra
 from strutwork.meshes.grading import lines, lines_through
@@ -13,11 +14,9 @@ from strutwork.meshes.mass_properties import MassProperties, mass_properties
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
 from strutwork.meshes.mesh_files import read_mesh, write_mesh
 from strutwork.meshes.order import (
-    is_straight,
     linear,
     quadratic,
     refined,
-    straightened,
     without_orphans,
 )
 from strutwork.meshes.plate import plate_with_patches
@@ -98,6 +97,7 @@ __all__ = [
     "tetrahedra",
     "to_glb",
     "tube",
+    "unbent",
     "welded",
     "without_orphans",
     "write_gltf",

@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.meshes.boundary import boundary
+from strutwork.meshes.curves import unbent
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
-from strutwork.meshes.order import straightened, without_orphans
-from strutwork.meshes.quality import check_quality, quality
+from strutwork.meshes.order import without_orphans
+from strutwork.meshes.quality import check_quality
 from strutwork.meshes.rows import row_groups
 from strutwork.meshes.self_intersections import check_simple
 from strutwork.meshes.surfaces import Surface, check_closed, check_one_body
@@ -124,16 +125,11 @@ def tetrahedra(
 
 
 def _unbent(mesh: Mesh) -> Mesh:
-    """The mesh with straight edges where curved ones would turn cells inside out."""
-    # an edge that is made straight may turn a neighbour inside out
-    unbent = np.zeros(0, dtype=np.int64)
-    made = mesh
-    while len(left := np.setdiff1d(quality(made).inverted, unbent)):
-        unbent = np.union1d(unbent, left)
-        made = straightened(made, left)
-    if len(unbent):
+    """The mesh without cells that curves turn inside out, and a warning that says so."""
+    made, cells = unbent(mesh)
+    if len(cells):
         warnings.warn(
-            f"mesh {mesh.name}: {len(unbent)} of {mesh.cell_count} cells would be inside out with "
+            f"mesh {mesh.name}: {len(cells)} of {mesh.cell_count} cells would be inside out with "
             "curved edges; theirs are straight. Choose smaller cells to keep the curves.",
             stacklevel=3,
         )

@@ -21,8 +21,6 @@ Ints = NDArray[np.int64]
 FULL = {
     "hexahedron": "hexahedron27", "quad": "quad9", "tetra": "tetra10", "triangle": "triangle6"
 }  # fmt: skip
-#: Distance of a middle node from the middle, as a share of its edge, that rounding explains.
-ROUNDED = 1e-6
 SERENDIPITY = {**FULL, "hexahedron": "hexahedron20", "quad": "quad8"}
 
 
@@ -93,45 +91,6 @@ def linear(mesh: Mesh) -> Mesh:
         },
     )
     return without_orphans(lowered)
-
-
-def is_straight(mesh: Mesh) -> bool:
-    """Whether every middle node stands in the middle of its corners, so that `linear` keeps all.
-
-    Nodes off by a millionth of their edge, the rounding of a file, count as in the middle.
-    """
-    return not any(bent_cells(mesh.points, block).any() for block in mesh.blocks)
-
-
-def bent_cells(points: Array, block: CellBlock) -> NDArray[np.bool_]:
-    """Whether a middle node of each cell stands off the middle of its corners, (m,)."""
-    bent = np.zeros(len(block.nodes), dtype=bool)
-    for column in range(block.type.corners, block.type.size):
-        ends = points[block.nodes[:, list(block.type.parents[column])]]
-        off = np.linalg.norm(points[block.nodes[:, column]] - ends.mean(axis=1), axis=-1)
-        bent |= off > ROUNDED * np.linalg.norm(np.ptp(ends, axis=1), axis=-1)
-    return bent
-
-
-def straightened(mesh: Mesh, cells: Ints) -> Mesh:
-    """The mesh with the middle nodes of some cells put in the middle of their corners.
-
-    Parameters
-    ----------
-    mesh : Mesh
-    cells : (k,) int
-        Index of each cell, blocks one after another.
-    """
-    points = mesh.points.copy()
-    chosen = np.zeros(mesh.cell_count, dtype=bool)
-    chosen[cells] = True
-    ends = np.cumsum([len(b.nodes) for b in mesh.blocks])[:-1]
-    for block, own in zip(mesh.blocks, np.split(chosen, ends), strict=True):
-        for column in range(block.type.corners, block.type.size):
-            nodes = block.nodes[own]
-            corners = mesh.points[nodes[:, list(block.type.parents[column])]]
-            points[nodes[:, column]] = corners.mean(axis=1)
-    return replace(mesh, points=points)
 
 
 def without_orphans(mesh: Mesh) -> Mesh:

@@ -21,7 +21,6 @@ from strutwork.fea.solid_loads import gravity_load, pressure_load
 from strutwork.fea.solid_matrices import SolidMatrices, solid_matrices
 from strutwork.fea.superelement import superelement
 from strutwork.meshes import (
-    block,
     boundary,
     cell_volumes,
     joined,
@@ -32,8 +31,9 @@ from strutwork.meshes import (
     tube,
 )
 from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.curves import unbent
 from strutwork.meshes.mesh import CellBlock, Mesh
-from strutwork.meshes.order import is_straight, linear, quadratic, straightened
+from strutwork.meshes.order import linear, quadratic
 from strutwork.meshes.quality import check_quality, quality
 from tests.solid_cases import CURVED, GRANITE, STEEL, bent, cells_of, distorted, in_two_regions
 from tests.solid_cases import matrices_of as of
@@ -205,7 +205,13 @@ def test_a_cell_that_is_inverted_between_its_nodes_alone_is_named(shift: np.ndar
     assert np.linalg.det(jacobians).min() > 0.01
     with pytest.raises(ModelError, match=r"1 of 2 cells are inverted .* cell 1 at \(0\.25"):
         Solid(mesh, {"solid": STEEL})
-    check_quality(straightened(mesh, np.array([1])))
+    # the sound cell keeps its curves, and a name tells which did not
+    made, cells = unbent(mesh)
+    check_quality(made)
+    assert cells.tolist() == [1]
+    np.testing.assert_array_equal(
+        made.points[made.blocks[0].nodes[0]], mesh.points[mesh.blocks[0].nodes[0]]
+    )
 
 
 def test_cells_bent_within_bounds_keep_their_quality() -> None:
@@ -213,29 +219,6 @@ def test_cells_bent_within_bounds_keep_their_quality() -> None:
     found = quality(mesh)
     assert found.scaled_jacobian[0] > 0.05
     assert len(found.inverted) == 0
-
-
-def test_middle_nodes_in_the_middle_are_straight_up_to_the_rounding_of_a_file() -> None:
-    mesh = moved(quadratic(block(SIZE, (2, 1, 1))), translation=(1.0, 2.0, 3.0))
-    assert is_straight(mesh)
-    assert is_straight(replace(mesh, points=mesh.points.astype(np.float32)))
-    off = mesh.points.copy()
-    off[-1] += 1e-5
-    assert not is_straight(replace(mesh, points=off))
-    assert is_straight(linear(bent(block(SIZE, (1, 1, 1)))))
-
-
-def test_straightened_cells_alone_lose_their_bends() -> None:
-    mesh = bent(cells_of("tetra", SIZE, (2, 1, 1)))
-    made = straightened(mesh, np.array([3]))
-    own = mesh.blocks[0].nodes[3]
-    moved_ = np.flatnonzero((made.points != mesh.points).any(axis=1))
-    assert set(moved_) == set(own[4:])
-    ends = [list(p) for p in CELL_TYPES["tetra10"].parents[4:]]
-    for node, (a, b) in zip(own[4:], ends, strict=True):
-        np.testing.assert_allclose(
-            made.points[node], (made.points[own[a]] + made.points[own[b]]) / 2, atol=1e-15
-        )
 
 
 def test_pictures_and_files_show_the_curved_faces(tmp_path: Path) -> None:

@@ -190,6 +190,20 @@ def test_an_inverted_curved_cell_of_a_file_is_named_with_its_field(tmp_path: Pat
         solid_mesh(table, tmp_path)
 
 
+def test_of_order_1_an_inverted_curve_does_not_matter(tmp_path: Path) -> None:
+    made = rod_of_tetrahedra()
+    points = made.points.copy()
+    cell = made.blocks[0].nodes[7]
+    points[cell[4]] = 2.0 * points[cell[3]] - points[cell[4]]
+    write_mesh(Mesh(points, made.blocks, made.regions), tmp_path / "bad.vtu")
+    table = SolidTable(name="ring", mesh="bad.vtu", material="steel", order=1, interfaces=[])
+    with warnings.catch_warnings():
+        # what the wild curve holds is no volume to compare with
+        warnings.simplefilter("ignore", ModelWarning)
+        found = solid_mesh(table, tmp_path)
+    assert cell_volumes(found).min() > 0.0
+
+
 @pytest.mark.parametrize(("order", "lack"), [(1, 0.01), (2, 1e-4)])
 def test_a_generated_tube_lacks_less_than_one_percent(order: int, lack: float) -> None:
     table = SolidTable(
