@@ -20,10 +20,10 @@ Array = NDArray[Any]
 #: Poses handed to a thread at once.
 PIECE = 8192
 
-#: A pose whose error, by the correction of one wrench in the norm of its work, exceeds this is solved
-#: again with diagnosis: half of what is trusted, for the estimate is good to a few per cent. Poses
-#: near a singularity lose digits so; solving one again costs as much as thousands here.
-ERROR_LIMIT = 0.5 * TRUSTED
+#: A pose whose error, by the correction of one wrench in the norm of its work, exceeds this is
+#: solved again with diagnosis: a tenth of what is trusted, for the estimate was seen to fall short
+#: fourfold. Poses near a singularity lose digits so; solving one again costs as much as thousands.
+ERROR_LIMIT = 0.1 * TRUSTED
 
 #: A pose whose smallest pivot is below this share of its diagonal entry likewise.
 PIVOT_LIMIT = 1e-5
