@@ -1,4 +1,4 @@
-"""Stiffness and mass of elastic cells by SfePy, with its output kept off the standard output."""
+"""Stiffness and mass of straight cells by SfePy, with its output kept off the standard output."""
 
 from __future__ import annotations
 
@@ -8,21 +8,32 @@ import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from strutwork.errors import NumericalError
+from strutwork.fea.curved_terms import CurvedAssembler
+from strutwork.fea.elasticity import elasticity
 from strutwork.fea.sfepy_home import import_sfepy
 from strutwork.fea.solid import Solid
-from strutwork.msa.materials import Material
+from strutwork.meshes.mesh import Mesh
+from strutwork.meshes.order import quadratic
+from strutwork.meshes.transform import renumbered
 
 Array = NDArray[Any]
 GEOMETRIES = {"hexahedron": "3_8", "tetra": "3_4"}
 #: Nodes of a cell by kind and order.
 GROUP_NODES = {("hexahedron", 1): 8, ("hexahedron", 2): 27, ("tetra", 1): 4, ("tetra", 2): 10}
+#: SfePy's node of a cell for each node in the order of VTK.
+NODE_ORDER = {
+    ("hexahedron", 1): (*range(8),),
+    ("hexahedron", 2): (*range(20), 21, 24, 22, 25, 20, 23, 26),
+    ("tetra", 1): (*range(4),),
+    ("tetra", 2): (*range(10),),
+}
 #: Entries of cell matrices that are held at a time: 80 MB.
 GROUP_ENTRIES = 10_000_000
 
@@ -65,17 +76,21 @@ def sfepy() -> SimpleNamespace:
     )  # fmt: skip
 
 
-def elasticity(material: Material) -> Array:
-    """Stresses per engineering strain, Pa, (6, 6), in the order xx, yy, zz, xy, xz, yz."""
-    ratio, shear = material.poissons_ratio, material.shear_modulus
-    lame = 2.0 * shear * ratio / (1.0 - 2.0 * ratio)
-    law = np.diag([2.0 * shear] * 3 + [shear] * 3)
-    law[:3, :3] += lame
-    return law
+class Assembler(Protocol):
+    """A solid that can be assembled."""
+
+    def field_mesh(self) -> Mesh:
+        """The mesh of the field: the nodes of the solid's mesh first and in its order."""
+
+    def stiffness(self, weights: dict[str, float] | None = None) -> sp.csc_array:
+        """Stiffness, N/m, (3n, 3n); with `weights` each region's share times its weight."""
+
+    def mass(self) -> sp.csc_array:
+        """Consistent mass, kg, (3n, 3n)."""
 
 
 @dataclass(frozen=True, repr=False)
-class Assembler:
+class StraightAssembler:
     """A solid in SfePy: its field and how to assemble it.
 
     Parameters
@@ -98,7 +113,19 @@ class Assembler:
     domain: Any
 
     def __repr__(self) -> str:
-        return f"Assembler({self.solid.name}: {len(self.points)} nodes)"
+        return f"StraightAssembler({self.solid.name}: {len(self.points)} nodes)"
+
+    def field_mesh(self) -> Mesh:
+        """The mesh of the field in SfePy's numbering, with the patches and node sets."""
+        if self.solid.order == 1:
+            return self.solid.mesh
+        mesh = quadratic(self.solid.mesh)
+        ours = np.concatenate([b.nodes for b in mesh.blocks])
+        number = np.empty(len(mesh.points), dtype=np.int64)
+        number[ours] = self.cells[:, NODE_ORDER[self.solid.kind, self.solid.order]]
+        points = np.empty_like(mesh.points)
+        points[number] = mesh.points
+        return renumbered(mesh, points, number)
 
     def stiffness(self, weights: dict[str, float] | None = None) -> sp.csc_array:
         """Stiffness, N/m, (3n, 3n); with `weights` each region's share times its weight."""
@@ -151,12 +178,14 @@ class Assembler:
 
 
 def assembler(solid: Solid) -> Assembler:
-    """The solid brought into SfePy."""
+    """What assembles the solid: SfePy where its cells are linear, else their own mapping."""
+    if solid.keeps_curves:
+        return CurvedAssembler(solid)
     with _quiet():
-        return _assembler(solid)
+        return _straight(solid)
 
 
-def _assembler(solid: Solid) -> Assembler:
+def _straight(solid: Solid) -> StraightAssembler:
     lib = sfepy()
     group, regions = _groups(solid)
     mesh = lib.Mesh.from_data(
@@ -169,7 +198,7 @@ def _assembler(solid: Solid) -> Assembler:
         domain.create_region(f"group{index}", f"cells of group {index}")
     field = lib.Field.from_args("field", np.float64, "scalar", omega, approx_order=solid.order)
     cells = np.asarray(field.econn, dtype=np.int64)
-    return Assembler(solid, np.array(field.get_coor()), cells, regions, domain)
+    return StraightAssembler(solid, np.array(field.get_coor()), cells, regions, domain)
 
 
 def _groups(solid: Solid) -> tuple[NDArray[np.int32], tuple[str, ...]]:

@@ -26,6 +26,9 @@ ROW_ENTRIES = {
     ("hexahedron", 2): 192,
     ("tetra", 1): 45,
     ("tetra", 2): 84,
+    ("hexahedron20", 2): 175,
+    ("hexahedron27", 2): 192,
+    ("tetra10", 2): 84,
 }
 
 #: Bytes of each entry while a solid is assembled: stiffness, mass, their symmetric sums and the
@@ -39,12 +42,13 @@ def solid_dofs(kind: str, order: int, points: int, cells: int) -> int:
     Parameters
     ----------
     kind : str
-        `hexahedron` or `tetra`.
+        Of the mesh's cells: `hexahedron`, `tetra10`, ...
     order : int
     points, cells : int
         Of the mesh.
     """
-    if order == 1:
+    if order == 1 or kind not in {"hexahedron", "tetra"}:
+        # the points of quadratic cells are all there are
         return 3 * points
     # a hexahedron has a node of its own, three faces, three edges and a corner; a tetrahedron
     # seven sixths of an edge

@@ -140,6 +140,19 @@ def modes(
     ValidityWarning
         A frequency above half the cutoff of a superelement.
     """
+    found = searched_modes(placed, count, preload, method)
+    known = found.frequencies[np.isfinite(found.frequencies)]
+    warn_beyond(placed, float(known.max(initial=0.0)))
+    return found
+
+
+def searched_modes(
+    placed: PlacedStructure,
+    count: int = 10,
+    preload: Array | None = None,
+    method: Method | None = None,
+) -> Modes:
+    """As `modes`, without a word on superelements: for those who show some of the modes only."""
     if count < 1:
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
     if method not in (None, "dense", "sparse"):
@@ -173,7 +186,6 @@ def modes(
         effective, shares = effective[:, :exist], shares[:, :exist]
     if not np.all(np.isfinite(shapes[outcome.solved])):
         raise NumericalError("mode shapes", "are not finite.", "Check masses and stiffnesses.")
-    warn_beyond(placed, float(frequencies[np.isfinite(frequencies)].max(initial=0.0)))
     batch = placed.batch
     # parts have the same names at every pose; at one without an answer they may have no numbers
     one = system_of(system.placed[np.flatnonzero(outcome.solved)[:1]])

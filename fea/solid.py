@@ -17,8 +17,9 @@ from strutwork.meshes.quality import check_quality
 from strutwork.msa.materials import Material
 
 Array = NDArray[Any]
-#: The kinds of cell whose geometry SfePy maps.
-KINDS = ("hexahedron", "tetra")
+#: Cells with straight edges, and those whose middle nodes bend them.
+LINEAR = ("hexahedron", "tetra")
+QUADRATIC = ("hexahedron20", "hexahedron27", "tetra10")
 
 
 @dataclass(frozen=True, repr=False)
@@ -28,12 +29,14 @@ class Solid:
     Parameters
     ----------
     mesh : Mesh
-        Of eight-node hexahedra or of four-node tetrahedra.
+        Of one kind of cell. Where it is quadratic, the middle nodes carry the displacements and
+        bend the cells: curved faces keep their place, and the solid its volume.
     materials : mapping of str to Material
         The material of each region of the mesh.
     order : int
         1 or 2: linear or quadratic displacements in each cell. Linear cells are too stiff in
-        bending and near incompressibility; quadratic ones are the default.
+        bending and near incompressibility; quadratic ones are the default, and the order of
+        quadratic cells.
     name : str
         For messages; by default the mesh's.
 
@@ -68,12 +71,17 @@ class Solid:
 
     @property
     def kind(self) -> str:
-        """The kind of its cells: `hexahedron` or `tetra`."""
+        """The kind of its cells: one of `LINEAR` or `QUADRATIC`."""
         return self.mesh.blocks[0].kind
 
     @property
+    def keeps_curves(self) -> bool:
+        """Whether its cells are quadratic, so that their edges and faces may be curved."""
+        return self.kind in QUADRATIC
+
+    @property
     def cells(self) -> NDArray[np.int64]:
-        """Corner nodes of all cells, blocks one after another, (m, 8) or (m, 4)."""
+        """Nodes of all cells in the order of VTK, blocks one after another, (m, k)."""
         return np.concatenate([b.nodes for b in self.mesh.blocks])
 
     @property
@@ -98,12 +106,18 @@ class Solid:
     def _check_cells(self) -> None:
         kinds = list(dict.fromkeys(b.kind for b in self.mesh.blocks))
         for kind in kinds:
-            if kind not in KINDS:
+            if kind not in LINEAR + QUADRATIC:
                 raise ModelError(
                     self._part,
                     f"its mesh has cells of type {kind!r}.",
-                    f"Use {' or '.join(KINDS)} (`strutwork.meshes.order.linear` keeps the corners) "
-                    "and order=2 for quadratic displacements.",
+                    f"Use {' or '.join(LINEAR + QUADRATIC)}.",
+                )
+            if kind in QUADRATIC and self.order == 1:
+                raise ModelError(
+                    self._part,
+                    f"its mesh has cells of type {kind!r}, and its order is 1.",
+                    "Choose order=2, or keep their corners alone by `strutwork.meshes.order.linear`"
+                    ", which makes curved edges straight and takes volume.",
                 )
         if len(kinds) > 1:
             raise ModelError(

@@ -102,7 +102,8 @@ def surface_field(
     name : str
         Of the values, with their unit.
     fine : bool
-        Use the nodes in the middle of edges and faces too: four times the triangles.
+        Use the nodes in the middle of edges and faces too: four times the triangles. Of a solid
+        with quadratic cells they are always used, since its faces may be curved.
 
     Raises
     ------

@@ -11,22 +11,13 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea.elastic_terms import Assembler, assembler
+from strutwork.fea.elastic_terms import assembler
 from strutwork.fea.solid import Solid
 from strutwork.meshes.mesh import Mesh
-from strutwork.meshes.order import quadratic
 from strutwork.meshes.surface_integrals import nodal_areas
-from strutwork.meshes.transform import renumbered
 
 Array = NDArray[Any]
 Ints = NDArray[np.int64]
-#: SfePy's node of a cell for each node in the order of VTK.
-NODE_ORDER = {
-    ("hexahedron", 1): (*range(8),),
-    ("hexahedron", 2): (*range(20), 21, 24, 22, 25, 20, 23, 26),
-    ("tetra", 1): (*range(4),),
-    ("tetra", 2): (*range(10),),
-}
 
 
 @dataclass(frozen=True, repr=False)
@@ -153,7 +144,7 @@ class SolidMatrices:
 
 
 def solid_matrices(solid: Solid) -> SolidMatrices:
-    """Stiffness and consistent mass of a solid, assembled by SfePy.
+    """Stiffness and consistent mass of a solid, assembled by SfePy where its cells are linear.
 
     Gauss quadrature exact to twice the order of the field in each direction, so that a free
     solid has its six rigid motions and no other without energy.
@@ -174,17 +165,4 @@ def solid_matrices(solid: Solid) -> SolidMatrices:
     parts = assembler(solid)
     stiffness = parts.stiffness()
     mass = parts.mass() if solid.has_density else None
-    return SolidMatrices(solid, _field_mesh(solid, parts), stiffness, mass)
-
-
-def _field_mesh(solid: Solid, parts: Assembler) -> Mesh:
-    """The mesh of the field in SfePy's numbering, with the patches and node sets."""
-    if solid.order == 1:
-        return solid.mesh
-    mesh = quadratic(solid.mesh)
-    ours = np.concatenate([b.nodes for b in mesh.blocks])
-    number = np.empty(len(mesh.points), dtype=np.int64)
-    number[ours] = parts.cells[:, NODE_ORDER[solid.kind, solid.order]]
-    points = np.empty_like(mesh.points)
-    points[number] = mesh.points
-    return renumbered(mesh, points, number)
+    return SolidMatrices(solid, parts.field_mesh(), stiffness, mass)

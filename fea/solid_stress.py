@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea.elastic_terms import elasticity
+from strutwork.fea.elasticity import elasticity
 from strutwork.fea.solid_matrices import SolidMatrices
 from strutwork.meshes.cells import CellType
 

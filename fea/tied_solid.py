@@ -18,7 +18,7 @@ from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
 
-#: Largest residual of a static solution, as a share of its largest force.
+#: Largest error of a static solution, as a share of its largest displacement.
 RESIDUAL = 1e-6
 
 
@@ -216,20 +216,23 @@ class StaticSolver:
         Raises
         ------
         NumericalError
-            Residuals that are not small.
+            Solutions that are not certain to `RESIDUAL`.
         """
         solid = self.solid
         k = solid.ports.shape[1]
         shapes, pushes = self.solve(np.zeros((solid.stiffness.shape[0], k)), np.eye(k))
-        left = solid.stiffness @ shapes - solid.ports @ pushes
-        size = np.abs(solid.stiffness).max() * max(float(np.abs(shapes).max(initial=0.0)), 1e-300)
-        if np.abs(left).max(initial=0.0) > RESIDUAL * size:
+        # what is left of the balance, solved for again, is the error
+        left = solid.ports @ pushes - solid.stiffness @ shapes
+        correction, _ = self.solve(left)
+        error = np.abs(correction).max(axis=0, initial=0.0)
+        largest = np.abs(shapes).max(axis=0, initial=0.0)
+        if not np.all(error <= RESIDUAL * largest):
             raise NumericalError(
                 f"solid {solid.name}",
-                "its static solutions are not in balance.",
+                f"its static solutions are certain to {float(np.max(error / largest)):.2g} only.",
                 "Look for badly shaped cells or stiffnesses that differ too much.",
             )
-        return shapes
+        return np.asarray(shapes + correction)
 
 
 def _dofs(nodes: NDArray[np.intp]) -> NDArray[np.intp]:

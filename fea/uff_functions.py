@@ -213,11 +213,17 @@ def _binary(source: DataSet, body: bytes, kind: int, count: int, even: bool) -> 
     if not even and kind in (4, 6) and len(body) == count * narrow.itemsize:
         # the format has abscissae of single precision, most programs write all numbers alike
         rows = np.frombuffer(body, dtype=narrow)
-        return np.column_stack([rows["x"], rows["y"]]).astype(float).ravel()
+        return _doubles(np.column_stack([rows["x"], rows["y"]])).ravel()
     size = count * (values + (not even)) * real.itemsize
-    return np.frombuffer(
-        body[:size], dtype=real, count=min(size, len(body)) // real.itemsize
-    ).astype(float)
+    return _doubles(
+        np.frombuffer(body[:size], dtype=real, count=min(size, len(body)) // real.itemsize)
+    )
+
+
+def _doubles(numbers: Array) -> Array:
+    # a signalling NaN of single precision raises here; what is not finite is refused by its reader
+    with np.errstate(invalid="ignore"):
+        return np.asarray(numbers, dtype=float)
 
 
 def named_functions(

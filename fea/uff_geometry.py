@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.fea.uff_axes import CARTESIAN, GLOBAL, Axes, axes_of, systems_18, systems_2420
 from strutwork.fea.uff_sets import DataSet, Records
+from strutwork.units import LONGEST
 
 Array = NDArray[Any]
 
@@ -69,9 +70,11 @@ class Geometry:
                 place = place / length
             if source.kind == 15:
                 place = self._global(place, defined_in, f"{source.part}, node {number}")
-            if not np.all(np.isfinite(place)):
+            if not np.all(np.abs(place) <= LONGEST):
                 raise ModelError(
-                    source.part, f"has a place beyond all numbers at node {number}.", "Correct it."
+                    source.part,
+                    f"has a place further away than {LONGEST:g} m at node {number}.",
+                    "Correct it, or the unit of lengths.",
                 )
             self._place(number, place)
             self.motion_in[number] = moves_in

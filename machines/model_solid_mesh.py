@@ -14,7 +14,7 @@ import numpy as np
 
 from strutwork.errors import ModelError, ModelWarning, StrutworkError
 from strutwork.machines.model_solid_schema import SolidTable
-from strutwork.meshes.cells import CELL_TYPES
+from strutwork.meshes.curves import is_straight
 from strutwork.meshes.gmsh_volumes import VOLUME_ERROR, tetrahedra
 from strutwork.meshes.grading import lines_through
 from strutwork.meshes.grids import grid
@@ -35,8 +35,9 @@ MAX_PART = 500_000_000
 #: Generated meshes of more cells are refused.
 MAX_CELLS = 200_000
 
-#: Cells around a tube: its section is a polygon, 1.1 % short of the ring with these.
-LEAST_AROUND = 24
+#: Cells around a tube, by the order: of straight ones the section is a polygon, 0.8 % short of
+#: the ring with these.
+LEAST_AROUND = {1: 28, 2: 24}
 
 #: How far a face may stand out of a box, as a share of the mesh's diagonal.
 BOX_SLACK = 1e-6
@@ -103,8 +104,9 @@ def check_source(table: SolidTable) -> str:
 def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
     """The mesh of a solid in its own frame, with a patch for every interface.
 
-    Mesh lines of a block and of an l_frame fall on the edges of the interfaces' boxes. Of
-    quadratic cells the corners are kept. A patch found by a box is named as `patch_name` says.
+    Mesh lines of a block and of an l_frame fall on the edges of the interfaces' boxes. Curved
+    cells stay so where the order is 2; else their corners are kept. A patch found by a box is
+    named as `patch_name` says.
 
     Parameters
     ----------
@@ -125,15 +127,18 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
     Warns
     -----
     ModelWarning
-        Straight edges take more than 1 % of the volume of curved cells; with the size that
-        reaches it.
+        Straight edges, of order 1, take more than 1 % of the volume of curved cells; with the
+        size that reaches it.
+    UserWarning
+        Of a STEP file, as `tetrahedra`.
     """
     source = check_source(table)
     field = field_of(table)
     if source == "mesh" and table.mesh is not None:
         path = part_file(table.mesh, folder, f"{field}.mesh")
         with at_field(f"{field}.mesh"):
-            mesh = read_mesh(path, table.unit or "m")
+            # of order 1 curves are dropped, and inverted cells that they make with them
+            mesh = read_mesh(path, table.unit or "m", check=table.order == 2)
     elif source == "step" and table.step is not None:
         path = part_file(table.step, folder, f"{field}.step")
         with at_field(f"{field}.step"):
@@ -146,12 +151,19 @@ def solid_mesh(table: SolidTable, folder: Path) -> Mesh:
         with at_field(field):
             mesh = _generated(table)
     with at_field(field):
-        if any(CELL_TYPES[b.kind].linear_kind != b.kind for b in mesh.blocks):
-            curved = float(cell_volumes(mesh).sum())
-            mesh = linear(mesh)
-            check_quality(mesh)
-            _warn_of_lost_volume(table, curved, float(cell_volumes(mesh).sum()))
+        if any(b.type.order > 1 for b in mesh.blocks):
+            mesh = _of_order(table, mesh)
     return _with_patches(table, mesh)
+
+
+def _of_order(table: SolidTable, mesh: Mesh) -> Mesh:
+    """Quadratic cells where they are curved and the order is 2, else those of their corners."""
+    if table.order == 2:
+        return linear(mesh) if is_straight(mesh) else mesh
+    corners = linear(mesh)
+    check_quality(corners)
+    _warn_of_lost_volume(table, *(float(cell_volumes(m).sum()) for m in (mesh, corners)))
+    return corners
 
 
 def _warn_of_lost_volume(table: SolidTable, curved: float, straight: float) -> None:
@@ -162,14 +174,14 @@ def _warn_of_lost_volume(table: SolidTable, curved: float, straight: float) -> N
     # chords err by the square of their length
     finer = 0.9 * (VOLUME_ERROR / abs(error)) ** 0.5
     size = (
-        f"Mesh it {1.0 / finer:.2g} times finer to reach 1 %."
+        f"Mesh it {1.0 / finer:.2g} times finer to reach 1 %"
         if table.cell is None
-        else f"Cells of {finer * table.cell:.2g} m should reach 1 %."
+        else f"Cells of {finer * table.cell:.2g} m should reach 1 %"
     )
     warnings.warn(
         f"{field_of(table)}: the edges of its cells are straight, and its volume {straight:.5g} m³ "
         f"is {100 * error:+.1f} % off the {curved:.5g} m³ of its curved faces; mass, stiffness and "
-        f"frequencies are of that order. {size}",
+        f"frequencies are of that order. {size}; order = 2 keeps the curves.",
         ModelWarning,
         stacklevel=3,
     )
@@ -233,11 +245,12 @@ def _generated(table: SolidTable) -> Mesh:
         plate, base = _given(table.plate), _given(table.base)
         return l_frame(envelope, plate, base, size=cell, stops=further, name=name)
     inner, outer = _given(table.inner_diameter) / 2.0, _given(table.outer_diameter) / 2.0
-    lengths = (outer - inner, max(LEAST_AROUND * cell, 2.0 * pi * outer), _given(table.length))
+    around = max(LEAST_AROUND[table.order] * cell, 2.0 * pi * outer)
+    lengths = (outer - inner, around, _given(table.length))
     _check_count(lengths, cell)
     # a length that is a whole number of cells must not gain one by rounding
     divisions = [max(1, ceil(length / cell * (1.0 - 1e-9))) for length in lengths]
-    return tube(inner, outer, lengths[2], divisions, name=name)
+    return tube(inner, outer, lengths[2], divisions, order=table.order, name=name)
 
 
 def _given(value: Value | None) -> Value:

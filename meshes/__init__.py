@@ -4,6 +4,7 @@ from strutwork.meshes.block import block, hexahedral_block
 from strutwork.meshes.boundary import boundary
 from strutwork.meshes.cells import CELL_TYPES, CellType
 from strutwork.meshes.connectivity import Connectivity, check_connectivity, connectivity
+from strutwork.meshes.curves import is_straight, straightened, unbent
 from strutwork.meshes.gltf import GltfPart, to_glb, write_gltf
 from strutwork.meshes.gmsh_volumes import tetrahedra
 from strutwork.meshes.grading import lines, lines_through
@@ -12,7 +13,12 @@ from strutwork.meshes.l_frame import l_frame
 from strutwork.meshes.mass_properties import MassProperties, mass_properties
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
 from strutwork.meshes.mesh_files import read_mesh, write_mesh
-from strutwork.meshes.order import linear, quadratic, refined, without_orphans
+from strutwork.meshes.order import (
+    linear,
+    quadratic,
+    refined,
+    without_orphans,
+)
 from strutwork.meshes.plate import plate_with_patches
 from strutwork.meshes.quality import Quality, cell_volumes, check_quality, quality
 from strutwork.meshes.selection import in_box, node_set, patch, patches
@@ -63,6 +69,7 @@ __all__ = [
     "grid",
     "hexahedral_block",
     "in_box",
+    "is_straight",
     "joined",
     "l_frame",
     "linear",
@@ -84,11 +91,13 @@ __all__ = [
     "read_mesh",
     "read_surface",
     "refined",
+    "straightened",
     "surface_of",
     "surface_properties",
     "tetrahedra",
     "to_glb",
     "tube",
+    "unbent",
     "welded",
     "without_orphans",
     "write_gltf",

@@ -94,6 +94,16 @@ class CellType:
         """Degree of det J of a solid in each reference coordinate."""
         return 3 * (self.order - 1) if self.is_simplex else 3 * self.order - 1
 
+    @property
+    def field_degree(self) -> int:
+        """Degree of the Gauss rule for the stiffness: 2 or 3 points in each direction."""
+        return 2 * self.order
+
+    @property
+    def mass_degree(self) -> int:
+        """Degree of the Gauss rule that is exact for the mass of a curved solid."""
+        return self.jacobian_degree + 2 * self.order
+
     @cached_property
     def reference(self) -> Array:
         """Reference coordinates of the nodes, (n, dimension)."""

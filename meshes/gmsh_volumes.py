@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.meshes.boundary import boundary
+from strutwork.meshes.curves import unbent
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
 from strutwork.meshes.order import without_orphans
-from strutwork.meshes.quality import check_quality, quality
+from strutwork.meshes.quality import check_quality
 from strutwork.meshes.rows import row_groups
 from strutwork.meshes.self_intersections import check_simple
 from strutwork.meshes.surfaces import Surface, check_closed, check_one_body
@@ -69,8 +70,8 @@ def tetrahedra(
     Warns
     -----
     UserWarning
-        The mesh of a STEP file lacks or adds more than 1 % of the exact volume, with the size
-        that reaches it; or curved edges would turn cells inside out and are straight.
+        The mesh lacks or adds more than 1 % of the volume of the part or the surface, with the
+        size that reaches it; or curved edges would turn cells inside out, and are straight there.
 
     Raises
     ------
@@ -116,21 +117,23 @@ def tetrahedra(
         if order == 2 and not straight:
             gmsh.model.mesh.optimize("HighOrder")
         mesh = _collect(gmsh, name, scale)
-        inverted = len(quality(mesh).inverted)
-        if inverted and order == 2 and not straight:
-            warnings.warn(
-                f"mesh {name}: {inverted} cells would be inside out with curved edges; all edges "
-                "are straight. Choose smaller cells to keep the curves.",
-                stacklevel=2,
-            )
-            gmsh.model.mesh.setOrder(1)
-            gmsh.option.setNumber("Mesh.SecondOrderLinear", 1)
-            gmsh.model.mesh.setOrder(2)
-            straight, mesh = True, _collect(gmsh, name, scale)
+    if order == 2 and not straight:
+        mesh = _unbent(mesh)
     found = float(check_quality(mesh).volume.sum())
-    if not isinstance(source, Surface):
-        _compare_volume(name, found, exact, size, curved=order == 2 and not straight)
+    _compare_volume(name, found, exact, size, order, straight=straight)
     return mesh
+
+
+def _unbent(mesh: Mesh) -> Mesh:
+    """The mesh without cells that curves turn inside out, and a warning that says so."""
+    made, cells = unbent(mesh)
+    if len(cells):
+        warnings.warn(
+            f"mesh {mesh.name}: {len(cells)} of {mesh.cell_count} cells would be inside out with "
+            "curved edges; theirs are straight. Choose smaller cells to keep the curves.",
+            stacklevel=3,
+        )
+    return made
 
 
 def _volume(gmsh: Any, source: Surface | Path | str) -> float:
@@ -141,14 +144,17 @@ def _volume(gmsh: Any, source: Surface | Path | str) -> float:
     return 1e-9 * float(cubic_mm)
 
 
-def _compare_volume(name: str, found: float, exact: float, size: float, *, curved: bool) -> None:
+def _compare_volume(
+    name: str, found: float, exact: float, size: float, order: int, *, straight: bool
+) -> None:
     """Warn of a mesh whose volume is not that of the part, and say which cells would reach it."""
     error = found / exact - 1.0
     if abs(error) <= VOLUME_ERROR:
         return
+    chords = straight or order == 1
     # chords err by the square of the size, parabolas by its fourth power at best
-    reach = 0.9 * size * (VOLUME_ERROR / abs(error)) ** (1.0 / (3.0 if curved else 2.0))
-    other = "" if curved else ", or quadratic cells (order 2)"
+    reach = 0.9 * size * (VOLUME_ERROR / abs(error)) ** (1.0 / (2.0 if chords else 3.0))
+    other = ", or quadratic cells (order 2)" if chords and not straight else ""
     warnings.warn(
         f"mesh {name}: its volume {found:.5g} m³ is {100 * error:+.1f} % off the exact "
         f"{exact:.5g} m³. Cells of {reach:.2g} m should reach 1 %{other}.",

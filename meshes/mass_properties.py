@@ -76,7 +76,7 @@ def mass_properties(mesh: Mesh, density: float | Mapping[str, float]) -> MassPro
     first, second = np.zeros(3), np.zeros((3, 3))
     for block in mesh.blocks:
         # x² det J
-        at, weights = block.type.quadrature(block.type.jacobian_degree + 2 * block.type.order)
+        at, weights = block.type.quadrature(block.type.mass_degree)
         places = mesh.points[block.nodes] - origin
         jacobians = np.einsum("qnd,mnc->mqdc", block.type.gradient(at), places)
         volumes = np.linalg.det(jacobians) * weights

@@ -20,9 +20,10 @@ Array = NDArray[Any]
 #: Poses handed to a thread at once.
 PIECE = 8192
 
-#: A pose whose residual exceeds this share of the load is solved again with diagnosis. Poses near a
-#: singularity lose digits so; solving one again costs as much as thousands here.
-RESIDUAL_LIMIT = TRUSTED
+#: A pose whose error, by the correction of one wrench in the norm of its work, exceeds this is
+#: solved again with diagnosis: a tenth of what is trusted, for the estimate was seen to fall short
+#: fourfold. Poses near a singularity lose digits so; solving one again costs as much as thousands.
+ERROR_LIMIT = 0.1 * TRUSTED
 
 #: A pose whose smallest pivot is below this share of its diagonal entry likewise.
 PIVOT_LIMIT = 1e-5
@@ -77,7 +78,7 @@ def compiled_compliance(
     -------
     compliance : (p, 6, 6)
     doubtful : (p,)
-        True where a pivot or the residual is not good: solve these another way.
+        True where a pivot or the error is not good: solve these another way.
     """
     compliance, again = _run(system, program, workers)
     if len(program.loops.joint) and 2 * again.sum() > max(system.poses, RENEWED_FROM):
@@ -123,7 +124,7 @@ def _run(system: System, program: Program, workers: int) -> tuple[Array, NDArray
     else:
         for start in starts:
             piece(start)
-    good = (quality[:, 0] > PIVOT_LIMIT) & (quality[:, 1] <= RESIDUAL_LIMIT)
+    good = (quality[:, 0] > PIVOT_LIMIT) & (quality[:, 1] <= ERROR_LIMIT)
     good &= (quality[:, 2] > LOOP_LIMIT) & (quality[:, 3] <= REDUNDANT_LIMIT)
     good &= np.isfinite(compliance).all(axis=(1, 2))
     return compliance, ~good

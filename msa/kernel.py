@@ -78,10 +78,9 @@ def _tool_loads(p, point, axis, pivot, entry, load):  # type: ignore[no-untyped-
 
 
 @jit(contract=True)
-def _solve_one(p, factor, inverse, load, x, force):  # type: ignore[no-untyped-def]
-    """Solve K x = f, (c, w), for one wrench in which all six parts take part."""
-    count = p.diagonal.shape[0]
-    for c in range(count):
+def _one_wrench(p, load, force):  # type: ignore[no-untyped-def]
+    """A wrench in which all six parts take part, on the coordinates (c, w)."""
+    for c in range(p.diagonal.shape[0]):
         for w in range(LANES):
             force[c, w] = (
                 load[c, 0, w]
@@ -91,6 +90,14 @@ def _solve_one(p, factor, inverse, load, x, force):  # type: ignore[no-untyped-d
                 - 0.08 * load[c, 4, w]
                 + 0.06 * load[c, 5, w]
             )
+
+
+@jit(contract=True)
+def _substitute(p, factor, inverse, force, x):  # type: ignore[no-untyped-def]
+    """Solve L D Lᵀ x = f, (c, w)."""
+    count = p.diagonal.shape[0]
+    for c in range(count):
+        for w in range(LANES):
             x[c, w] = force[c, w]
     for c in range(count):
         for a in range(p.column_start[c], p.column_start[c + 1]):
@@ -107,15 +114,8 @@ def _solve_one(p, factor, inverse, load, x, force):  # type: ignore[no-untyped-d
 
 
 @jit(contract=True)
-def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
-    """Largest residual of K x = f as a share of f, (w); r holds f on entry."""
-    count = p.diagonal.shape[0]
-    size = np.zeros(LANES)
-    for c in range(count):
-        for w in range(LANES):
-            whole = matrix[p.diagonal[c], w]
-            # a force on a coordinate that nothing resists is no size, but a residual
-            size[w] = max(size[w], abs(r[c, w]) / np.sqrt(whole)) if whole > 0.0 else size[w]
+def _left(p, matrix, x, r):  # type: ignore[no-untyped-def]
+    """Take K x off r, (c, w)."""
     for k in range(p.entry_row.shape[0]):
         i, j = p.entry_row[k], p.entry_column[k]
         for w in range(LANES):
@@ -123,14 +123,29 @@ def _residual(p, matrix, x, r, share):  # type: ignore[no-untyped-def]
         if i != j:
             for w in range(LANES):
                 r[j, w] -= matrix[k, w] * x[i, w]
-    share[:] = 0.0
+
+
+@jit(contract=True)
+def _error(p, matrix, force, x, left, change, share):  # type: ignore[no-untyped-def]
+    """Error of x by its correction, (w): root of the work of the one by that of the other.
+
+    By the inequality of Schwarz the compliance along the wrench is as exact as this.
+    """
+    count = p.diagonal.shape[0]
+    whole, off = np.zeros(LANES), np.zeros(LANES)
     for c in range(count):
         for w in range(LANES):
-            whole = matrix[p.diagonal[c], w]
-            one = abs(r[c, w])
-            # a coordinate of which neither a stiffness nor a load is known is idle
-            one = one / np.sqrt(whole) / size[w] if whole > 0.0 or one != 0.0 else 0.0
-            share[w] = max(share[w], told(one, np.inf))
+            whole[w] += force[c, w] * x[c, w]
+            off[w] += abs(left[c, w] * change[c, w])
+    for w in range(LANES):
+        share[w] = np.sqrt(off[w] / whole[w]) if off[w] > 0.0 else 0.0
+    for c in range(count):
+        for w in range(LANES):
+            # what is left on a coordinate that nothing resists is no rounding
+            if not matrix[p.diagonal[c], w] > 0.0 and left[c, w] != 0.0:
+                share[w] = np.inf
+    for w in range(LANES):
+        share[w] = told(share[w], np.inf)
 
 
 @jit(contract=True)
@@ -166,7 +181,7 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
     compliance : (q, 6, 6)
         Filled.
     quality : (q, 4)
-        Filled: smallest pivot as a share of its diagonal entry, residual share, and of the
+        Filled: smallest pivot as a share of its diagonal entry, error share, and of the
         loops' rows, which are of order one, the smallest pivot and what redundant ones keep.
     """
     nodes, joints = positions.shape[1], frames.shape[1]
@@ -200,7 +215,8 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
     total = np.empty((3, LANES))
     matrix = np.empty((p.fill.shape[0], LANES))
     factor = np.empty((p.slots, LANES))
-    inverse, x, r = (
+    inverse, x = np.empty((count, LANES)), np.empty((count, LANES))
+    force, r, change = (
         np.empty((count, LANES)),
         np.empty((count, LANES)),
         np.empty((count, LANES)),
@@ -223,8 +239,12 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
         assemble(p, geometry, entry, matrix, work)
         _eliminate(p, matrix, factor, inverse, scaled, smallest)
         _tool_loads(p, point, axis, pivot, entry, load)
-        _solve_one(p, factor, inverse, load, x, r)
-        _residual(p, matrix, x, r, share)
+        _one_wrench(p, load, force)
+        r[:] = force
+        _substitute(p, factor, inverse, r, x)
+        _left(p, matrix, x, r)
+        _substitute(p, factor, inverse, r, change)
+        _error(p, matrix, force, x, r, change, share)
         loops_residual(p, store, entry, x, share, total, scaled)
         _compliance(p, factor, inverse, load, result)
         for w in range(min(LANES, stop - base)):

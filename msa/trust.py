@@ -4,7 +4,8 @@ The equilibrium is taken part by part (`strutwork.msa.nodal`) and its residual i
 the correction is the error of the solution before it, whatever the solver (Higham 2002, ch. 12).
 Where the first correction is not tiny, residuals are taken in extended precision, in which the
 stiffness of the parts has not lost the soft directions beside the stiff ones; each step then gains
-as many digits as the condition leaves.
+as many digits as the condition leaves. The compiled kernel asks of its own answer, pose by pose,
+whether doubles suffice (`strutwork.msa.compiled`); a pose of which it is not sure comes here.
 """
 
 from __future__ import annotations

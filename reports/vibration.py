@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError, ValidityWarning
+from strutwork.errors import ModelError
 from strutwork.fea import (
     Damping,
     FrequencyResponse,
@@ -26,6 +25,7 @@ from strutwork.fea.dynamic_stiffness import check_band
 from strutwork.fea.idle import IdleMotion, free_motions, idle_line, idle_motions
 from strutwork.fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from strutwork.fea.mode_damping import damping_ratios
+from strutwork.fea.modes import searched_modes
 from strutwork.fea.uff import UniversalFile, mode_file, node_positions, response_records
 from strutwork.fea.uff_write import write_universal
 from strutwork.files import write_whole
@@ -376,10 +376,7 @@ def target_response(
         target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
     )
     if target.cases:
-        with warnings.catch_warnings():
-            # these modes are looked at and not shown
-            warnings.simplefilter("ignore", ValidityWarning)
-            watched = modes(target.placed, WATCHED)
-        warn_of_preload(watched, target.cases)
+        # these modes are looked at and not shown
+        warn_of_preload(searched_modes(target.placed, WATCHED), target.cases)
     least = least_dynamic_stiffness(target.placed, given, output, damping, band)
     return TargetResponse(target, response, least)

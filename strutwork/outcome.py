@@ -20,6 +20,8 @@ MOST_REASONS = 100
 MODEL_AT_FAULT = 32
 
 _WHERE = re.compile(r" at pose (\d+|\([\d, ]+\))")
+#: What was measured at one pose.
+_MEASURED = re.compile(r"\b\d+(\.\d+)?e[+-]?\d+\b")
 
 
 @dataclass(frozen=True)
@@ -214,10 +216,10 @@ def solve_poses(
 def reason_of(error: StrutworkError) -> str:
     """An error in one line that poses with the same fault share.
 
-    Without the number of the pose it was met at; of a mechanism without the joints that move,
-    which `Outcome.errors` names for the first such pose.
+    Without the number of the pose it was met at and without what was measured there; of a
+    mechanism without the joints that move. `Outcome.errors` has all of it for the first such pose.
     """
     if isinstance(error, MechanismError):
         return "the structure moves freely under its load"
-    problem = _WHERE.sub("", error.problem).rstrip(".")
+    problem = _MEASURED.sub("…", _WHERE.sub("", error.problem)).rstrip(".")
     return f"{error.part}: {problem}" if error.part else problem

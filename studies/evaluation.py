@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -9,10 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.errors import MechanismError
+from strutwork.errors import MechanismError, StrutworkError
 from strutwork.kinematics import Placement, Poses, jacobians
 from strutwork.machines import Limit, Machine, check_limits
 from strutwork.msa import Structure, compliance_and_outcome
+from strutwork.outcome import Outcome
 from strutwork.studies.filters import Filters, PoseStatus, moving_machine
 
 Array = NDArray[Any]
@@ -33,6 +35,8 @@ class Evaluated:
         0 where the pose counts, else 1 + index into `reasons`.
     reasons : tuple of str
         Why poses were dropped, in words.
+    examples : mapping of str to str
+        For a reason that the solver gave, all that it said of the first such pose.
     outside : (p, k) of bool
         Whether a range of each kind of joint is exceeded, kept or not; False where the pose
         cannot be reached at all.
@@ -45,6 +49,7 @@ class Evaluated:
     status: NDArray[np.int8]
     reason: NDArray[np.int16]
     reasons: tuple[str, ...]
+    examples: Mapping[str, str]
     outside: NDArray[np.bool_]
     condition: Array
     compliance: Array
@@ -126,15 +131,13 @@ class Evaluator:
             reason[near] = len(reasons)
         good = np.flatnonzero(status == PoseStatus.GOOD)
         compliance = np.full((count, 6, 6), np.nan)
-        compliance[good], status[good] = compliance_where_possible(
+        compliance[good], status[good], outcome = compliance_where_possible(
             self.machine.structure, ranged[good]
         )
-        for bad, words in (
-            (PoseStatus.MECHANISM, "moves freely with its drives held"),
-            (PoseStatus.UNSOLVED, "its solution failed its own check"),
-        ):
-            reasons.append(words)
-            reason[status == bad] = len(reasons)
+        failed = np.flatnonzero(~outcome.solved)
+        reason[good[failed]] = len(reasons) + outcome.status[failed]
+        examples = dict(zip(outcome.reasons, map(_in_words, outcome.errors), strict=True))
+        reasons += outcome.reasons
         outside = (
             np.stack(
                 [
@@ -149,7 +152,7 @@ class Evaluator:
             else np.zeros((count, 0), dtype=bool)
         )
         outside &= placement.reachable[:, None]
-        return Evaluated(status, reason, tuple(reasons), outside, condition, compliance)
+        return Evaluated(status, reason, tuple(reasons), examples, outside, condition, compliance)
 
     def _condition(self, poses: Poses) -> Array:
         result = np.empty(poses.batch)
@@ -163,7 +166,7 @@ class Evaluator:
 
 def compliance_where_possible(
     structure: Structure, placement: Placement
-) -> tuple[Array, NDArray[np.int8]]:
+) -> tuple[Array, NDArray[np.int8], Outcome]:
     """Tool compliance of a stack of poses, some of which may be mechanisms.
 
     Parameters
@@ -178,7 +181,26 @@ def compliance_where_possible(
         NaN where a pose could not be solved.
     status : (p,) of int8
         `PoseStatus`: good, mechanism or unsolved.
+    outcome : Outcome
+        (p,): the reasons.
     """
     compliance, outcome = compliance_and_outcome(structure.at(placement))
     failed = np.where(outcome.of_kind(MechanismError), PoseStatus.MECHANISM, PoseStatus.UNSOLVED)
-    return compliance, np.where(outcome.solved, PoseStatus.GOOD, failed).astype(np.int8)
+    status = np.where(outcome.solved, PoseStatus.GOOD, failed).astype(np.int8)
+    return compliance, status, outcome
+
+
+def _in_words(error: StrutworkError) -> str:
+    return f"{error.part}: {error.problem}" if error.part else error.problem
+
+
+def said(found: Evaluated) -> dict[str, Array]:
+    """The examples of a chunk as arrays, which a folder can keep."""
+    pairs = [[reason, words] for reason, words in found.examples.items()]
+    return {"said": np.array(pairs, dtype=np.str_).reshape(-1, 2)}
+
+
+def keep_said(examples: dict[str, str], part: dict[str, Array]) -> None:
+    """Take the examples out of a chunk; of each reason the first chunk's is kept."""
+    for reason, words in part.pop("said").tolist():
+        examples.setdefault(reason, words)

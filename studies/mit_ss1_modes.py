@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -11,8 +10,8 @@ from typing import Any, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.errors import ValidityWarning
-from strutwork.fea.modes import Modes, modes
+from strutwork.fea.modes import Modes, searched_modes
+from strutwork.fea.validity import warn_beyond
 from strutwork.kinematics import GROUND, Poses
 from strutwork.machines import mit_ss1_parts as parts
 from strutwork.machines.mit_ss1_calibrated import Which, calibrated_machine
@@ -118,12 +117,18 @@ def named_modes(
     Returns
     -------
     NamedModes
+
+    Warns
+    -----
+    ValidityWarning
+        A mode with a name above half the cutoff of a superelement.
     """
     placed = whole.structure.at(whole.place(whole.home() if pose is None else pose))
-    found = modes(placed, count)
+    found = searched_modes(placed, count)
     patterns = {**(granite or granite_patterns(whole)), **moving_patterns(whole)}
     shares = pattern_shares(found, np.stack(list(patterns.values())))
     chosen = matched(shares)
+    warn_beyond(placed, float(found.frequencies[np.asarray(chosen, dtype=int)].max()))
     return NamedModes(
         whole,
         found,
@@ -155,10 +160,8 @@ def moving_patterns(whole: MitSS1Whole) -> dict[str, Array]:
 
 def granite_patterns(whole: MitSS1Whole) -> dict[str, Array]:
     """The lowest modes of the granite alone on the nodes of the whole, (n, 6) by name."""
-    with warnings.catch_warnings():
-        # shapes by which modes are named; no frequency of these is shown
-        warnings.simplefilter("ignore", ValidityWarning)
-        alone = modes(whole.granite_alone(), 12)
+    # shapes by which modes are named; no frequency of these is shown
+    alone = searched_modes(whole.granite_alone(), 12)
     node = alone.placed.structure.linkage.node_index
     # both rails move to the same side in bending
     sides = [alone.shapes[:, node[rail_foot(i)], 1] for i in (1, 2)]

@@ -18,7 +18,7 @@ from strutwork.msa import axis_stiffness_blocked
 from strutwork.studies.check_points import CheckPoints, hemisphere
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import attributes, plain, study_key
-from strutwork.studies.evaluation import Evaluated, Evaluator
+from strutwork.studies.evaluation import Evaluated, Evaluator, keep_said, said
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import REASONS, Filters, PoseStatus
 from strutwork.studies.progress import Progress
@@ -98,6 +98,7 @@ def stiffness_map(
     run = Run(workers, executor, folder, progress)
     arrays: Arrays = {}
     words: Counter[str] = Counter()
+    examples: dict[str, str] = {}
     for chunk, part in run.chunks(
         evaluate,
         len(points),
@@ -108,10 +109,11 @@ def stiffness_map(
         len(turns),
     ):
         counts = part.pop("reason_counts")
+        keep_said(examples, part)
         words.update(dict(zip(part.pop("reasons").tolist(), counts.tolist(), strict=True)))
         fill(arrays, chunk, part, len(points))
     arrays["position"], arrays["normal"] = points.position, points.normal
-    return _dataset(evaluator, arrays, turns, {w: n for w, n in words.items() if n})
+    return _dataset(evaluator, arrays, turns, {w: n for w, n in words.items() if n}, examples)
 
 
 def stiffest_roll(found: Evaluated, rolls: int) -> tuple[NDArray[np.intp], NDArray[np.int8]]:
@@ -159,11 +161,16 @@ def _best_rolls(found: Evaluated, rolls: Array) -> Arrays:
         "outside_range": found.outside.reshape(points, len(rolls), -1).sum(axis=1),
     }
     used = np.bincount(found.reason, minlength=len(found.reasons) + 1)[1:]
-    return result | {"reasons": np.array(found.reasons), "reason_counts": used}
+    result |= {"reasons": np.array(found.reasons), "reason_counts": used}
+    return result | said(found)
 
 
 def _dataset(
-    evaluator: Evaluator, arrays: Arrays, rolls: Array, words: Mapping[str, int]
+    evaluator: Evaluator,
+    arrays: Arrays,
+    rolls: Array,
+    words: Mapping[str, int],
+    examples: Mapping[str, str],
 ) -> xr.Dataset:
     status = arrays["status"]
     points = len(status)
@@ -192,6 +199,7 @@ def _dataset(
         "candidates_kept": int(points * len(rolls) - arrays["dropped"].sum()),
         "points_kept": int(np.count_nonzero(status == PoseStatus.GOOD)),
         "dropped_by_reason": json.dumps(words),
+        "first_of_reason": json.dumps(examples),
         "rolls": json.dumps(plain(rolls)),
         "joint_ranges_kept": json.dumps(kept),
         "condition_limit": evaluator.filters.condition_limit or "none",

@@ -15,7 +15,7 @@ from strutwork.kinematics import Poses
 from strutwork.machines import Machine
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import attributes, study_key
-from strutwork.studies.evaluation import Evaluator
+from strutwork.studies.evaluation import Evaluator, keep_said, said
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import Filters, PoseStatus
 from strutwork.studies.progress import Progress
@@ -89,11 +89,13 @@ def sweep(
             "condition_number": found.condition,
             "compliance": found.compliance,
             "reasons": np.array(found.reasons),
+            **said(found),
         }
 
     run = Run(workers, executor, folder, progress)
     arrays: Arrays = {}
     words = [""]
+    examples: dict[str, str] = {}
     for chunk, part in run.chunks(
         evaluate,
         total,
@@ -104,6 +106,7 @@ def sweep(
     ):
         # a machine may name its reasons in another order elsewhere
         local = ["", *part.pop("reasons").tolist()]
+        keep_said(examples, part)
         words += [w for w in local if w not in words]
         number = np.array([words.index(w) for w in local], dtype=np.int16)
         fill(arrays, chunk, part | {"reason": number[part["reason"]]}, total)
@@ -136,6 +139,7 @@ def sweep(
         "dropped_by_reason": json.dumps(
             {w: int(n) for w, n in zip(words, counts, strict=True) if w and n}
         ),
+        "first_of_reason": json.dumps(examples),
         "joint_ranges_kept": json.dumps(kept),
         "condition_limit": filters.condition_limit or "none",
         "condition_length": evaluator.length,

@@ -13,12 +13,15 @@ from strutwork.fea.solid_matrices import SolidMatrices, solid_matrices
 from strutwork.meshes.block import block
 from strutwork.meshes.boundary import boundary
 from strutwork.meshes.mesh import CellBlock, Faces, Mesh, Patch
+from strutwork.meshes.order import quadratic
 from strutwork.msa.materials import Material
 
 STEEL = Material.isotropic(200e9, 0.3, 8000.0, name="steel")
 GRANITE = Material.isotropic(78e9, 0.25, 3000.0, name="granite")
 #: Kinds of cell with orders of the field.
 FIELDS = [("hexahedron", 1), ("hexahedron", 2), ("tetra", 1), ("tetra", 2)]
+#: Cells that may be curved.
+CURVED = ["tetra10", "hexahedron20", "hexahedron27"]
 
 
 def in_tetrahedra(mesh: Mesh) -> Mesh:
@@ -72,3 +75,17 @@ def in_two_regions(mesh: Mesh, names: tuple[str, str] = ("left", "right")) -> Me
     centre = mesh.points[cells.nodes].mean(axis=1)[:, 0]
     region = (centre > mesh.bounds[:, 0].mean()).astype(np.int64)
     return replace(mesh, blocks=(CellBlock(cells.kind, cells.nodes, region),), regions=names)
+
+
+def bent(mesh: Mesh, kind: str = "", share: float = 0.08, seed: int = 1) -> Mesh:
+    """Quadratic cells whose middle nodes stand off the middle, by a share of the cells' size.
+
+    `kind` is `tetra10`, `hexahedron20` or `hexahedron27`; by default as many nodes as there are.
+    """
+    made = quadratic(mesh, serendipity=kind == "hexahedron20")
+    size = np.cbrt(np.prod(mesh.extent) / mesh.cell_count)
+    if mesh.blocks[0].kind == "tetra":
+        size *= np.cbrt(6.0)
+    shift = share * size * np.random.default_rng(seed).uniform(-1, 1, made.points.shape)
+    shift[: len(mesh.points)] = 0.0
+    return replace(made, points=made.points + shift)

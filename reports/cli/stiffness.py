@@ -122,6 +122,7 @@ def _result(found: NamedMachine, dataset: xr.Dataset) -> dict[str, Any]:
         "model": found.title,
         **_counts(dataset),
         "dropped_because": json_text.loads(dataset.attrs["dropped_by_reason"]),
+        "first_dropped": json_text.loads(dataset.attrs["first_of_reason"]),
         "stiffness": {
             meaning: {axis["direction"]: axis for axis in summed["axes"]}
             for meaning, summed in (
@@ -143,6 +144,10 @@ def _print(result: dict[str, Any]) -> None:
     for reason, count in result["dropped"].items():
         if count:
             out.print(f"  {count} {reason.replace('_', ' ')}", markup=False)
+    # the kinematics' own reasons are counted above by kind; what a solver says is not
+    for reason, words in result["first_dropped"].items():
+        count = result["dropped_because"][reason]
+        out.print(f"  {count}: {visible(reason)}; the first: {visible(words)}", markup=False)
     for meaning, words in (
         ("blocked", "other directions blocked, (C⁻¹)ii"),
         ("free", "other directions free, 1/Cii"),

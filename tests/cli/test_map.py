@@ -31,6 +31,7 @@ def test_keys_of_the_json(strutwork: Program) -> None:
         "candidates_kept",
         "dropped",
         "dropped_because",
+        "first_dropped",
         "stiffness",
         "data",
     }

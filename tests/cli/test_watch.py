@@ -53,6 +53,8 @@ def endless(wait: str) -> subprocess.Popen[str]:
         text=True,
         cwd=Path(__file__).parents[2],
         env=os.environ | {"OPENBLAS_NUM_THREADS": "1"},
+        # tests in the background of a shell inherit a signal that is ignored
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # noqa: PLW1509
     )
 
 
@@ -122,6 +124,9 @@ def test_a_program_without_the_signal_is_left_alone(strutwork: Program) -> None:
         assert strutwork("check", EXAMPLES[0]).status == 0
         assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
     finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        assert strutwork("check", EXAMPLES[0]).status == 0
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
         signal.signal(signal.SIGINT, mine)
-    assert strutwork("check", EXAMPLES[0]).status == 0
-    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler

@@ -17,7 +17,9 @@ from unittest import mock
 
 import typer
 
-from strutwork.errors import ModelWarning, PoseWarning, UnverifiedWarning
+from strutwork.errors import CacheWarning, ModelWarning, PoseWarning, UnverifiedWarning
+from strutwork.overconstraint.influence import UndeterminedWarning
+from strutwork.overconstraint.sources import ToleranceWarning
 from strutwork.reports.cli import app as program
 from strutwork.reports.cli.ending import WRONG
 
@@ -95,6 +97,17 @@ def _of_a_machine(rng: random.Random, odd: tuple[str, ...]) -> tuple[str, ...]:
     )
 
 
+#: What the program itself warns of, in words for its user.
+OURS = (
+    CacheWarning,
+    ModelWarning,
+    PoseWarning,
+    ToleranceWarning,
+    UndeterminedWarning,
+    UnverifiedWarning,
+)
+
+
 @cache
 def _built() -> object:
     """The program as it answers, built once: to read all its options takes as long as the work."""
@@ -122,7 +135,7 @@ def tried(number: int, command: tuple[str, ...]) -> tuple[list[Fault], bool]:
             warnings.simplefilter("error")
             for quiet in (DeprecationWarning, PendingDeprecationWarning, ResourceWarning):
                 warnings.simplefilter("ignore", quiet)
-            for ours in (ModelWarning, PoseWarning, UnverifiedWarning):
+            for ours in OURS:
                 warnings.simplefilter("default", ours)
             with mock.patch.object(program, "app", _built()):
                 program.main()

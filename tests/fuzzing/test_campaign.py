@@ -25,6 +25,7 @@ def test_sample(number: int, tmp_path_factory: pytest.TempPathFactory) -> None:
 @pytest.mark.slow
 def test_ten_thousand() -> None:
     done = campaign(range(10_000))
+    assert done.faults == ()
     assert done.mutants == 10_000
     assert done.runs > 50_000
     # most mutants must reach a solver: refused ones alone would show little

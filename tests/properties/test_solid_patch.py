@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from strutwork.fea.elastic_terms import elasticity
+from strutwork.fea.elasticity import elasticity
 from strutwork.fea.solid_static import solve_solid
 from strutwork.fea.solid_stress import cell_strains, cell_stresses, nodal_stresses
 from strutwork.fea.solid_supports import Supports

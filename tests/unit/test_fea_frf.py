@@ -312,3 +312,26 @@ def test_damping_beyond_critical_is_a_creep(method: str) -> None:
     np.testing.assert_allclose(
         found.receptance[:, 0, 0], 1 / (k - m * w**2 + 1j * w * beta * k), rtol=1e-12
     )
+
+
+def test_direct_solutions_over_fifteen_decades() -> None:
+    placed = oscillators((K, M), (5e5, 2.0)).place()
+    lines = np.geomspace(1e-6, 1e9, 31)
+    port = [Port("m1", "x")]
+    direct = frequency_response(placed, port, port, lines, LossFactor(0.05), "direct")
+    modal = frequency_response(placed, port, port, lines, LossFactor(0.05), "all_modes")
+    # each line by itself: beside a resonance the response at 1 GHz is 1e-20 of it
+    np.testing.assert_allclose(direct.receptance, modal.receptance, rtol=1e-9)
+
+
+def test_a_direct_solution_that_is_off_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    placed = oscillators((K, M), (5e5, 2.0)).place()
+    port = [Port("m1", "x")]
+    exact = np.linalg.solve
+
+    def rough(matrix: Array, right: Array) -> Array:
+        return np.asarray(exact(matrix, right) * (1.0 + 1e-5))
+
+    monkeypatch.setattr(np.linalg, "solve", rough)
+    with pytest.raises(NumericalError, match=r"at 30 Hz is certain to 1e-05 of its largest"):
+        frequency_response(placed, port, port, [30.0], LossFactor(0.05), "direct")

@@ -11,7 +11,8 @@ import pytest
 from scipy.linalg import eigvalsh
 
 from strutwork.errors import ModelError
-from strutwork.fea.elastic_terms import assembler, elasticity
+from strutwork.fea.elastic_terms import assembler
+from strutwork.fea.elasticity import elasticity
 from strutwork.fea.solid import Solid
 from strutwork.fea.solid_matrices import solid_matrices
 from strutwork.meshes import CellBlock, Mesh, block, joined, moved, quadratic
@@ -46,9 +47,9 @@ def test_order_is_one_or_two(order: int) -> None:
         Solid(block(SIZE, (1, 1, 1)), {"solid": STEEL}, order)
 
 
-def test_quadratic_geometry_is_refused_with_what_to_do() -> None:
+def test_linear_displacements_on_quadratic_cells_are_refused_with_what_to_do() -> None:
     with pytest.raises(ModelError, match=r"hexahedron27[\s\S]*order=2"):
-        Solid(quadratic(block(SIZE, (1, 1, 1))), {"solid": STEEL})
+        Solid(quadratic(block(SIZE, (1, 1, 1))), {"solid": STEEL}, 1)
 
 
 def test_mixed_cells_are_refused() -> None:

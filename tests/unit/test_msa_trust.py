@@ -9,6 +9,7 @@ from strutwork.errors import MechanismError, NumericalError
 from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement
 from strutwork.machines.model_file import parse_model
 from strutwork.msa import LoadCase, PlacedStructure, Structure, solve, system_of, tool_compliance
+from strutwork.msa.compiled import compiled_compliance, program_of
 from strutwork.msa.nodal import unbalanced
 from strutwork.msa.trust import HELD, TRUSTED, solve_trusted
 
@@ -121,6 +122,35 @@ def test_random_chains_are_right_and_seldom_refused(seeds: range) -> None:
             assert np.abs(found.joint_forces[:, 5, 0]) == pytest.approx(
                 turning, abs=HELD * max(1.0, n * step)
             ), seed
+
+
+def test_where_the_compiled_kernel_is_sure_it_is_right() -> None:
+    """The same chains; what it doubts is solved by the rule above, what it trusts is held to it."""
+    sure = 0
+    for seed in range(300):
+        rng = np.random.default_rng(seed)
+        n, contrast = int(rng.integers(2, 25)), rng.uniform(0, 12)
+        stiffness = [float(10 ** rng.uniform(12 - contrast, 12)) for _ in range(n)]
+        step = float(10 ** rng.uniform(-2, 1))
+        one = chain(stiffness)
+        at = one.placement
+        # two poses of one structure
+        positions = np.stack([step * at.positions, 2.0 * step * at.positions])
+        frames = np.broadcast_to(at.frames, (2, *at.frames.shape))
+        placed = one.structure.at(Placement(positions, frames, np.zeros((2, 0))))
+        system = system_of(placed)
+        program = program_of(system)
+        assert program is not None
+        compliance, doubtful = compiled_compliance(system, program)
+        for pose in np.flatnonzero(~doubtful):
+            arm = (1 + pose) * step
+            exact = sum(
+                (1 + (Fraction(arm) * (n - i)) ** 2) / Fraction(k) for i, k in enumerate(stiffness)
+            )
+            assert compliance[pose, 1, 1] == pytest.approx(float(exact), rel=1e-8), seed
+            sure += 1
+    # a kernel that doubts everything would show nothing
+    assert sure > 60
 
 
 def test_beyond_extended_precision_it_is_right_or_withheld() -> None:

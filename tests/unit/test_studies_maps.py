@@ -8,15 +8,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, NumericalError
 from strutwork.kinematics import rotation_z, tangent_rotation
 from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS
-from strutwork.msa import Structure, axis_stiffness_blocked, tool_compliance
+from strutwork.msa import PlacedStructure, Structure, axis_stiffness_blocked, tool_compliance
+from strutwork.outcome import Outcome, reason_of
 from strutwork.studies import (
     AS_IN_AZULAY,
     CheckPoints,
@@ -218,7 +220,7 @@ def test_a_singular_pose_is_counted_and_never_raises() -> None:
     machine = Proposed3PPRS()
     found = sweep(machine, [machine.home().position], None, Filters(condition_limit=1.5), workers=1)
     assert found["status"].to_numpy().tolist() == [PoseStatus.NEAR_SINGULAR]
-    assert "condition number" in str(found["reason_text"].to_numpy()[-3])
+    assert "condition number" in str(found["reason_text"].to_numpy()[-1])
 
 
 def test_mechanisms_are_counted_and_never_raise() -> None:
@@ -228,6 +230,37 @@ def test_mechanisms_are_counted_and_never_raise() -> None:
     assert set(found["status"].to_numpy().tolist()) == {int(PoseStatus.MECHANISM)}
     assert found["dropped"].sel(reason="mechanism").to_numpy().tolist() == [2] * 5
     assert np.isnan(found["compliance"].to_numpy()).all()
+    reason = "the structure moves freely under its load"
+    assert json.loads(found.attrs["dropped_by_reason"]) == {reason: 10}
+    # what moves is named for the first pose
+    assert "hinge" in json.loads(found.attrs["first_of_reason"])[reason]
+
+
+def test_what_a_solver_says_of_a_pose_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = importlib.import_module("strutwork.studies.evaluation")
+    failed = NumericalError("static solution", "is off by 3.2e-07 there.", "Try again.")
+
+    def one_fails(placed: PlacedStructure) -> tuple[Any, Outcome]:
+        compliance = tool_compliance(placed)
+        status = np.zeros(len(compliance), dtype=np.int16)
+        status[1] = 1
+        return compliance, Outcome(status, (reason_of(failed),), (failed,))
+
+    monkeypatch.setattr(module, "compliance_and_outcome", one_fails)
+    machine = Proposed3PPRS()
+    home = machine.home().position
+    found = sweep(machine, home + np.array([[0, 0, 0], [1e-3, 0, 0], [0, 0, 0.2]]), workers=1)
+    assert found["status"].to_numpy().tolist() == [
+        PoseStatus.GOOD,
+        PoseStatus.UNSOLVED,
+        PoseStatus.UNREACHABLE,
+    ]
+    reasons = found["reason_text"].to_numpy()[found["reason"].to_numpy()]
+    # numbers of one pose do not make a reason of its own
+    assert reasons[1] == "static solution: is off by … there"
+    assert json.loads(found.attrs["first_of_reason"]) == {
+        reasons[1]: "static solution: is off by 3.2e-07 there."
+    }
 
 
 def test_joint_ranges_can_be_left_out() -> None:
@@ -326,9 +359,10 @@ def test_one_mechanism_in_a_stack_spoils_no_other_pose() -> None:
         hinge = machine.linkage.joint_index[f"leg{leg}/hinge"]
         frames[2, hinge] = np.eye(3)
     spoiled = replace(placement, frames=frames)
-    compliance, status = compliance_where_possible(machine.structure, spoiled)
+    compliance, status, outcome = compliance_where_possible(machine.structure, spoiled)
     alone = compliance_where_possible(machine.structure, spoiled[2:3])[1]
     assert alone.tolist() == [PoseStatus.MECHANISM]
+    assert outcome.reason(2) == "the structure moves freely under its load"
     assert status.tolist() == [0, 0, PoseStatus.MECHANISM, 0, 0]
     good = [0, 1, 3, 4]
     expected = tool_compliance(machine.structure.at(placement[good]))
@@ -358,7 +392,7 @@ def test_the_stiffest_roll_counts_and_may_be_infinitely_stiff() -> None:
     compliance[5] = np.diag([0.0, 1, 1, 1, 1, 1])
     status[[1, 2, 5]] = PoseStatus.GOOD
     none = np.zeros(6, dtype=np.int16)
-    found = Evaluated(status, none, (), np.zeros((6, 0), dtype=bool), none * np.nan, compliance)
+    found = Evaluated(status, none, (), {}, np.zeros((6, 0), dtype=bool), none * np.nan, compliance)
     chosen, outcome = stiffest_roll(found, 3)
     assert chosen.tolist() == [2, 2]
     assert outcome.tolist() == [PoseStatus.GOOD] * 2

@@ -4,12 +4,13 @@ import errno
 import multiprocessing
 import os
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from strutwork.errors import CacheWarning, ModelError
+from strutwork.errors import CacheWarning, ModelError, NumericalError
 from strutwork.fea import superelement_file
 from strutwork.fea.interface import Interface
 from strutwork.fea.reduce_solid import reduce_solid
@@ -21,8 +22,11 @@ from strutwork.fea.superelement_file import (
     read_superelement,
     write_superelement,
 )
+from strutwork.fea.tied_solid import StaticSolver
 from strutwork.meshes import block
 from strutwork.msa.materials import Material
+
+Array = NDArray[Any]
 
 STEEL = Material.isotropic(200e9, 0.3, density=7800.0, name="steel")
 
@@ -172,3 +176,18 @@ def test_fingerprint_sees_every_part() -> None:
         fingerprint([np.arange(3.0).reshape(1, 3), "a", 1.5]),
     }
     assert len(marks) == 5
+
+
+def test_static_shapes_that_are_off_are_withheld(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    exact = StaticSolver._flexible
+
+    def rough(self: StaticSolver, forces: Array) -> Array:
+        # far below the size of stiffness times displacement, and still wrong
+        return exact(self, forces) * (1.0 + 1e-4 * np.arange(len(forces))[:, None] / len(forces))
+
+    monkeypatch.setattr(StaticSolver, "_flexible", rough)
+    with pytest.raises(NumericalError, match=r"solid bar: its static solutions are certain to"):
+        make(tmp_path)
+    assert not list(tmp_path.iterdir())

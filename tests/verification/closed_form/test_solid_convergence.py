@@ -18,7 +18,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from strutwork.fea.elastic_terms import elasticity
+from strutwork.fea.elasticity import elasticity
 from strutwork.fea.solid_matrices import SolidMatrices
 from strutwork.fea.solid_modes import solid_modes
 from strutwork.fea.solid_static import solve_solid
