@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import scipy.linalg
@@ -15,66 +15,79 @@ from strutwork.kinematics.mobility import RANK_TOLERANCE
 
 Array = NDArray[Any]
 
-
-class Asked(Protocol):
-    """What a walk is given."""
-
-    given: Given
+#: Share of a row that is left beside the others below which it depends on them.
+DEPENDENT = 1e-7
 
 
-def independent_rows(matrix: Array, held: int, walk: Asked) -> NDArray[np.intp]:
-    """Indices of independent rows, ascending.
+def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
+    """Indices of independent rows, ascending, and whether all that is given is among them.
 
     The held directions of joints come first; of those that depend on each other, as in a
-    machine with redundant constraints, enough are taken to span them. Of what is given, a row
-    that depends on the held directions cannot move.
+    machine with redundant constraints, enough are taken to span them.
 
     Parameters
     ----------
     matrix : (r, n)
         In one unit, at home.
     held : int
-        How many of its first rows are held directions of joints.
-    walk : object with `given`
+        How many of its first rows are held directions of joints; then joint coordinates and
+        directions of the tool that are given.
+    """
+    kept, basis = _held(matrix[:held])
+    every = True
+    for row in range(held, len(matrix)):
+        rest = _beside(matrix[row], basis)
+        if np.linalg.norm(rest) > DEPENDENT * np.linalg.norm(matrix[row]):
+            kept.append(row)
+            basis = np.concatenate([basis, (rest / np.linalg.norm(rest))[:, None]], axis=1)
+        else:
+            every = False
+    return np.sort(np.asarray(kept, dtype=np.intp)), every
+
+
+def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
+    """Refuse a direction that was named and that the joints hold at home; a pose may name all six.
+
+    What only depends on others that are given stays: it must agree with them.
 
     Raises
     ------
     ModelError
-        A task direction or joint coordinate that is given and cannot move at home.
+        Names the direction.
     """
-    _, triangle, order = scipy.linalg.qr(matrix[:held].T, mode="economic", pivoting=True)
-    sizes = np.abs(np.diagonal(triangle))
-    count = int(np.sum(sizes > RANK_TOLERANCE * sizes.max(initial=0.0)))
-    kept = list(np.sort(order[:count]))
-    basis, _ = np.linalg.qr(matrix[kept].T) if kept else (np.zeros((matrix.shape[1], 0)), None)
-    asked = walk.given
-    first_task = held + len(asked.joint)
+    _, basis = _held(matrix[:held])
     for row in range(held, len(matrix)):
-        alone = matrix[row] - basis[:, :count] @ (basis[:, :count].T @ matrix[row])
-        if np.linalg.norm(alone) <= 1e-7 * np.linalg.norm(matrix[row]):
-            _refuse(row - held, row - first_task, asked)
+        rest = _beside(matrix[row], basis)
+        if np.linalg.norm(rest) > DEPENDENT * np.linalg.norm(matrix[row]):
             continue
-        rest = matrix[row] - basis @ (basis.T @ matrix[row])
-        rest -= basis @ (basis.T @ rest)
-        if np.linalg.norm(rest) > 1e-7 * np.linalg.norm(matrix[row]):
-            kept.append(row)
-            basis = np.concatenate([basis, (rest / np.linalg.norm(rest))[:, None]], axis=1)
-    return np.sort(np.asarray(kept, dtype=np.intp))
-
-
-def _refuse(joint: int, task: int, asked: Given) -> None:
-    """Refuse a direction that was named and cannot move; a pose may name all six."""
-    if task >= 0:
+        number = row - held
+        if number < len(asked.joint):
+            raise ModelError(
+                "motion",
+                f"coordinate {DIRECTIONS[asked.direction[number]]} of joint number "
+                f"{int(asked.joint[number]) + 1} cannot move from home: the other joints hold it.",
+                "Give another coordinate.",
+            )
         if asked.tool is None:
+            direction = DIRECTIONS[asked.task[number - len(asked.joint)]]
             raise ModelError(
                 "task",
-                f"the tool cannot move in {DIRECTIONS[asked.task[task]]} from home.",
+                f"the tool cannot move in {direction} from home.",
                 "Leave this direction out, or change the home.",
             )
-        return
-    raise ModelError(
-        "motion",
-        f"coordinate {DIRECTIONS[asked.direction[joint]]} of joint number "
-        f"{int(asked.joint[joint]) + 1} cannot move from home: the other joints hold it.",
-        "Give another coordinate.",
-    )
+
+
+def _held(rows: Array) -> tuple[list[int], Array]:
+    """Independent rows among those of the joints, and an orthonormal basis of their span."""
+    if not len(rows):
+        return [], np.zeros((rows.shape[1], 0))
+    directions, triangle, order = scipy.linalg.qr(rows.T, mode="economic", pivoting=True)
+    sizes = np.abs(np.diagonal(triangle))
+    count = int(np.sum(sizes > RANK_TOLERANCE * sizes.max(initial=0.0)))
+    return list(np.sort(order[:count])), directions[:, :count]
+
+
+def _beside(row: Array, basis: Array) -> Array:
+    rest = row - basis @ (basis.T @ row)
+    # once more, for what rounding left
+    return np.asarray(rest - basis @ (basis.T @ rest))

@@ -11,10 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.kinematics.given import Given, given
+from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.mechanism import Poses
 from strutwork.kinematics.placement import Placement, check_coincidence
+from strutwork.kinematics.turns import rotation_vector
 from strutwork.kinematics.walk import Walk
 
 Array = NDArray[Any]
@@ -159,6 +161,47 @@ class Motion:
         walk = Walk(self.joints, self.rotation, wanted)
         walk.go()
         return self._moved(walk, wanted)
+
+    def task_of(self, poses: Poses) -> Array:
+        """Task coordinates of poses: place, m, and rotation vector from home, rad, (..., 6)."""
+        turned = poses.rotation @ self.rotation.T
+        return np.concatenate([poses.position, rotation_vector(turned)], axis=-1)
+
+    def rest(
+        self, named: tuple[str, ...] = (), joints: tuple[tuple[str, str], ...] = ()
+    ) -> dict[str, float]:
+        """Other directions of the tool that can be held while some coordinates move.
+
+        Parameters
+        ----------
+        named : tuple of directions
+            Of the tool, that are given.
+        joints : tuple of (joint, direction)
+            Joint coordinates that are given.
+
+        Returns
+        -------
+        dict of direction to float
+            Those that are independent of what is given at home, x first, with their values there,
+            m and rad.
+        """
+        home = self.task_of(self.home_pose)
+        found: dict[str, float] = {}
+        for k, direction in enumerate(DIRECTIONS):
+            if direction in named:
+                continue
+            task: dict[str, ArrayLike] = dict.fromkeys((*named, *found, direction), 0.0)
+            wanted = given(
+                self.joints,
+                self.home_pose,
+                self.home_values,
+                None,
+                task,
+                dict.fromkeys(joints, 0.0),
+            )
+            if Walk(self.joints, self.rotation, wanted, lenient=True).independent:
+                found[direction] = float(home[k])
+        return found
 
     def place(self, poses: Poses) -> Placement:
         """Inverse kinematics of poses of the tool; those that cannot be taken are marked."""

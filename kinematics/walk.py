@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics.given import Given
-from strutwork.kinematics.independent import independent_rows
+from strutwork.kinematics.independent import independent_rows, refuse_dependent
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.rows import characteristic_length, constraint_rows
@@ -42,7 +42,9 @@ LOST = "the way was not walked to its end in the steps allowed"
 class Walk:
     """Poses on their way, each at its own share of it."""
 
-    def __init__(self, joints: JointMotion, rotation: Array, wanted: Given) -> None:
+    def __init__(
+        self, joints: JointMotion, rotation: Array, wanted: Given, *, lenient: bool = False
+    ) -> None:
         count = wanted.poses
         self.joints, self.given, self.rotation = joints, wanted, rotation
         self.length = characteristic_length(joints.home)
@@ -65,7 +67,9 @@ class Walk:
         rank = np.cumsum(self.select.ravel()) - 1
         self.order = rank[6 * self.joint + self.direction]
         _, matrix = self._system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
-        self.kept = independent_rows(matrix[0], len(held), self)
+        self.kept, self.independent = independent_rows(matrix[0], len(held))
+        if not (self.independent or lenient):
+            refuse_dependent(matrix[0], len(held), wanted)
 
     def go(self) -> None:
         """Walk until every pose has arrived or its way has ended."""

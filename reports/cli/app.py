@@ -24,6 +24,7 @@ from strutwork.reports.cli.choices import (
     Target,
 )
 from strutwork.reports.cli.ending import OUT_OF_RANGE, guarded
+from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
@@ -352,6 +353,9 @@ def scale(
     from strutwork.reports.cli import scale as work
 
     work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
+
+
+app.command()(move)
 
 
 @app.command()

@@ -1,0 +1,103 @@
+"""`strutwork move`: where the joints and the tool of a machine go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from strutwork.errors import ModelError
+from strutwork.files import write_text
+from strutwork.machines.limits import check_limits
+from strutwork.machines.moving import Moving, moving
+from strutwork.names import visible
+from strutwork.reports.cli.output import console, print_json, print_table
+from strutwork.reports.motion_table import (
+    Coordinate,
+    moved_columns,
+    moved_csv,
+    read_targets,
+    targets_of_words,
+)
+
+
+def run(
+    name: str,
+    pose: Sequence[str],
+    joint: Sequence[str],
+    targets: str | None,
+    out: str | None,
+    *,
+    json: bool,
+) -> None:
+    """Move, and print where everything stands."""
+    wanted: dict[Coordinate, Any] = {}
+    if targets is not None:
+        wanted |= read_targets(Path(targets))
+        if pose or joint:
+            raise ModelError(
+                "move", "is given a file of targets and others.", "Give one or the other."
+            )
+    wanted |= targets_of_words(pose, "--pose")
+    for key, value in targets_of_words(joint, "--joint").items():
+        wanted[key] = value
+    for (owner, direction), where in ((k, "--pose") for k in targets_of_words(pose, "--pose")):
+        if owner:
+            raise ModelError(where, f"names the joint {owner}:{direction}.", "Use --joint for it.")
+    subject = moving(name)
+    _print(subject, _moved(subject, wanted), out, json=json)
+
+
+def _moved(subject: Moving, wanted: dict[Coordinate, Any]) -> tuple[Any, list[str]]:
+    motion = subject.motion
+    task = {d: v for (owner, d), v in wanted.items() if not owner}
+    joints = {pair: v for pair, v in wanted.items() if pair[0]}
+    if not wanted:
+        # home itself
+        task = motion.rest(()) if motion.linkage.tool is not None else {}
+        joints = {} if task else dict.fromkeys(motion.joints.names[:1], 0.0)
+    elif task:
+        # what is not named stays, where it can
+        task |= motion.rest(tuple(task), tuple(joints))
+    moved = motion.move(task=task or None, joints=joints or None)
+    placed = check_limits(subject.limits, moved.placement)
+    reasons = [placed.reason(i) for i in np.ndindex(*placed.batch)]
+    return moved, reasons
+
+
+def _print(subject: Moving, result: tuple[Any, list[str]], out: str | None, *, json: bool) -> None:
+    moved, reasons = result
+    columns = moved_columns(subject, moved)
+    if out is not None:
+        write_text(Path(out), moved_csv(columns, reasons))
+    if json:
+        print_json(
+            {
+                "targets": len(reasons),
+                "reached": reasons.count(""),
+                "status": [r or None for r in reasons],
+                "share": np.atleast_1d(moved.share).tolist(),
+                "columns": {k: v.tolist() for k, v in columns.items()},
+            }
+            | ({"data": [out]} if out is not None else {})
+        )
+        return
+    screen = console()
+    screen.print(subject.title, markup=False, style="bold")
+    if len(reasons) == 1:
+        rows = [(*name.rpartition(", ")[::2], float(v[0])) for name, v in columns.items()]
+        print_table(screen, "Coordinates", ["", "unit", "value"], rows)
+    screen.print(f"{reasons.count('')} of {len(reasons)} targets reached", markup=False)
+    shares = np.atleast_1d(moved.share)
+    for reason in dict.fromkeys(r for r in reasons if r):
+        found = [i for i, r in enumerate(reasons) if r == reason]
+        far = "" if shares[found[0]] >= 1.0 else f", {100 * shares[found[0]]:.3g} % of the way"
+        screen.print(
+            f"  {len(found)}: {visible(reason)} (first: target {found[0] + 1}{far})",
+            markup=False,
+            soft_wrap=True,
+        )
+    if out is not None:
+        screen.print(f"Written: {visible(out)}", markup=False, soft_wrap=True)
