@@ -21,8 +21,9 @@ Array = NDArray[Any]
 PIECE = 8192
 
 #: A pose whose error, by the correction of one wrench in the norm of its work, exceeds this is
-#: solved again with diagnosis: a tenth of what is trusted, for the estimate was seen to fall short
-#: fourfold. Poses near a singularity lose digits so; solving one again costs as much as thousands.
+#: solved again with diagnosis: a tenth of what is trusted, for the error of single columns was seen
+#: to be nine times the estimate. The measure is that of `strutwork.msa.trust`. Poses near a
+#: singularity lose digits so; solving one again costs as much as thousands.
 ERROR_LIMIT = 0.1 * TRUSTED
 
 #: A pose whose smallest pivot is below this share of its diagonal entry likewise.

@@ -21,6 +21,9 @@ Array = NDArray[Any]
 #: A pivot below this share of its diagonal entry belongs to a motion that nothing resists.
 VANISHED = 1e-12
 
+#: Rounding of one number.
+EPSILON = float(np.finfo(float).eps)
+
 
 @jit(contract=True)
 def _eliminate(p, matrix, factor, inverse, scaled, smallest):  # type: ignore[no-untyped-def]
@@ -129,16 +132,20 @@ def _left(p, matrix, x, r):  # type: ignore[no-untyped-def]
 def _error(p, matrix, force, x, left, change, share):  # type: ignore[no-untyped-def]
     """Error of x by its correction, (w): root of the work of the one by that of the other.
 
-    By the inequality of Schwarz the compliance along the wrench is as exact as this.
+    By the inequality of Schwarz the compliance along the wrench is as exact as this. Roundings
+    may cancel in one correction and not in the answer: the error is never taken for less than
+    what the last digit of every stiffness does to the work.
     """
     count = p.diagonal.shape[0]
-    whole, off = np.zeros(LANES), np.zeros(LANES)
+    whole, off, last = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     for c in range(count):
         for w in range(LANES):
             whole[w] += force[c, w] * x[c, w]
             off[w] += abs(left[c, w] * change[c, w])
+            last[w] += EPSILON * matrix[p.diagonal[c], w] * x[c, w] * x[c, w]
     for w in range(LANES):
         share[w] = np.sqrt(off[w] / whole[w]) if off[w] > 0.0 else 0.0
+        share[w] = max(share[w], last[w] / whole[w]) if last[w] > 0.0 else share[w]
     for c in range(count):
         for w in range(LANES):
             # what is left on a coordinate that nothing resists is no rounding

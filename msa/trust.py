@@ -4,8 +4,14 @@ The equilibrium is taken part by part (`strutwork.msa.nodal`) and its residual i
 the correction is the error of the solution before it, whatever the solver (Higham 2002, ch. 12).
 Where the first correction is not tiny, residuals are taken in extended precision, in which the
 stiffness of the parts has not lost the soft directions beside the stiff ones; each step then gains
-as many digits as the condition leaves. The compiled kernel asks of its own answer, pose by pose,
-whether doubles suffice (`strutwork.msa.compiled`); a pose of which it is not sure comes here.
+as many digits as the condition leaves.
+
+The measure, here and wherever statics are judged: the error of a load case, or of a column of a
+compliance, as a share of the case's own largest displacement, rotations times the structure's
+length; never of the load or of the largest stiffness, beside which a soft direction is nothing. Up
+to `TRUSTED` an answer is given. The compiled kernel estimates the same of its own answer, pose by
+pose, by one wrench that loads all six directions (`strutwork.msa.compiled`): a pose of which it is
+not sure to a tenth of that comes here.
 """
 
 from __future__ import annotations
