@@ -129,28 +129,37 @@ def _left(p, matrix, x, r):  # type: ignore[no-untyped-def]
 
 
 @jit(contract=True)
-def _error(p, matrix, force, x, left, change, share):  # type: ignore[no-untyped-def]
+def _error(p, matrix, inverse, force, x, left, change, share):  # type: ignore[no-untyped-def]
     """Error of x by its correction, (w): root of the work of the one by that of the other.
 
     By the inequality of Schwarz the compliance along the wrench is as exact as this. Roundings
     may cancel in one correction and not in the answer: the error is never taken for less than
-    what the last digit of every stiffness does to the work.
+    what the last digit of every stiffness does to the work. Of a coordinate whose pivot vanished
+    nothing is corrected: what is left on it is a share of the largest force, each with the
+    stiffness of its coordinate scaled to one.
     """
     count = p.diagonal.shape[0]
-    whole, off, last = np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
+    whole, off = np.zeros(LANES), np.zeros(LANES)
+    last, size = np.zeros(LANES), np.zeros(LANES)
     for c in range(count):
         for w in range(LANES):
+            stiff = matrix[p.diagonal[c], w]
             whole[w] += force[c, w] * x[c, w]
             off[w] += abs(left[c, w] * change[c, w])
-            last[w] += EPSILON * matrix[p.diagonal[c], w] * x[c, w] * x[c, w]
+            last[w] += EPSILON * stiff * x[c, w] * x[c, w]
+            # a force on a coordinate that nothing resists is no size, but an error
+            size[w] = max(size[w], abs(force[c, w]) / np.sqrt(stiff)) if stiff > 0.0 else size[w]
     for w in range(LANES):
         share[w] = np.sqrt(off[w] / whole[w]) if off[w] > 0.0 else 0.0
         share[w] = max(share[w], last[w] / whole[w]) if last[w] > 0.0 else share[w]
     for c in range(count):
         for w in range(LANES):
-            # what is left on a coordinate that nothing resists is no rounding
-            if not matrix[p.diagonal[c], w] > 0.0 and left[c, w] != 0.0:
-                share[w] = np.inf
+            stiff = matrix[p.diagonal[c], w]
+            one = abs(left[c, w])
+            # a coordinate of which neither a stiffness nor a load is known is idle
+            if inverse[c, w] == 0.0 and one != 0.0:
+                one = one / np.sqrt(stiff) / size[w] if stiff > 0.0 else np.inf
+                share[w] = max(share[w], told(one, np.inf))
     for w in range(LANES):
         share[w] = told(share[w], np.inf)
 
@@ -251,7 +260,7 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
         _substitute(p, factor, inverse, r, x)
         _left(p, matrix, x, r)
         _substitute(p, factor, inverse, r, change)
-        _error(p, matrix, force, x, r, change, share)
+        _error(p, matrix, inverse, force, x, r, change, share)
         loops_residual(p, store, entry, x, share, total, scaled)
         _compliance(p, factor, inverse, load, result)
         for w in range(min(LANES, stop - base)):

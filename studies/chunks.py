@@ -39,11 +39,18 @@ class ChunkStore:
         return Path(self.folder) / self.key[:16] / f"chunk-{number:06d}.npz"
 
     def write(self, number: int, arrays: Mapping[str, NDArray[Any]]) -> Path:
-        """Keep a finished chunk; the file is there whole or not at all."""
-        content: Arrays = {_KEY: np.array(self.key), **arrays}
-        return write_whole(
-            self.path(number), lambda path: np.savez(path, allow_pickle=False, **content)
-        )
+        """Keep a finished chunk; the file is there whole or not at all.
+
+        Raises
+        ------
+        TypeError
+            An array of Python objects, which could be pickled only.
+        """
+        for name, array in arrays.items():
+            if array.dtype.hasobject:
+                raise TypeError(f"chunk {number}: {name} holds Python objects, not numbers or text")
+        content: dict[str, Any] = {_KEY: np.array(self.key), **arrays}
+        return write_whole(self.path(number), lambda path: np.savez(path, **content))
 
     def read(self, number: int) -> Arrays | None:
         """A finished chunk; None where there is none, or where its file is damaged.

@@ -91,7 +91,7 @@ def test_self_stress_is_in_balance(strutwork: Program) -> None:
         assert grounded == pytest.approx(np.array(moving), abs=1e-9)
 
 
-@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+@pytest.mark.filterwarnings("default::strutwork.machines.model.ModelWarning")
 def test_mechanism_left_with_drives_held(
     strutwork: Program, write: Callable[[Content], Path]
 ) -> None:

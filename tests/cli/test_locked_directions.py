@@ -14,7 +14,7 @@ from tests.cli.conftest import Program
 from tests.model_files import Content
 
 #: Printed on standard error by the program.
-pytestmark = pytest.mark.filterwarnings("always::machines.model.ModelWarning")
+pytestmark = pytest.mark.filterwarnings("always::strutwork.machines.model.ModelWarning")
 
 CASES = Path(__file__).parents[1] / "cases"
 

@@ -175,7 +175,7 @@ def test_check_counts_and_weighs(file: Path, strutwork: Program) -> None:
     assert "accurate below, Hz" in printed
 
 
-@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+@pytest.mark.filterwarnings("default::strutwork.machines.model.ModelWarning")
 @pytest.mark.parametrize(
     "command", [["modes", "-n", "40"], ["frf", "--input", "tip:x", "--from", "10", "--to", "9e4"]]
 )
@@ -247,7 +247,7 @@ def test_the_example_in_all_commands(tmp_path: Path, strutwork: Program) -> None
     assert len(shapes.splitlines()) > 1000
 
 
-@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+@pytest.mark.filterwarnings("default::strutwork.machines.model.ModelWarning")
 def test_the_report_says_where_the_promise_ends(
     write: Callable[[Content], Path], tmp_path: Path, strutwork: Program
 ) -> None:

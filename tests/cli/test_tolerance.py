@@ -305,7 +305,7 @@ def test_files_hold_the_same_numbers(strutwork: Program, tmp_path: Path) -> None
     assert {row["unit"] for row in rows} == {"N", "m", "rad"}
 
 
-@pytest.mark.filterwarnings("always::overconstraint.sources.ToleranceWarning")
+@pytest.mark.filterwarnings("always::strutwork.overconstraint.sources.ToleranceWarning")
 def test_a_free_direction_is_a_warning_with_the_joint(strutwork: Program, write: Write) -> None:
     edit = tolerance(kind="parallelism", slope="1 mrad", datum="D", axis=[0, 0, 1])
     run = strutwork("tolerance", write(sample(edit)), *QUICK)

@@ -96,7 +96,7 @@ def test_dashpots_add_to_the_damping_of_the_file(strutwork: Program, write: Writ
     assert bare["damping_ratios"] == [None]
 
 
-@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+@pytest.mark.filterwarnings("default::strutwork.machines.model.ModelWarning")
 def test_materials_damp_where_the_file_names_no_damping(strutwork: Program, write: Write) -> None:
     lossy = put("materials.steel.loss_factor", 0.004)
     one = {"nodes": {"A": [0, 0, 0], "TCP": [0.3, 0, 0]}, "supports": SAMPLE["supports"][:1]}
@@ -333,7 +333,7 @@ def test_wrong_usage(strutwork: Program, arguments: tuple[str, ...]) -> None:
 WIRE = ROOT / "tests" / "cases" / "models" / "f7_preload_ignored.toml"
 
 
-@pytest.mark.filterwarnings("default::machines.model.ModelWarning")
+@pytest.mark.filterwarnings("default::strutwork.machines.model.ModelWarning")
 def test_a_load_that_would_stiffen_is_named(strutwork: Program) -> None:
     run = strutwork("modes", WIRE, "-n", "1", "--json")
     assert run.result["frequencies"] == pytest.approx([4.604], abs=1e-3)
