@@ -18,7 +18,7 @@ from strutwork.fea.solid_supports import Supports, require_held, supports
 Array = NDArray[Any]
 
 #: Largest error of a solution, as a share of its largest displacement, that is let pass. A residual
-#: beside the load would refuse sound answers of slender solids, whose cells carry a million times it.
+#: beside the load would refuse sound answers of slender solids, whose cells carry far more than it.
 CERTAIN = 1e-6
 
 
