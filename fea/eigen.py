@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.fea.eigen_work import with_true_work
 from strutwork.fea.reduction import Reduced
 from strutwork.msa.assembly import System
 from strutwork.msa.diagnosis import mechanism_error
@@ -65,7 +66,7 @@ def solve_eigen(reduced: Reduced) -> Eigen:
     ModelError
         No mass, or a free motion without mass.
     MechanismError, NumericalError
-        The stiffness is not positive definite beside the rigid-body modes.
+        The stiffness is not positive definite beside the rigid-body modes, or known too badly.
     """
     mass, stiffness = reduced.mass, reduced.stiffness
     if not np.all(np.einsum("pii->p", mass) > 0):
@@ -92,7 +93,7 @@ def solve_eigen(reduced: Reduced) -> Eigen:
         vectors, square = _pencil(reduced, stiffness, mass)
     if basis is not None:
         vectors = basis @ vectors
-    return Eigen(vectors, square, rigid)
+    return Eigen(*with_true_work(reduced, vectors, square), rigid)
 
 
 def _pencil(reduced: Reduced, stiffness: Array, mass: Array) -> tuple[Array, Array]:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.eigen import MASSLESS, solve_eigen
+from strutwork.fea.eigen_work import with_true_work
 from strutwork.fea.modes import CHUNK, lowest
 from strutwork.fea.reduction import Reduced, reduce_system
 from strutwork.msa.assembly import system_of
@@ -46,6 +47,8 @@ def natural_frequencies(placed: PlacedStructure, count: int = 10) -> tuple[Array
     ------
     ModelError
         A count below one, no mass, or every direction locked.
+    NumericalError
+        Modes whose strain energy is not certain (`strutwork.fea.eigen_work`); names the pose.
     """
     if count < 1:
         raise ModelError("frequencies", f"{count} asked for.", "Ask for at least one.")
@@ -97,7 +100,8 @@ def _subspace(reduced: Reduced, count: int, block: int) -> tuple[Array, Array] |
             # fewer modes than asked: what is left has no mass
             return None
         if np.all(residual <= CONVERGED * values[:, 0]):
-            omega = 1.0 / np.sqrt(values)
             shapes = scale[..., None] * (np.swapaxes(inverse, -1, -2) @ ritz)
+            shapes, values = with_true_work(reduced, shapes, np.ascontiguousarray(values))
+            omega = 1.0 / np.sqrt(values)
             return omega / (2.0 * np.pi), shapes * omega[:, None, :]
     return None

@@ -50,8 +50,8 @@ def legs(seed: int, contrast: float) -> PlacedStructure:
             model.rigid(f"link{leg}.{i}", f"on{leg}.{i}", last)
         model.rigid(f"end{leg}", last, "tool")
     one = model.place()
-    at = one.placement
-    twice = Placement(np.stack([at.positions] * 2), np.stack([at.frames] * 2), np.zeros((2, 0)))
+    here = one.placement
+    twice = Placement(np.stack([here.positions] * 2), np.stack([here.frames] * 2), np.zeros((2, 0)))
     return one.structure.at(twice)
 
 
