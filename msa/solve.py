@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, NumericalError
+from strutwork.kinematics import DIRECTIONS
 from strutwork.msa.assembly import System, system_of
 from strutwork.msa.condensed import solve_condensed
 from strutwork.msa.diagnosis import mechanisms_under
@@ -113,6 +114,17 @@ class StaticSolution:
         if len(solved[0]):
             result[solved] = undetermined(self.placed[solved])
         return result
+
+    @property
+    def undetermined_names(self) -> dict[str, tuple[str, ...]]:
+        """The same by joint: its directions that are `undetermined`, at any pose of a batch."""
+        joints = self.placed.structure.linkage.joints
+        found = self.undetermined.any(axis=tuple(range(len(self.placed.batch))))
+        return {
+            joint.name: tuple(d for d, open_ in zip(DIRECTIONS, row, strict=True) if open_)
+            for joint, row in zip(joints, found, strict=True)
+            if row.any()
+        }
 
     def _case(self, case: str) -> int:
         if case not in self.cases:

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.msa.assembly import System, system_of
 from strutwork.msa.constraints import orthonormal_rows, scales
@@ -38,16 +37,6 @@ def undetermined(placed: PlacedStructure) -> NDArray[np.bool_]:
     joint, direction = system.row_owner
     result[:, joint, direction] = share > SHARE
     return result.reshape(*placed.batch, joints, 6)
-
-
-def undetermined_names(placed: PlacedStructure) -> dict[str, tuple[str, ...]]:
-    """The same by joint, for a single pose: the directions whose force is not determined."""
-    found = undetermined(placed).reshape(-1, 6)
-    return {
-        joint.name: tuple(d for d, open_ in zip(DIRECTIONS, row, strict=True) if open_)
-        for joint, row in zip(placed.structure.linkage.joints, found, strict=True)
-        if row.any()
-    }
 
 
 def _dense_share(system: System) -> Array:

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, StrutworkError
-from strutwork.kinematics import DIRECTIONS, NearMechanism, near_motions
+from strutwork.kinematics import NearMechanism, near_motions
 from strutwork.machines.model import Model, ModelWarning
 from strutwork.msa import StaticSolution, solve, tool_compliance, tool_stiffness
-from strutwork.msa.undetermined import undetermined_names
 from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 
 Array = NDArray[Any]
@@ -36,8 +35,6 @@ class ModelSolution:
         At the tool, m/N, 1/N, rad/(N·m); None without a tool, or where it moves freely.
     stiffness : (6, 6) or None
         Inverse of the compliance; None where it has none.
-    undetermined : mapping of joint name to directions
-        Forces that rigid parts alone leave open: withheld.
     near : tuple of NearMechanism
         Motions that coordinates of few digits hold.
     """
@@ -46,18 +43,23 @@ class ModelSolution:
     statics: StaticSolution
     compliance: Array | None
     stiffness: Array | None
-    undetermined: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     near: tuple[NearMechanism, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelSolution: {self.statics!r}, tool {self.model.tool}>"
 
+    @property
+    def undetermined(self) -> Mapping[str, tuple[str, ...]]:
+        """Joint directions whose force rigid parts alone leave open: withheld."""
+        return self.statics.undetermined_names if self.statics.cases else {}
+
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers in SI, by the names of the model file."""
         cases = {name: self._case(m) for m, name in enumerate(self.statics.cases)}
         supports = {joint: node for node, joint in self.model.supports.items()}
-        joints = {j: list(d) for j, d in self.undetermined.items() if j not in supports}
-        reactions = {supports[j]: list(d) for j, d in self.undetermined.items() if j in supports}
+        named = self.undetermined
+        joints = {j: list(d) for j, d in named.items() if j not in supports}
+        reactions = {supports[j]: list(d) for j, d in named.items() if j in supports}
         beside = {
             "undetermined_joint_forces": joints,
             "undetermined_reactions": reactions,
@@ -99,13 +101,14 @@ class ModelSolution:
 
     def _force(self, joint: str, m: int) -> list[float | None]:
         """Force of a joint, None in directions that are not determined."""
-        six = self.statics.joint_forces[self.model.structure.linkage.joint_index[joint], :, m]
-        open_ = self.undetermined.get(joint, ())
-        if open_:
+        index = self.model.structure.linkage.joint_index[joint]
+        six = self.statics.joint_forces[index, :, m]
+        open_ = self.statics.undetermined[index]
+        if np.any(open_):
             # beside what is withheld nobody could tell rounding from a force
             largest = np.abs(self.statics.joint_forces[..., m]).max()
             six = np.where(np.abs(six) < 1e-12 * largest, 0.0, six)
-        return [None if d in open_ else v for d, v in zip(DIRECTIONS, six.tolist(), strict=True)]
+        return list(np.ma.masked_array(six, open_).tolist())
 
 
 def solve_model(model: Model) -> ModelSolution:
@@ -153,9 +156,9 @@ def solve_model(model: Model) -> ModelSolution:
             warnings.warn(f"{where}{error}", ModelWarning, stacklevel=2)
     near = near_motions(model.structure.linkage, model.placement)
     warn_of_near(near)
-    undetermined = undetermined_names(model.placed) if model.cases else {}
-    _warn_of_undetermined(undetermined)
-    return ModelSolution(model, statics, compliance, stiffness, undetermined, near)
+    found = ModelSolution(model, statics, compliance, stiffness, near)
+    _warn_of_undetermined(found.undetermined)
+    return found
 
 
 def _warn_of_undetermined(undetermined: Mapping[str, tuple[str, ...]]) -> None:
