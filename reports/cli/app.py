@@ -23,7 +23,7 @@ from strutwork.reports.cli.choices import (
     Ratio,
     Target,
 )
-from strutwork.reports.cli.ending import OUT_OF_RANGE, guarded
+from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.usage import Commands, typed
@@ -57,6 +57,8 @@ def main() -> None:
         warnings.showwarning = show
         # NumPy's words name no part of a model: `guarded` says what the reader can do
         warnings.filterwarnings("error", OUT_OF_RANGE, RuntimeWarning)
+        # within other libraries' steps it is no verdict: what they answer is checked by itself
+        warnings.filterwarnings("ignore", OUT_OF_RANGE, RuntimeWarning, module=CHECKED)
         with watched():
             sys.exit(guarded(app))
 

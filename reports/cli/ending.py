@@ -19,6 +19,10 @@ WRONG = 1
 #: What NumPy warns of where a number leaves the range of doubles.
 OUT_OF_RANGE = r"(overflow|underflow|invalid value|divide by zero) encountered"
 
+#: Modules that may meet such a number on the way to a sound answer: trial steps of a search, empty
+#: places of a picture. Solvers check what comes of it; NumPy's own modules work on our numbers.
+CHECKED = r"(gmsh|h5netcdf|matplotlib|meshio|pandas|plotly|pyvista|scipy|sfepy|trimesh|xarray)\b"
+
 #: Exit status where a result cannot be written.
 UNWRITTEN = 3
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy import special
 
 from strutwork.reports.cli import check
+from strutwork.reports.cli.ending import OUT_OF_RANGE
 from tests.cli.conftest import Program
 from tests.model_files import SAMPLE, Content, put, sample
 
@@ -100,6 +103,23 @@ def test_overflow_that_no_check_foresaw_is_withheld(
     assert (run.status, run.out) == (1, "")
     assert run.err.startswith("Error: numbers: leave the range of doubles")
     assert "out of all proportion" in run.err
+
+
+def test_numbers_out_of_range_within_a_library_withhold_nothing(
+    strutwork: Program, write: Callable[[Content], Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # SciPy subtracts infinities on its way
+    monkeypatch.setattr(check, "run", lambda *_: softmax_of_infinity())
+    run = strutwork("check", write(SAMPLE))
+    assert (run.status, run.err) == (0, "")
+
+
+def softmax_of_infinity() -> None:
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        special.softmax([np.inf, 0.0])
+    assert re.match(OUT_OF_RANGE, str(said[0].message))
+    special.softmax([np.inf, 0.0])
 
 
 def test_other_warnings_are_shown_and_end_nothing(
