@@ -70,7 +70,7 @@ def plain(text: str) -> str:
 @cache
 def _environment() -> Environment:
     environment = Environment(
-        loader=PackageLoader("reports", "templates"),
+        loader=PackageLoader("strutwork.reports", "templates"),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -81,7 +81,7 @@ def _environment() -> Environment:
 
 
 def _asset(name: str) -> Markup:
-    text = files("reports").joinpath("templates", name).read_text(encoding="utf-8")
+    text = files("strutwork.reports").joinpath("templates", name).read_text(encoding="utf-8")
     return Markup(_closed(text))  # noqa: S704 - our own file
 
 

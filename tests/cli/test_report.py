@@ -1,5 +1,8 @@
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,6 +20,25 @@ def test_report_of_a_model_file(strutwork: Program, tmp_path: Path) -> None:
     assert found["data"]
     written = set(folder.iterdir())
     assert written - {folder / MANIFEST} == {Path(found["report"]), *map(Path, found["data"])}
+
+
+def test_the_installed_program_needs_nothing_of_the_folder_it_runs_in(tmp_path: Path) -> None:
+    # a user's own module of the name of one of our folders is no matter, and neither is its absence
+    (tmp_path / "kinematics.py").write_text("raise RuntimeError('not ours')\n", encoding="utf-8")
+    (tmp_path / "reports.py").write_text("raise RuntimeError('not ours')\n", encoding="utf-8")
+    program = Path(sys.executable).with_name("strutwork")
+    environment = {k: v for k, v in os.environ.items() if k != "PYTHONPATH"}
+    for first in ([str(program)], [sys.executable, "-m", "strutwork"]):
+        done = subprocess.run(
+            [*first, "report", str(EXAMPLES[0]), "-o", "out"],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == 0, done.stderr
+        assert (tmp_path / "out" / "report.html").is_file()
 
 
 def test_path_for_people(strutwork: Program, tmp_path: Path) -> None:

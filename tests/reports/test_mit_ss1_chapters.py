@@ -146,6 +146,7 @@ def test_least_dynamic_stiffness_is_the_highest_point(planar_report: WrittenRepo
     assert "Damping is assumed: 1 %" in text
 
 
+@pytest.mark.slow
 def test_granite_swings_by_the_mode_and_the_slider(
     browser: Browser, planar_report: WrittenReport
 ) -> None:

@@ -53,12 +53,12 @@ def test_page_is_drawn_quiet_and_offline(
 
 
 #: Drawing in software takes a minute for these; the others show the same kinds of views.
-LONG_VIEWS = ["comparison", "machine", "tolerance"]
+LONG_VIEWS = ["comparison", "machine", "planar", "tolerance"]
 
 
 @pytest.mark.parametrize(
     "kind",
-    ["prototype", "model", "planar", "hexapod"]
+    ["prototype", "model", "hexapod"]
     + [pytest.param(kind, marks=pytest.mark.slow) for kind in LONG_VIEWS],
 )
 def test_three_dimensional_views_show_something(

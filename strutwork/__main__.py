@@ -1,0 +1,5 @@
+"""`python -m strutwork`: the program."""
+
+from strutwork.reports.cli import main
+
+main()
