@@ -119,7 +119,7 @@ class StaticSolution:
     def undetermined_names(self) -> dict[str, tuple[str, ...]]:
         """The same by joint: its directions that are `undetermined`, at any pose of a batch."""
         joints = self.placed.structure.linkage.joints
-        found = self.undetermined.any(axis=tuple(range(len(self.placed.batch))))
+        found = np.asarray(self.undetermined.any(axis=tuple(range(len(self.placed.batch)))))
         return {
             joint.name: tuple(d for d, open_ in zip(DIRECTIONS, row, strict=True) if open_)
             for joint, row in zip(joints, found, strict=True)
