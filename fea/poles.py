@@ -75,6 +75,15 @@ def find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
     """
     if len(reduced.stiffness) != 1:
         raise ModelError("poles", f"of {len(reduced.stiffness)} poses.", "Give one pose.")
+    try:
+        return _find_poles(reduced, eigen, damping)
+    except np.linalg.LinAlgError as error:
+        raise NumericalError(
+            "poles", "cannot be told apart.", "Change the damping by a little."
+        ) from error
+
+
+def _find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
     matrices = damped_matrices(reduced, eigen, damping)
     viscous = matrices.viscous[0]
     stiffness = matrices.stiffness[0]
@@ -96,13 +105,8 @@ def find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
     k, c = basis.T @ stiffness @ basis, basis.T @ viscous @ basis
     pull = (basis.T @ (viscous @ dragged)) / drag
     matrix, given = _linearised(k, c, pull, root, drag)
-    try:
-        eigenvalues, vectors = np.linalg.eig(matrix)
-        dual = np.linalg.inv(vectors)
-    except np.linalg.LinAlgError as error:
-        raise NumericalError(
-            "poles", "cannot be told apart.", "Change the damping by a little."
-        ) from error
+    eigenvalues, vectors = np.linalg.eig(matrix)
+    dual = np.linalg.inv(vectors)
     d, m = len(drag), len(root)
     given = given @ np.concatenate([dragged.T, basis.T])
     parts = dual @ given

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from strutwork.kinematics.frames import cross
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.linkage import Linkage
-from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.placement import COINCIDENCE, Placement
 
 Array = NDArray[Any]
 
@@ -183,7 +183,8 @@ def _marks(points: Array) -> NDArray[np.bool_]:
     # from three nodes, of which one at least is no mark
     for i in sorted({0, count // 2, count - 1}) if count else ():
         apart = np.linalg.norm(points - points[..., i : i + 1, :], axis=-1)
-        usual = np.median(apart, axis=-1)
+        # two nodes of a joint are one place, whatever rounding has left between them
+        usual = np.median(np.where(apart > COINCIDENCE, apart, 0.0), axis=-1)
         better = (usual > 0) & (usual < best)
         best = np.where(better, usual, best)
         far = np.where(better[..., None], apart > FAR * usual[..., None], far)

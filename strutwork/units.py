@@ -23,8 +23,9 @@ _LONGEST = 80
 #: quantities leave the range of doubles, and nothing that is built comes near.
 LARGEST, LONGEST = 1e30, 1e9
 
-#: Magnitudes below these, SI, count as 0, for the same reason.
-SMALLEST, SHORTEST = 1e-60, 1e-30
+#: Magnitudes below these, SI, count as 0, for the same reason; a length below a femtometre is no
+#: length of anything built, and an arm that short would look like a direction of its own.
+SMALLEST, SHORTEST = 1e-60, 1e-15
 
 #: Powers of m, kg, s and rad.
 Powers = tuple[int, int, int, int]

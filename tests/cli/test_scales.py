@@ -38,6 +38,59 @@ def test_nodes_farther_than_any_machine(
     assert "Warning" not in run.err
 
 
+FORK = """
+[materials.s]
+youngs_modulus = 205e9
+poissons_ratio = 0.29
+density = 7850
+[sections.t]
+shape = "tube"
+outer_diameter = 0.05
+inner_diameter = 0.04
+[nodes]
+G = [0, 0, 0]
+A = [0, 0, 0]
+B = [0, 0, {off}]
+T = [0.1, 0.2, 0.5]
+[[beams]]
+name = "b"
+from = "B"
+to = "T"
+material = "s"
+section = "t"
+[[joints]]
+name = "j1"
+type = "bushing"
+between = ["G", "A"]
+stiffness = {{ x = 1e8, y = 1e8, z = 1e8, rx = 1e5, ry = 1e5, rz = 1e5 }}
+damping = {{ x = 100, y = 100, z = 100, rx = 1e-3, ry = 1e-3, rz = 1e-3 }}
+[[joints]]
+name = "j2"
+type = "bushing"
+between = ["A", "B"]
+stiffness = {{ x = 1e9, y = 1e9, z = 1e9, rx = 1e6, ry = 1e6, rz = 1e6 }}
+[[supports]]
+node = "G"
+fixed = "all"
+[tool]
+tcp = "T"
+"""
+
+
+@pytest.mark.parametrize("off", ["1e-30", "-3e-16", "1e-12"])
+def test_a_node_hardly_off_its_joint_changes_nothing(
+    strutwork: Program, tmp_path: Path, off: str
+) -> None:
+    path = tmp_path / "fork.toml"
+    found = []
+    for place in ("0", off):
+        path.write_text(FORK.format(off=place), encoding="utf-8")
+        assert strutwork("check", path, "--json").result["mobility"] == 0
+        found.append(strutwork("modes", path, "-n", "4", "--json").result["frequencies"])
+    # an arm of a picometre beside half a metre
+    assert found[1] == pytest.approx(found[0], rel=1e-9)
+
+
 @pytest.mark.parametrize(("low", "high"), [("0", "1e300"), ("1e299", "1e300"), ("1", "1.1e9")])
 @pytest.mark.parametrize("machine", ["mit-ss1", None])
 def test_band_where_nothing_vibrates(

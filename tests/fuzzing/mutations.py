@@ -96,7 +96,11 @@ def number(content: Any, rng: random.Random) -> None:
     table, key = _pick(content, rng, (int, float))
     old = table.get(key, 0) if isinstance(table, dict) else table[key]
     factor = rng.choice((-1, 0.999999, 1e-12, 1e-6, 1e-3, 1e3, 1e6, 1e12, 1e150))
-    scaled = old * factor if isinstance(old, int | float) else 0
+    try:
+        scaled = old * factor if isinstance(old, int | float) else 0
+    except OverflowError:
+        # an integer of hundreds of digits, from an earlier step
+        scaled = old
     table[key] = rng.choice((rng.choice(NUMBERS), scaled))
 
 
