@@ -22,6 +22,9 @@ from strutwork.kinematics.walk import Walk
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]
 
+#: Targets that are followed at once.
+PIECE = 1024
+
 
 @dataclass(frozen=True)
 class Moved:
@@ -159,7 +162,9 @@ class Motion:
         start = self.home_pose if tool is not None or task else None
         wanted = given(self.joints, start, self.home_values, tool, task, joints)
         walk = Walk(self.joints, self.rotation, wanted)
-        walk.go()
+        # rows of one piece at a time: those of a million targets would take tens of gigabytes
+        for start in range(0, wanted.poses, PIECE):
+            walk.go(np.arange(start, min(start + PIECE, wanted.poses)))
         return self._moved(walk, wanted)
 
     def task_of(self, poses: Poses) -> Array:

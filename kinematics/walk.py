@@ -71,14 +71,14 @@ class Walk:
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)
 
-    def go(self) -> None:
-        """Walk until every pose has arrived or its way has ended."""
+    def go(self, poses: Indices) -> None:
+        """Walk until each of some poses has arrived or its way has ended."""
         for _ in range(MOST):
-            at = np.flatnonzero(self.active)
+            at = poses[self.active[poses]]
             if not at.size:
                 return
             self._step(at)
-        self._end(np.flatnonzero(self.active), LOST)
+        self._end(poses[self.active[poses]], LOST)
 
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1

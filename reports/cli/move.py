@@ -33,19 +33,17 @@ def run(
     json: bool,
 ) -> None:
     """Move, and print where everything stands."""
-    wanted: dict[Coordinate, Any] = {}
+    if targets is not None and (pose or joint):
+        raise ModelError("move", "is given a file of targets and others.", "Give one or the other.")
+    tool, joints = targets_of_words(pose, "--pose"), targets_of_words(joint, "--joint")
+    for owner, direction in tool:
+        if owner:
+            raise ModelError(
+                "--pose", f"names the joint {owner}:{direction}.", "Use --joint for it."
+            )
+    wanted: dict[Coordinate, Any] = {**tool, **joints}
     if targets is not None:
         wanted |= read_targets(Path(targets))
-        if pose or joint:
-            raise ModelError(
-                "move", "is given a file of targets and others.", "Give one or the other."
-            )
-    wanted |= targets_of_words(pose, "--pose")
-    for key, value in targets_of_words(joint, "--joint").items():
-        wanted[key] = value
-    for (owner, direction), where in ((k, "--pose") for k in targets_of_words(pose, "--pose")):
-        if owner:
-            raise ModelError(where, f"names the joint {owner}:{direction}.", "Use --joint for it.")
     subject = moving(name)
     _print(subject, _moved(subject, wanted), out, json=json)
 
