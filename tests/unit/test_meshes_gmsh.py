@@ -15,7 +15,6 @@ import pytest
 
 from strutwork.errors import ModelError
 from strutwork.meshes import (
-    Mesh,
     block,
     boundary,
     check_connectivity,
@@ -30,8 +29,6 @@ from strutwork.meshes import (
 )
 from strutwork.meshes.surfaces import Surface
 
-INSTALLED = importlib.util.find_spec("gmsh") is not None
-
 CASES = Path(__file__).parents[1] / "cases" / "step"
 
 
@@ -40,14 +37,10 @@ def cylinder() -> Surface:
     return surface_of(mesh, boundary(mesh))
 
 
-def meshed_or_refused(make: Callable[[], Mesh]) -> Mesh:
-    """The mesh; what is said without Gmsh has tests of its own."""
-    require_gmsh()
-    return make()
-
-
+@pytest.fixture(autouse=True)
 def require_gmsh() -> None:
-    if not INSTALLED:
+    """What is said without Gmsh has tests of its own, which hide it."""
+    if importlib.util.find_spec("gmsh") is None:
         pytest.fail("Gmsh is missing. These tests need the extra `cad`: pip install -e '.[cad]'.")
 
 
@@ -69,7 +62,7 @@ def write_step(path: Path, draw: Callable[[Any], object]) -> Path:
 @pytest.mark.parametrize("order", [1, 2])
 def test_a_closed_surface_is_filled(order: int) -> None:
     surface = cylinder()
-    mesh = meshed_or_refused(lambda: tetrahedra(surface, 0.03, order=order))
+    mesh = tetrahedra(surface, 0.03, order=order)
     assert [b.kind for b in mesh.blocks] == [["tetra"], ["tetra10"]][order - 1]
     ring = tube(0.03, 0.08, 0.2, (1, 24, 4))
     # the surface is meshed anew: a curve is cut by other chords
@@ -82,7 +75,7 @@ def test_a_closed_surface_is_filled(order: int) -> None:
 def test_a_plane_surface_keeps_its_volume_and_its_inertia() -> None:
     brick = block((0.3, 0.2, 0.1), (3, 2, 1), name="brick")
     surface = surface_of(brick, boundary(brick))
-    mesh = meshed_or_refused(lambda: tetrahedra(surface, 0.05, order=2))
+    mesh = tetrahedra(surface, 0.05, order=2)
     found, wanted = mass_properties(mesh, 7850.0), mass_properties(brick, 7850.0)
     # Gmsh places points on the planes to its own tolerance of 1e-8 or so
     assert found.mass == pytest.approx(wanted.mass, rel=1e-6)
@@ -96,11 +89,8 @@ def test_a_step_file_of_two_bodies_is_meshed_in_metres_as_one(tmp_path: Path) ->
         occ.addBox(100, 0, 0, 50, 50, 50)
 
     path = tmp_path / "two.step"
-    if INSTALLED:
-        write_step(path, draw)
-    else:
-        path.write_text("ISO-10303-21;\nEND-ISO-10303-21;\n")
-    mesh = meshed_or_refused(lambda: tetrahedra(path, 0.04))
+    write_step(path, draw)
+    mesh = tetrahedra(path, 0.04)
     assert mesh.extent == pytest.approx([0.15, 0.2, 0.3])
     assert mesh.regions == ("body 1", "body 2")
     check_connectivity(mesh)
@@ -116,11 +106,8 @@ def test_a_step_file_of_two_bodies_is_meshed_in_metres_as_one(tmp_path: Path) ->
 
 def test_quadratic_tetrahedra_follow_the_curved_faces_of_a_step_file(tmp_path: Path) -> None:
     path = tmp_path / "rod.step"
-    if INSTALLED:
-        write_step(path, lambda occ: occ.addCylinder(0, 0, 0, 0, 0, 100, 20))
-    else:
-        path.write_text("ISO-10303-21;\nEND-ISO-10303-21;\n")
-    curved = meshed_or_refused(lambda: tetrahedra(path, 0.01))
+    write_step(path, lambda occ: occ.addCylinder(0, 0, 0, 0, 0, 100, 20))
+    curved = tetrahedra(path, 0.01)
     with pytest.warns(UserWarning, match="its volume .* quadratic cells"):
         straight = tetrahedra(path, 0.01, order=1)
     exact = np.pi * 0.02**2 * 0.1
@@ -132,9 +119,6 @@ def test_quadratic_tetrahedra_follow_the_curved_faces_of_a_step_file(tmp_path: P
 
 def test_a_step_file_without_a_body_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "sheet.stp"
-    if not INSTALLED:
-        path.write_text("ISO-10303-21;\nEND-ISO-10303-21;\n")
-        meshed_or_refused(lambda: tetrahedra(path, 0.1))
     write_step(tmp_path / "sheet.step", lambda occ: occ.addRectangle(0, 0, 0, 1, 1)).rename(path)
     with pytest.raises(ModelError, match=r"sheet.stp: holds no solid body"):
         tetrahedra(path, 0.1)
@@ -188,8 +172,6 @@ def test_open_surfaces_and_wrong_sizes_are_refused() -> None:
 
 
 def test_a_mesh_that_would_fill_the_memory_is_foreseen() -> None:
-    if not INSTALLED:
-        meshed_or_refused(lambda: tetrahedra(cylinder(), 1e-5))
     with pytest.raises(ModelError, match=r"ring: cells of 1e-05 m in .* is the limit"):
         tetrahedra(cylinder(), 1e-5)
 
@@ -200,14 +182,12 @@ def test_a_mesh_that_would_fill_the_memory_is_foreseen() -> None:
     [("shaft", 0.012, 7.0686e-5, 0.01), ("cavity", 0.02, 0.000784, 1e-6)],
 )
 def test_a_step_file_keeps_its_volume(name: str, size: float, volume: float, near: float) -> None:
-    mesh = meshed_or_refused(lambda: tetrahedra(CASES / f"{name}.step", size))
+    mesh = tetrahedra(CASES / f"{name}.step", size)
     assert quality(mesh).volume.sum() == pytest.approx(volume, rel=near)
 
 
 def test_the_size_that_is_named_for_lost_volume_reaches_it() -> None:
     path = CASES / "shaft.step"
-    if not INSTALLED:
-        meshed_or_refused(lambda: tetrahedra(path, 0.012))
     with pytest.warns(UserWarning, match=r"-7\.\d % off the exact") as caught:
         tetrahedra(path, 0.012, order=1)
     named = re.search(r"Cells of (\S+) m", str(caught[0].message))
