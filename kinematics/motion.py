@@ -163,8 +163,8 @@ class Motion:
         wanted = given(self.joints, start, self.home_values, tool, task, joints)
         walk = Walk(self.joints, self.rotation, wanted)
         # rows of one piece at a time: those of a million targets would take tens of gigabytes
-        for start in range(0, wanted.poses, PIECE):
-            walk.go(np.arange(start, min(start + PIECE, wanted.poses)))
+        for first in range(0, wanted.poses, PIECE):
+            walk.go(np.arange(first, min(first + PIECE, wanted.poses)))
         return self._moved(walk, wanted)
 
     def task_of(self, poses: Poses) -> Array:
