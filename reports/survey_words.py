@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import MINUS
 
 Array = NDArray[Any]
 
@@ -68,8 +68,7 @@ def pose_text(task: dict[str, float]) -> str:
     words = []
     for name, value in task.items():
         turns = name.startswith("r")
-        shown = significant(round(degrees(value) if turns else 1e3 * value, 6), 4)
-        words.append(f"{name} {shown}{'°' if turns else ' mm'}")
+        words.append(f"{name} {_number(name, value)}{'°' if turns else ' mm'}")
     return ", ".join(words)
 
 
@@ -78,9 +77,12 @@ def grid_text(grid: TaskGrid) -> str:
     words = []
     for name, values in grid.axes.items():
         turns = name.startswith("r")
-        low, high = (
-            significant(round(degrees(v) if turns else 1e3 * v, 6), 4)
-            for v in (float(values[0]), float(values[-1]))
-        )
+        low, high = (_number(name, float(v)) for v in (values[0], values[-1]))
         words.append(f"{name} from {low} to {high} {'°' if turns else 'mm'} in {len(values)}")
     return f"{len(grid)} poses: {', '.join(words)}"
+
+
+def _number(name: str, value: float) -> str:
+    """A coordinate in mm or degrees, as somebody would write it."""
+    shown = round(degrees(value) if name.startswith("r") else 1e3 * value, 3)
+    return f"{shown + 0.0:g}".replace("-", MINUS)

@@ -40,13 +40,13 @@ def write(subject: Subject) -> Chapter:
         factor, unit = (1e-6, "N/µm") if axis in "xyz" else (1e-3, "kN·m/rad")
         values = factor * free.sel(direction=axis).to_numpy()
         if not np.isfinite(values).any():
-            rows.append([f"K{axis * 2}", unit, *["infinite"] * 3, "", ""])
+            rows.append([f"1/C, {axis}", unit, *["infinite"] * 3, "", ""])
             continue
         values = np.where(np.isfinite(values), values, np.nan)
         low, high = least(found, values), largest(found, values)
         rows.append(
             [
-                f"1/C of {axis}",
+                f"1/C_{axis * 2}" if axis in "xyz" else f"1/C_{axis},{axis}",
                 unit,
                 _home(subject.solution, axis, factor),
                 significant(low.value),

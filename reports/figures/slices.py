@@ -56,8 +56,8 @@ def slice_figure(
     name, unit = quantity
     words = "least" if worst_is_least else "largest"
     caption = (
-        f"{name}{at}: {words} of the whole workspace {significant(worst.value)} {unit} at "
-        f"{worst.where}."
+        f"{name[:1].upper()}{name[1:]}{at}: {words} of the whole workspace "
+        f"{significant(worst.value)} {unit} at {worst.where}."
     )
     scales = {d: (np.degrees(axes[d]) if d.startswith("r") else 1e3 * axes[d]) for d in shown}
     titles = [f"{d} ({'deg' if d.startswith('r') else 'mm'})" for d in shown]
