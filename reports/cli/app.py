@@ -334,7 +334,9 @@ def tolerance(
 
 @app.command()
 def scale(
-    machine: Annotated[str, typer.Argument(metavar="MACHINE", help="mit-ss1.")],
+    machine: Annotated[
+        str, typer.Argument(metavar="MACHINE", help="A machine whose size is studied.")
+    ],
     low: Annotated[float, typer.Option("--from", help="Shortest struts, m.")] = 0.1,
     high: Annotated[float, typer.Option("--to", help="Longest struts, m.")] = 3.0,
     lengths: Annotated[int, typer.Option(min=2, max=10_000, help="Lengths, evenly spaced.")] = 30,
@@ -364,7 +366,7 @@ app.command()(move)
 def report(
     target: Annotated[
         str,
-        typer.Argument(metavar="TARGET", help="A machine, a comparison (azulay-2014) or a FILE."),
+        typer.Argument(metavar="TARGET", help="A machine, a paper's key or a FILE."),
     ],
     out: Annotated[
         str | None,

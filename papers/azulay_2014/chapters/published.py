@@ -1,0 +1,111 @@
+"""Published tables beside our numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from strutwork.papers.azulay_2014.comparison import Model
+from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES
+from strutwork.papers.published_rows import COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_table import PublishedTable
+from strutwork.reports.content import Block, Cell, Column, Points, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.numbers import percent, significant
+
+Rows = Mapping[Model, tuple[PublishedRow, ...]]
+
+#: A difference below this counts as close, below the next as fair, %.
+CLOSE, FAIR = 5.0, 15.0
+
+READING = (
+    "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
+    "other five directions are held. This is the meaning that agrees with the paper. All rows "
+    "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
+    "were chosen with the means of these tables in view, and the variances follow from that. "
+    "Nothing is rescaled."
+)
+
+
+def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], DataFile]:
+    """A published table beside both joint models, and its file.
+
+    Parameters
+    ----------
+    table : PublishedTable
+    rows : mapping of model to tuple of PublishedRow
+        The same rows in the same order for every model.
+    """
+    columns = [Column("row", "", False), Column("quantity", "", False), Column("unit", "", False)]
+    columns.append(Column("published"))
+    for name in MODEL_NAMES.values():
+        columns += [
+            Column("ours", "", True, name),
+            Column("difference", "", True, name),
+            Column("status", "", False, name),
+        ]
+    lines: list[list[str | Cell]] = []
+    for row in zip(*(rows[model] for model in MODEL_NAMES), strict=True):
+        first = row[0]
+        line: list[str | Cell] = [
+            first.row,
+            first.quantity,
+            _pretty(first.unit),
+            significant(first.published, 4),
+        ]
+        for entry in row:
+            line += [significant(entry.computed, 4), _difference(entry), entry.status]
+        lines.append(line)
+    file = file_name(table.key)
+    notes = dict.fromkeys(
+        f"{', '.join(sorted(about))}: {note}." for note, about in _notes(rows).items()
+    )
+    blocks: list[Block] = [
+        Table(f"{_label(table)} of the paper: {table.title}", columns, lines, file)
+    ]
+    if table.note:
+        blocks.append(Text(table.note))
+    blocks.append(Points(tuple(notes)))
+    return blocks, published_file(table, rows)
+
+
+def published_file(table: PublishedTable, rows: Rows) -> DataFile:
+    """The rows of both models as CSV; the model stands in the row's name."""
+    content = [
+        {**row.to_dict(), "row": f"{row.row}, {MODEL_NAMES[model]}"}
+        for model in MODEL_NAMES
+        for row in rows[model]
+    ]
+    return csv_file(
+        file_name(table.key),
+        f"{_label(table)} of the paper beside ours, both joint models",
+        COLUMNS,
+        [[line[column] for column in COLUMNS] for line in content],
+    )
+
+
+def _label(table: PublishedTable) -> str:
+    return "Table " + table.key.rsplit("-", 1)[-1]
+
+
+def _pretty(unit: str) -> str:
+    return unit.replace("N^2/um^2", "N²/µm²").replace("um", "µm")
+
+
+def _difference(row: PublishedRow) -> Cell:
+    size = abs(row.difference_percent)
+    return Cell(
+        percent(row.difference_percent),
+        "good" if size < CLOSE else "fair" if size < FAIR else "poor",
+    )
+
+
+def _notes(rows: Rows) -> dict[str, list[str]]:
+    """Each remark once, with the rows it is about."""
+    found: dict[str, list[str]] = {}
+    for model in rows:
+        for row in rows[model]:
+            for part in row.note.split("; ")[1:]:
+                about = row.row if "variance" not in part else f"{row.row} {row.quantity}"
+                if about not in found.setdefault(part, []):
+                    found[part].append(about)
+    return found
