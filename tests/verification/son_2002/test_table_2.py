@@ -9,10 +9,9 @@
 
 Section 6.6 and Table 2, page 85; the printed forces are read from the module
 `strutwork.papers.son_2002.published`. The structure is reconstructed, since figures 40 and 42 are
-not at hand, and its two stiffnesses are calibrated: agreement with the print is a fit. Cases II and III
-test it where the stiffnesses were fitted to Case I alone, and then only as far as the structure is
-right.
-"""
+not at hand, and its two stiffnesses are calibrated: agreement with the print is a fit. Cases II and
+III test it where the stiffnesses were fitted to Case I alone, and then only as far as the structure
+is right."""
 
 from __future__ import annotations
 
