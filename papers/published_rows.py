@@ -13,6 +13,9 @@ from strutwork.files import write_whole
 
 Status = Literal["predicted", "calibrated", "not reproducible"]
 
+#: A difference below this counts as close, below the next as fair, %.
+CLOSE, FAIR = 5.0, 15.0
+
 
 @dataclass(frozen=True)
 class PublishedRow:

@@ -6,16 +6,13 @@ from collections.abc import Mapping
 
 from strutwork.papers.azulay_2014.comparison import Model
 from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES
-from strutwork.papers.published_rows import COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_rows import CLOSE, COLUMNS, FAIR, PublishedRow, file_name
 from strutwork.papers.published_table import PublishedTable
 from strutwork.reports.content import Block, Cell, Column, Points, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.numbers import percent, significant
 
 Rows = Mapping[Model, tuple[PublishedRow, ...]]
-
-#: A difference below this counts as close, below the next as fair, %.
-CLOSE, FAIR = 5.0, 15.0
 
 READING = (
     "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "

@@ -8,8 +8,7 @@ import numpy as np
 import xarray as xr
 
 from strutwork.machines.hexel_hexapod import REACH, TILT
-from strutwork.papers.azulay_2014.chapters.published import CLOSE
-from strutwork.papers.published_rows import COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_rows import CLOSE, COLUMNS, PublishedRow, file_name
 from strutwork.papers.son_2002.manipulability import IDENTITY, MEASURES, PARTS, manipulability_rows
 from strutwork.papers.son_2002.published import MANIPULABILITY
 from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Points, Row, Table, Text
