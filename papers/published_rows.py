@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
-from pathlib import Path
 from typing import Any, Literal
 
-from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
-from strutwork.files import write_whole
 
 Status = Literal["predicted", "calibrated", "not reproducible"]
 
@@ -70,33 +66,3 @@ COLUMNS = (
 def file_name(table: str) -> str:
     """Name of a table's file: `published-azulay-2014-table-4.csv`."""
     return f"published-{table}.csv"
-
-
-def write_published(folder: Path, table: str, rows: Iterable[PublishedRow]) -> Path:
-    """Write the rows of a table as CSV, whole or not at all.
-
-    Parameters
-    ----------
-    folder : Path
-    table : str
-        Key of the published table.
-    rows : iterable of PublishedRow
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    ModelError
-        The folder cannot be written.
-    """
-    content = [row.to_dict() for row in rows]
-
-    def write(path: Path) -> None:
-        with path.open("w", encoding="utf-8", newline="") as file:
-            writer = RowWriter(file)
-            writer.writerow(COLUMNS)
-            writer.writerows([row[c] for c in COLUMNS] for row in content)
-
-    return write_whole(Path(folder) / file_name(table), write)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal
@@ -23,6 +23,9 @@ from strutwork.studies.statistics import Summary, summary
 from strutwork.studies.stiffness_map import stiffness_map
 
 Model = Literal["spherical", "apparent"]
+
+#: The one machine whose link length the paper varies.
+PROPOSED = "proposed-3pprs"
 
 #: The joint models, the machine as it is first.
 MODELS: Mapping[Model, str] = MappingProxyType(
@@ -129,6 +132,7 @@ def with_model(machine: ThreeLegs, model: Model) -> ThreeLegs:
 def compare_azulay(
     filters: Filters = AS_IN_AZULAY,
     *,
+    names: Sequence[str] | None = None,
     workers: int | None = None,
     progress: Callable[[str], Progress] | None = None,
 ) -> AzulayComparison:
@@ -138,6 +142,8 @@ def compare_azulay(
     ----------
     filters : Filters
         The same for every machine.
+    names : sequence of str, optional
+        Some of the machines; default all that the paper compares.
     workers : int, optional
         Threads; default one a processor.
     progress : callable, optional
@@ -147,13 +153,16 @@ def compare_azulay(
     -------
     AzulayComparison
     """
+    chosen = machines() if names is None else names
     plan: list[tuple[str, Model, Machine]] = []
     for model in MODELS:
-        plan += [(name, model, variant(name, model)) for name in machines()]
+        plan += [(name, model, variant(name, model)) for name in chosen]
+        if PROPOSED not in chosen:
+            continue
         proposed = Proposed3PPRS()
         plan += [
             (
-                f"proposed-3pprs L={length * 1e3:.0f} mm",
+                f"{PROPOSED} L={length * 1e3:.0f} mm",
                 model,
                 with_model(replace(proposed, link_length=length), model),
             )

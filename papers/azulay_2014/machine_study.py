@@ -13,24 +13,18 @@ from strutwork.papers.azulay_2014.comparison import (
     AzulayComparison,
     Model,
     compare_azulay,
-    published_rows,
     variant,
 )
 from strutwork.papers.azulay_2014.comparison import machines as published_machines
 from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
-from strutwork.papers.azulay_2014.link_lengths import LINK_LENGTHS, link_lengths
-from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_4
 from strutwork.papers.published_rows import PublishedRow
-from strutwork.studies import Filters, Summary, budget_map, stiffness_map, summary
-from strutwork.studies.progress import Teller, silent
+from strutwork.studies import Filters, Summary, budget_map, summary
+from strutwork.studies.progress import Teller
 
 #: The joint models in the words of the report, the machine as it is first.
 MODEL_NAMES: Mapping[Model, str] = MappingProxyType(
     {"spherical": "true spherical joints", "apparent": "as the paper's numbers suggest"}
 )
-
-#: The one machine whose link length the paper varies.
-PROPOSED = "proposed-3pprs"
 
 FILTERS: Filters = AS_IN_AZULAY
 
@@ -53,7 +47,6 @@ class MachineStudy:
     budgets : mapping of model to Dataset
     lengths : mapping of (row of Table 2, model) to Summary
         Empty but for the proposed machine.
-    length_maps : mapping of (row of Table 2, model) to Dataset
     rows : mapping of (table key, model) to tuple of PublishedRow
     """
 
@@ -65,7 +58,6 @@ class MachineStudy:
     free: Mapping[Model, Summary]
     budgets: Mapping[Model, xr.Dataset]
     lengths: Mapping[tuple[str, Model], Summary]
-    length_maps: Mapping[tuple[str, Model], xr.Dataset]
     rows: Mapping[tuple[str, Model], tuple[PublishedRow, ...]]
 
     def __repr__(self) -> str:
@@ -80,43 +72,19 @@ def study_machine(name: str, progress: Teller | None = None) -> MachineStudy:
     ModelError
         An unknown machine.
     """
-    entry = get(name)
     machines = {model: variant(name, model) for model in MODEL_NAMES}
-    maps, length_maps = {}, {}
-    for model, machine in machines.items():
-        tell = progress(f"{name}, {MODEL_NAMES[model]}") if progress else silent
-        maps[model] = stiffness_map(machine, filters=FILTERS, progress=tell)
-        if name != PROPOSED:
-            continue
-        for length in LINK_LENGTHS:
-            row = f"{name} L={length * 1e3:.0f} mm"
-            tell = progress(f"{row}, {MODEL_NAMES[model]}") if progress else silent
-            same = length == getattr(machine, "link_length", None)
-            length_maps[row, model] = (
-                maps[model]
-                if same
-                else link_lengths(machine, (length,), FILTERS, progress=tell)[length]
-            )
-    summaries = {model: summary(dataset) for model, dataset in maps.items()}
-    lengths = {key: summary(dataset) for key, dataset in length_maps.items()}
-    rows = {}
-    for model in MODEL_NAMES:
-        found = {name: summaries[model]} | {r: s for (r, m), s in lengths.items() if m == model}
-        for table in (TABLE_2, TABLE_4):
-            shared = published_rows(table, found, model)
-            if shared:
-                rows[table.key, model] = shared
+    found = compare_azulay(FILTERS, names=(name,), progress=progress)
+    maps = {model: found.maps[name, model] for model in MODEL_NAMES}
     return MachineStudy(
         name,
-        entry,
+        get(name),
         machines,
         maps,
-        summaries,
+        {model: found.summaries[name, model] for model in MODEL_NAMES},
         {model: summary(dataset, "free") for model, dataset in maps.items()},
         {model: budget_map(machines[model], maps[model]) for model in MODEL_NAMES},
-        lengths,
-        length_maps,
-        rows,
+        {key: one for key, one in found.summaries.items() if key[0] != name},
+        found.rows,
     )
 
 

@@ -8,6 +8,7 @@ from strutwork.machines import Prototype3PPPRS, get
 from strutwork.papers.azulay_2014.chapters.machine import DRAWING, drawing_file, machine_figure
 from strutwork.papers.azulay_2014.chapters.measurement import measurement_chapter
 from strutwork.papers.azulay_2014.machine_study import FILTERS
+from strutwork.papers.tables import assumed
 from strutwork.reports.chapters.budget import budget_file, by_kind
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.chapters.stiffness import (
@@ -21,7 +22,7 @@ from strutwork.reports.chapters.stiffness import (
     statistics_table,
 )
 from strutwork.reports.chapters.vibration import vibration_chapter
-from strutwork.reports.content import Chapter, Column, Fact, Facts, Figure, Note, Row, Table, Text
+from strutwork.reports.content import Chapter, Fact, Facts, Figure, Note, Row, Table, Text
 from strutwork.reports.figures.charts import stacked_shares
 from strutwork.reports.numbers import micro, significant
 from strutwork.reports.vibration_study import VibrationStudy, study_machine_vibration
@@ -195,9 +196,8 @@ def _assumptions(machine: Prototype3PPPRS) -> Chapter:
         ("Platform", f"steel disc, {significant(machine.platform.mass)} kg", ours),
         ("Joint ranges", "revolute joints only, as for the paper's machines", ours),
     ]
-    columns = [Column(h, "", False) for h in ("assumption", "value", "source")]
     return Chapter(
         "assumptions",
         "Assumptions and their sources",
-        (Table("Dimensions and properties", columns, rows),),
+        (assumed("Dimensions and properties", rows),),
     )

@@ -19,18 +19,17 @@ from strutwork.papers.son_2002.manipulability import (
     manipulability_rows,
 )
 from strutwork.papers.son_2002.published import MANIPULABILITY
+from strutwork.papers.tables import assumed
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.chapters.plane_stiffness import falls_table, plane_figures
 from strutwork.reports.chapters.stiffness import map_files
 from strutwork.reports.content import (
     Block,
     Chapter,
-    Column,
     Fact,
     Facts,
     Figure,
     Note,
-    Table,
     Text,
 )
 from strutwork.reports.data_files import json_file
@@ -53,8 +52,6 @@ DRAWING = (
     "diameters, joint symbols and the table are not to scale. Black arrows show the driven "
     "motions."
 )
-
-COLUMN_NAMES = tuple(Column(h, "", False) for h in ("assumption", "value", "source"))
 
 
 @dataclass(frozen=True)
@@ -284,7 +281,7 @@ def _assumptions(study: HexapodStudy) -> Chapter:
         "Assumptions and their sources",
         (
             Text(f"The thesis: {get(NAME).paper.citation}"),
-            Table("Dimensions and properties", COLUMN_NAMES, rows),
+            assumed("Dimensions and properties", rows),
         ),
     )
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -82,8 +83,8 @@ def mit_ss1_chapters(
         calibration_chapter(study.whole),
         machine_chapter(study),
         table_2_chapter(study),
-        scale_chapter(study),
-        design_chapter(study),
+        Chapter("scale", "Assembly forces against size", *_gathered(scale_blocks(study))),
+        Chapter("designs", "Where the rails lie: three designs", *_gathered(design_blocks(study))),
         size_chapter(study.moving_size, study.whole_size),
         assumptions_chapter(study),
     ]
@@ -92,6 +93,16 @@ def mit_ss1_chapters(
         f"{entry.title}: kinematics, stiffness, modes, assembly forces and size",
         f"{entry.topology} · {entry.paper.citation}",
         tuple(chapters),
+    )
+
+
+def _gathered(
+    *parts: tuple[Sequence[Block], Sequence[DataFile]],
+) -> tuple[tuple[Block, ...], tuple[DataFile, ...]]:
+    """Blocks and files of the parts of a chapter."""
+    return (
+        tuple(block for blocks, _ in parts for block in blocks),
+        tuple(file for _, files in parts for file in files),
     )
 
 
@@ -105,18 +116,15 @@ def stiffness_chapter(study: MitSS1Study) -> Chapter:
 def machine_chapter(study: MitSS1Study) -> Chapter:
     """The machine's own tolerances: forces in its twelve bearings."""
     own, key = study.own, "assembly"
-    files: list[DataFile] = [study_file(own, key)]
-    blocks: list[Block] = [
-        Text(
-            "Every pin turns in two bearings, so three parallel pins at the blocks and three at "
-            "the housing are constrained more than once. Where the pins are not parallel or the "
-            "rails not level, the bearings and struts deform until the parts fit; the forces this "
-            "takes stay in the machine. They are linear in the misfits, and the worst case is "
-            "the largest over everything that the tolerances allow at once."
-        ),
-        headline(own),
-    ]
-    for some, more in (
+    introduction = Text(
+        "Every pin turns in two bearings, so three parallel pins at the blocks and three at "
+        "the housing are constrained more than once. Where the pins are not parallel or the "
+        "rails not level, the bearings and struts deform until the parts fit; the forces this "
+        "takes stay in the machine. They are linear in the misfits, and the worst case is "
+        "the largest over everything that the tolerances allow at once."
+    )
+    gathered = _gathered(
+        ([introduction, headline(own)], [study_file(own, key)]),
         _misfit(study),
         ([tolerance_table(own.tolerances, "Tolerances of the machine")], []),
         force_blocks(own, key),
@@ -130,10 +138,8 @@ def machine_chapter(study: MitSS1Study) -> Chapter:
             key,
             f"every bearing within the assumed static rating of {RATING} at every pose",
         ),
-    ):
-        blocks += some
-        files += more
-    return Chapter("overconstraint", "Assembly forces of the machine", tuple(blocks), tuple(files))
+    )
+    return Chapter("overconstraint", "Assembly forces of the machine", *gathered)
 
 
 def _misfit(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
@@ -167,41 +173,24 @@ def _misfit(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
 def table_2_chapter(study: MitSS1Study) -> Chapter:
     """Table 2: the published forces, the reconstruction, and what the thesis does not print."""
     case, key = study.cases["I"], "table-2-case-I"
-    blocks: list[Block] = []
-    files: list[DataFile] = []
-    for some, more in (
+    others = []
+    for numeral in ("II", "III"):
+        name = f"table-2-case-{numeral}"
+        blocks, files = force_blocks(study.cases[numeral], name, published_markers(numeral))
+        # the 36 numbers stand in Table 2's own table; the picture is what is new
+        others.append(([b for b in blocks if isinstance(b, Figure)], files))
+    gathered = _gathered(
         table_2_blocks(study),
         misfit_blocks(study),
         force_blocks(case, key, published_markers("I")),
         spread_blocks(case, key),
         cause_blocks(case, key),
-        (tool_blocks(case, key), []),
-    ):
-        blocks += some
-        files += more
-    files += [case_i_file(study), study_file(case, key)]
-    for numeral in ("II", "III"):
-        some, more = force_blocks(
-            study.cases[numeral], f"table-2-case-{numeral}", published_markers(numeral)
-        )
-        # the 36 numbers stand in Table 2's own table; the picture is what is new
-        blocks += [b for b in some if isinstance(b, Figure)]
-        files += more
-    blocks.append(cases_table(study))
+        (tool_blocks(case, key), [case_i_file(study), study_file(case, key)]),
+        *others,
+        ([cases_table(study)], []),
+    )
     title = "Table 2 of the thesis: assembly forces of three equal struts"
-    return Chapter("table-2", title, tuple(blocks), tuple(files))
-
-
-def scale_chapter(study: MitSS1Study) -> Chapter:
-    """Forces against the struts' length."""
-    blocks, files = scale_blocks(study)
-    return Chapter("scale", "Assembly forces against size", tuple(blocks), tuple(files))
-
-
-def design_chapter(study: MitSS1Study) -> Chapter:
-    """Designs (a), (b), (c)."""
-    blocks, files = design_blocks(study)
-    return Chapter("designs", "Where the rails lie: three designs", tuple(blocks), tuple(files))
+    return Chapter("table-2", title, *gathered)
 
 
 def _settings(study: MitSS1Study) -> dict[str, Any]:

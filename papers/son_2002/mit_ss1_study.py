@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import degrees
 from types import MappingProxyType
 
-import numpy as np
 import xarray as xr
 
 from strutwork.machines import MitSS1
@@ -17,7 +16,6 @@ from strutwork.papers.son_2002.assembly_map import (
     DesignForces,
     assembly_map,
     compare_designs,
-    nominal_grid,
 )
 from strutwork.papers.son_2002.assembly_scale import AssemblyScale, assembly_scale
 from strutwork.papers.son_2002.assembly_table import (
@@ -111,7 +109,7 @@ def study_mit_ss1(progress: Teller | None = None) -> MitSS1Study:
     sizes(1, 2)
     whole_size = mit_ss1_scale(granite=True)
     sizes(2, 2)
-    toleranced = _over_the_map(machine, toleranced_machine(NAME))
+    toleranced = toleranced_machine(NAME)
     own = tolerance_study(
         toleranced.placed,
         toleranced.tolerances,
@@ -158,19 +156,6 @@ def _case(numeral: str, tell: Teller) -> ToleranceStudy:
         title=f"Table 2, case {numeral}",
         progress=lambda part: tell(f"Table 2, case {numeral}, {part}"),
     )
-
-
-def _over_the_map(machine: MitSS1, found: TolerancedMachine) -> TolerancedMachine:
-    """The machine at home and at the poses that the map of its forces shows."""
-    x, b = nominal_grid()
-    poses = machine.poses(np.append(0.0, x), 0.0, np.append(0.0, b))
-    placement = machine.place(poses)
-    kept = np.flatnonzero(placement.reachable)
-    at = zip(np.append(0.0, x)[kept], np.append(0.0, b)[kept], kept, strict=True)
-    labels = tuple(
-        "home" if i == 0 else f"x = {1e3 * p:g} mm, b = {degrees(tilt):g}°" for p, tilt, i in at
-    )
-    return replace(found, placed=machine.structure.at(placement[kept]), poses=labels)
 
 
 def degrees_text(angle: float) -> str:

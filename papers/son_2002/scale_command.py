@@ -11,10 +11,11 @@ from rich.console import Console
 from strutwork.errors import ModelError
 from strutwork.names import visible
 from strutwork.papers.son_2002.assembly_scale import AssemblyScale, assembly_scale
+from strutwork.papers.son_2002.chapters.size import removal_rows
 from strutwork.papers.son_2002.size import mit_ss1_scale
 from strutwork.reports.cli.output import console, print_json, table
+from strutwork.reports.cli.tolerance_limits import bare
 from strutwork.studies.dataset_files import write_long_csv, write_netcdf
-from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS
 from strutwork.studies.scale import ScaleStudy
 from strutwork.units import ANGLE, quantity
 
@@ -37,9 +38,7 @@ def run(
             f"{ratio:g} is no width of a strut over its length.",
             f"Give a number from {RATIOS[0]:g} to {RATIOS[1]:g}; the default is 0.2.",
         )
-    found = assembly_scale(
-        _lengths(band, count), ratio, tilt=quantity(_number(tilt), ANGLE, "--tilt")
-    )
+    found = assembly_scale(_lengths(band, count), ratio, tilt=quantity(bare(tilt), ANGLE, "--tilt"))
     size = mit_ss1_scale(granite=granite)
     result: dict[str, Any] = {
         "machine": machine,
@@ -84,14 +83,6 @@ def _lengths(band: tuple[float, float], count: int) -> list[float]:
         )
     # 0.7 and not 0.7000000000000001 in the tables
     return [float(v) for v in np.round(np.linspace(low, high, count), 12)]
-
-
-def _number(text: str) -> float | str:
-    """A bare number is in SI."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
 
 
 def _print(out: Console, machine: str, found: AssemblyScale) -> None:
@@ -141,13 +132,7 @@ def _print_size(out: Console, machine: str, found: ScaleStudy, *, granite: bool)
     out.print(table("Exponents of stiffness K and frequency f", head, rows))
     rows = []
     for i, law in enumerate(found.laws):
-        each = found.removal(i)
-        for k, n in enumerate(ACTUATOR_EXPONENTS):
-            deflections = [_power(some[k].deflection) for some in each.values()]
-            first = each["x"][k]
-            rows.append(
-                [str(law), f"{n:g}", _power(first.feed), _power(first.cutting_force), *deflections]
-            )
+        rows += map(list[object], removal_rows(str(law), found.removal(i), _power))
     head = ["joints", "drives n", "feed", "cutting force", *(f"deflection {a}" for a in "xyz")]
     title = "Exponents at constant removal rate, drives' force ~ L^n (Son 2002, eqs 19 to 23)"
     out.print(table(title, head, rows, names=2))

@@ -367,7 +367,8 @@ def scale(
     """Show what the size of a machine does to locked-in forces, stiffness and frequencies."""
     from strutwork.reports.cli import scale as work
 
-    work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
+    study = work.study_of(machine)
+    study(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
 app.command()(move)

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from strutwork.errors import ModelError
 from strutwork.machines.catalogue import CATALOGUE
 from strutwork.machines.paper_reference import resolve
 
 
-def run(
-    machine: str,
-    band: tuple[float, float],
-    count: int,
-    ratio: float,
-    tilt: str,
-    out: str | None,
-    *,
-    granite: bool,
-    json: bool,
-) -> None:
-    """Compute the forces over the length and what the machine's size changes, and print them."""
+def study_of(machine: str) -> Callable[..., None]:
+    """What computes and prints the study of a machine's size, given the command's words.
+
+    Raises
+    ------
+    ModelError
+        Nobody has studied it.
+    """
     studied = {name: entry.scale for name, entry in CATALOGUE.items() if entry.scale}
     if machine not in studied:
         raise ModelError(
@@ -26,4 +24,5 @@ def run(
             "is not known: no study of its size exists.",
             "Machines: " + ", ".join(studied) + ".",
         )
-    resolve(studied[machine])(machine, band, count, ratio, tilt, out, granite=granite, json=json)
+    made: Callable[..., None] = resolve(studied[machine])
+    return made

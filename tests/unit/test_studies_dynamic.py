@@ -32,7 +32,7 @@ from strutwork.papers.azulay_2014.synthetic_measurement import (
     prototype_outputs,
     synthetic_measurement,
 )
-from strutwork.papers.published_rows import write_published
+from strutwork.papers.tables import write_published
 from strutwork.studies import (
     dynamic_stiffness,
     frequency_responses,

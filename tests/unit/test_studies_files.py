@@ -12,7 +12,8 @@ import xarray as xr
 
 from strutwork.errors import ModelError
 from strutwork.machines import Proposed3PPRS
-from strutwork.papers.published_rows import PublishedRow, write_published
+from strutwork.papers.published_rows import PublishedRow
+from strutwork.papers.tables import write_published
 from strutwork.studies import (
     hemisphere,
     read_netcdf,

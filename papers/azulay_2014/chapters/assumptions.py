@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees
 
 from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS, ThreeLegs
+from strutwork.papers.tables import texts
 from strutwork.reports.content import Cell, Column, Table
 from strutwork.reports.numbers import significant
 from strutwork.studies import Filters
@@ -89,9 +90,9 @@ def models_table() -> Table:
     return Table(
         "The two joint models",
         (
-            Column("", "", False),
-            Column("true spherical joints (default)", "", False),
-            Column("as the paper's numbers suggest (comparison)", "", False),
+            *texts(
+                "", "true spherical joints (default)", "as the paper's numbers suggest (comparison)"
+            ),
         ),
         (
             (

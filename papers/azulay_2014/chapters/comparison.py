@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from strutwork.machines import get
@@ -192,11 +194,11 @@ def rankings_chapter(study: Comparison) -> Chapter:
     rows: list[list[str | Cell]] = []
     for axis in AXES:
         order = published_ranking(axis)
-        rows.append([f"K{axis * 2}", "published", _order(order), ""])
+        rows.append([f"K{axis * 2}", "published", in_order(order), ""])
         for model, label in MODEL_NAMES.items():
             found = study.azulay.ranking(axis, model)
             same = Cell("same order", "good") if found == order else Cell("another order", "poor")
-            rows.append([f"K{axis * 2}", label, _order(found), same])
+            rows.append([f"K{axis * 2}", label, in_order(found), same])
     heads = ("axis", "", "the stiffest first", "")
     return Chapter(
         "rankings",
@@ -380,7 +382,8 @@ def assumptions_chapter(study: Comparison) -> Chapter:
     return Chapter("assumptions", "Assumptions and their sources", (*blocks, *tables))
 
 
-def _order(names: tuple[str, ...]) -> str:
+def in_order(names: Sequence[str]) -> str:
+    """Machines, the stiffest first."""
     return " > ".join(SHORT[n] for n in names)
 
 

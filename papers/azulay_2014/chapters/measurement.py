@@ -13,7 +13,8 @@ from strutwork.fea.uff import ModeRecord, UniversalFile, mode_file, node_positio
 from strutwork.fea.uff_write import write_universal
 from strutwork.machines import Prototype3PPPRS
 from strutwork.papers.azulay_2014.synthetic_measurement import synthetic_measurement
-from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Row, Table, Text
+from strutwork.papers.tables import numbers, texts
+from strutwork.reports.content import Block, Chapter, Figure, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file
 from strutwork.reports.figures.theme import PALETTE
 from strutwork.reports.figures.vibration import responses
@@ -64,13 +65,9 @@ def measurement_chapter(machine: Prototype3PPPRS) -> Chapter:
     pairs = Table(
         f"Paired modes; measurement {LABEL}",
         (
-            Column("synthetic", "Hz"),
-            Column("computed", "Hz"),
-            Column("difference"),
-            Column("synthetic damping"),
-            Column("computed damping"),
-            Column("MAC"),
-            Column("compared as", "", False),
+            *numbers("synthetic", "computed", unit="Hz"),
+            *numbers("difference", "synthetic damping", "computed damping", "MAC"),
+            *texts("compared as"),
         ),
         rows,
         "comparison-synthetic.json",
@@ -78,12 +75,7 @@ def measurement_chapter(machine: Prototype3PPPRS) -> Chapter:
     driving = [f for f in result.functions if f.output == f.input]
     fits = Table(
         f"FRAC at the driving points; measurement {LABEL}",
-        (
-            Column("at", "", False),
-            Column("FRAC as it is"),
-            Column("best frequency scale"),
-            Column("FRAC at that scale"),
-        ),
+        (*texts("at"), *numbers("FRAC as it is", "best frequency scale", "FRAC at that scale")),
         [
             [f.output, f"{f.found.frac:.3f}", f"{f.found.scale:.4f}", f"{f.found.scaled_frac:.3f}"]
             for f in driving

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from strutwork.papers.azulay_2014.comparison import Model
 from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES
-from strutwork.papers.published_rows import CLOSE, COLUMNS, FAIR, PublishedRow, file_name
+from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.published_table import PublishedTable
-from strutwork.reports.content import Block, Cell, Column, Points, Table, Text
-from strutwork.reports.data_files import DataFile, csv_file
-from strutwork.reports.numbers import percent, significant
+from strutwork.papers.tables import difference, numbers, ours, rows_file, texts
+from strutwork.reports.content import Block, Cell, Points, Table, Text
+from strutwork.reports.data_files import DataFile
+from strutwork.reports.numbers import significant
 
 Rows = Mapping[Model, tuple[PublishedRow, ...]]
 
@@ -32,14 +34,11 @@ def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], Dat
     rows : mapping of model to tuple of PublishedRow
         The same rows in the same order for every model.
     """
-    columns = [Column("row", "", False), Column("quantity", "", False), Column("unit", "", False)]
-    columns.append(Column("published"))
-    for name in MODEL_NAMES.values():
-        columns += [
-            Column("ours", "", True, name),
-            Column("difference", "", True, name),
-            Column("status", "", False, name),
-        ]
+    columns = (
+        *texts("row", "quantity", "unit"),
+        *numbers("published"),
+        *ours(MODEL_NAMES.values()),
+    )
     lines: list[list[str | Cell]] = []
     for row in zip(*(rows[model] for model in MODEL_NAMES), strict=True):
         first = row[0]
@@ -50,7 +49,7 @@ def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], Dat
             significant(first.published, 4),
         ]
         for entry in row:
-            line += [significant(entry.computed, 4), _difference(entry), entry.status]
+            line += [significant(entry.computed, 4), difference(entry), entry.status]
         lines.append(line)
     file = file_name(table.key)
     notes = dict.fromkeys(
@@ -68,16 +67,12 @@ def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], Dat
 def published_file(table: PublishedTable, rows: Rows) -> DataFile:
     """The rows of both models as CSV; the model stands in the row's name."""
     content = [
-        {**row.to_dict(), "row": f"{row.row}, {MODEL_NAMES[model]}"}
-        for model in MODEL_NAMES
+        replace(row, row=f"{row.row}, {name}")
+        for model, name in MODEL_NAMES.items()
         for row in rows[model]
     ]
-    return csv_file(
-        file_name(table.key),
-        f"{_label(table)} of the paper beside ours, both joint models",
-        COLUMNS,
-        [[line[column] for column in COLUMNS] for line in content],
-    )
+    what = f"{_label(table)} of the paper beside ours, both joint models"
+    return rows_file(file_name(table.key), what, content)
 
 
 def _label(table: PublishedTable) -> str:
@@ -86,14 +81,6 @@ def _label(table: PublishedTable) -> str:
 
 def _pretty(unit: str) -> str:
     return unit.replace("N^2/um^2", "N²/µm²").replace("um", "µm")
-
-
-def _difference(row: PublishedRow) -> Cell:
-    size = abs(row.difference_percent)
-    return Cell(
-        percent(row.difference_percent),
-        "good" if size < CLOSE else "fair" if size < FAIR else "poor",
-    )
 
 
 def _notes(rows: Rows) -> dict[str, list[str]]:

@@ -22,9 +22,7 @@ from strutwork.reports.numbers import micro, significant
 from strutwork.reports.vibration_study import AXES
 from strutwork.studies.dataset_files import write_long_csv
 
-PROPOSED = "proposed-3pprs"
-
-_DASHES = ("solid", "dash", "dot", "dashdot")
+DASHES = ("solid", "dash", "dot", "dashdot")
 
 
 def link_length_blocks() -> tuple[list[Block], list[DataFile]]:
@@ -40,7 +38,7 @@ def link_length_blocks() -> tuple[list[Block], list[DataFile]]:
                 frequencies,
                 at["receptance_magnitude"].isel(machine=i).to_numpy(),
                 PALETTE[i],
-                _DASHES[i],
+                DASHES[i],
             )
             for i, label in enumerate(labels)
         }
@@ -165,7 +163,7 @@ def _curves(
     if len(machines) == 1:
         one = values.isel(machine=0)
         curves = {
-            f"K{a * 2}": (one.sel(axis=a).to_numpy(), AXIS_COLOURS[a], _DASHES[i])
+            f"K{a * 2}": (one.sel(axis=a).to_numpy(), AXIS_COLOURS[a], DASHES[i])
             for i, a in enumerate(AXES)
         }
         return [("", "", curves)]
@@ -177,7 +175,7 @@ def _curves(
                 SHORT[n]: (
                     values.sel(machine=n, axis=a).to_numpy(),
                     PALETTE[i],
-                    _DASHES[i],
+                    DASHES[i],
                 )
                 for i, n in enumerate(machines)
             },

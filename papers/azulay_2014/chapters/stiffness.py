@@ -7,6 +7,7 @@ import json
 import numpy as np
 
 from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES, MachineStudy
+from strutwork.papers.tables import numbers, texts
 from strutwork.reports.chapters.stiffness import (
     AXES,
     VIEW,
@@ -19,7 +20,7 @@ from strutwork.reports.chapters.stiffness import (
     pose_rows,
     statistics_table,
 )
-from strutwork.reports.content import Block, Chapter, Column, Figure, Row, Table, Text
+from strutwork.reports.content import Block, Chapter, Figure, Row, Table, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.figures.charts import distributions
 
@@ -118,10 +119,7 @@ def ranges_table(study: MachineStudy) -> Table:
             word = "kept" if kept == "all" or kind in kept else "not kept"
             rows.append([label, f"{kind} joints", word, *of_total(int(number), total)])
     columns = (
-        Column("model", "", False),
-        Column("ranges of the", "", False),
-        Column("", "", False),
-        Column("candidates outside"),
-        Column("share"),
+        *texts("model", "ranges of the", ""),
+        *numbers("candidates outside", "share"),
     )
     return Table("Candidates outside the joint ranges of Table 3", columns, rows, "report.json")

@@ -7,19 +7,21 @@ from collections.abc import Sequence
 import numpy as np
 
 from strutwork.machines import DYNAMIC_SETS, dynamic_machine, get
-from strutwork.papers.azulay_2014.chapters.comparison import SHORT
+from strutwork.papers.azulay_2014.chapters.comparison import SHORT, in_order
 from strutwork.papers.azulay_2014.chapters.sensitivity import (
-    PROPOSED,
+    DASHES,
     link_length_blocks,
     sensitivity_blocks,
 )
+from strutwork.papers.azulay_2014.comparison import PROPOSED
 from strutwork.papers.azulay_2014.dynamic import (
     AzulayDynamics,
     azulay_table_5,
     published_dynamic_ranking,
 )
 from strutwork.papers.azulay_2014.published import TABLE_5
-from strutwork.papers.published_rows import COLUMNS, file_name
+from strutwork.papers.published_rows import file_name
+from strutwork.papers.tables import difference, numbers, ours, rows_file, texts
 from strutwork.reports.chapters.vibration import (
     GRID_TEXT,
     SWING_TEXT,
@@ -33,7 +35,7 @@ from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Poin
 from strutwork.reports.data_files import DataFile, csv_file, json_file
 from strutwork.reports.figures.theme import PALETTE
 from strutwork.reports.figures.vibration import responses
-from strutwork.reports.numbers import percent, significant
+from strutwork.reports.numbers import significant
 from strutwork.reports.vibration_study import AXES, study_machine_vibration
 
 #: Both sets of Table 5 with frequencies and rankings.
@@ -60,8 +62,6 @@ ASSUMPTIONS = (
     *(f"Set “{name}”: {meaning}." for name, meaning in DYNAMIC_SETS.items()),
     "No preload, no gravity, no cutting process: free vibration about the home pose.",
 )
-
-_DASHES = ("solid", "dash", "dot", "dashdot")
 
 
 def machine_vibration(name: str) -> Chapter:
@@ -100,7 +100,7 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
                 response.frequencies,
                 np.abs(response.receptance[:, i, i]),
                 PALETTE[k],
-                _DASHES[k],
+                DASHES[k],
             )
             least = study.least[i]
             marks.append((f"{label}, least along {a}", least.frequency, least.value, PALETTE[k]))
@@ -158,13 +158,7 @@ def comparison_vibration(names: Sequence[str]) -> Chapter:
 
 def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block], list[DataFile]]:
     """Table 5 beside both sets, and its file."""
-    columns = [Column("machine", "", False), Column("quantity", "", False), Column("published")]
-    for which in dynamics.rows:
-        columns += [
-            Column("ours", "", True, which),
-            Column("difference", "", True, which),
-            Column("status", "", False, which),
-        ]
+    columns = (*texts("machine", "quantity"), *numbers("published"), *ours(dynamics.rows))
     lines: list[list[str | Cell]] = []
     for rows in zip(*dynamics.rows.values(), strict=True):
         first = rows[0]
@@ -172,21 +166,11 @@ def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block]
             continue
         line: list[str | Cell] = [first.row, first.quantity, significant(first.published)]
         for row in rows:
-            size = abs(row.difference_percent)
-            tone = "good" if size < 5 else "fair" if size < 15 else "poor"
-            line += [
-                significant(row.computed),
-                Cell(percent(row.difference_percent), tone),  # type: ignore[arg-type]
-                row.status,
-            ]
+            line += [significant(row.computed), difference(row), row.status]
         lines.append(line)
     kept = [row for row in dynamics.table() if row.row.rsplit(",", 1)[0] in names]
-    file = csv_file(
-        file_name(TABLE_5.key),
-        "Table 5 of the paper beside ours, both sets",
-        COLUMNS,
-        [[row.to_dict()[column] for column in COLUMNS] for row in kept],
-    )
+    what = "Table 5 of the paper beside ours, both sets"
+    file = rows_file(file_name(TABLE_5.key), what, kept)
     notes: dict[str, list[str]] = {}
     for row in kept:
         # the first remark says what the set is, which the assumptions say too
@@ -233,18 +217,14 @@ def _rankings(dynamics: AzulayDynamics) -> Table:
     rows: list[list[str | Cell]] = []
     for a in AXES:
         published = published_dynamic_ranking(a)
-        rows.append([f"K{a * 2}", "published", _order(published), ""])
+        rows.append([f"K{a * 2}", "published", in_order(published), ""])
         for which in dynamics.studies:
             found = dynamics.ranking(a, which)
             same = Cell("same order", "good") if found == published else Cell("another", "poor")
-            rows.append([f"K{a * 2}", which, _order(found), same])
+            rows.append([f"K{a * 2}", which, in_order(found), same])
     return Table(
         "Order of the machines by least dynamic stiffness",
         [Column(h, "", False) for h in ("axis", "", "the stiffest first", "")],
         rows,
         VIBRATION_DATA,
     )
-
-
-def _order(names: Sequence[str]) -> str:
-    return " > ".join(SHORT[name] for name in names)

@@ -10,6 +10,7 @@ from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study
 from strutwork.papers.son_2002.published import TABLE_2
 from strutwork.papers.son_2002.strut_assembly import CASES, strut_width
 from strutwork.papers.son_2002.tolerances import STATIC_RATING
+from strutwork.papers.tables import numbers, texts
 from strutwork.reports.content import Block, Cell, Column, Figure, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
 from strutwork.reports.figures.curves import Curve, curves
@@ -145,12 +146,12 @@ def _lines_table(study: MitSS1Study) -> Table:
     return Table(
         "Straight lines fitted over the three cases of Table 2 (l = 0.5, 1.0 and 1.5 m)",
         (
-            Column("force", "", False),
-            Column("slope", "kN/m", True, "affine"),
-            Column("at l = 0", "kN", True, "affine"),
-            Column("largest error", "", True, "affine"),
-            Column("slope", "kN/m", True, "proportional"),
-            Column("largest error", "", True, "proportional"),
+            *texts("force"),
+            *numbers("slope", unit="kN/m", group="affine"),
+            *numbers("at l = 0", unit="kN", group="affine"),
+            *numbers("largest error", group="affine"),
+            *numbers("slope", unit="kN/m", group="proportional"),
+            *numbers("largest error", group="proportional"),
         ),
         rows,
         "report.json",

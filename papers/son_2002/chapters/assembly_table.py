@@ -6,17 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from strutwork.papers.published_rows import COLUMNS as FILE_COLUMNS
-from strutwork.papers.published_rows import PublishedRow, file_name
+from strutwork.papers.published_rows import CLOSE, PublishedRow, file_name
 from strutwork.papers.son_2002.assembly_table import COLUMNS, SETS, STIFFNESSES, Set
 from strutwork.papers.son_2002.figures.assembly_scene import strut_assembly_view
 from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study
 from strutwork.papers.son_2002.published import TABLE_2
 from strutwork.papers.son_2002.strut_assembly import CASES, TILT, StrutAssembly
+from strutwork.papers.tables import nearly, numbers, ours, rows_file, texts
 from strutwork.reports.chapters.overconstraint import label, leading, shown
 from strutwork.reports.chapters.overconstraint_forces import Published
-from strutwork.reports.content import Block, Cell, Column, Figure, Note, Points, Table, Text
-from strutwork.reports.data_files import DataFile, csv_file, json_file
+from strutwork.reports.content import Block, Cell, Figure, Note, Points, Table, Text
+from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import assembled
 from strutwork.reports.numbers import micro, percent, significant
 
@@ -86,14 +86,7 @@ def misfit_blocks(study: MitSS1Study, case: str = "I") -> tuple[list[Block], lis
 def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     """All 36 forces beside ours, with both fits."""
     file = file_name(TABLE_2.key)
-    columns = [Column("case", "", False), Column("joint"), Column("force", "", False)]
-    columns.append(Column("published", "kN"))
-    for name in _HEADS.values():
-        columns += [
-            Column("ours", "kN", True, name),
-            Column("difference", "", True, name),
-            Column("status", "", False, name),
-        ]
+    columns = (*texts("case"), *numbers("joint"), *texts("force"), *numbers("published", unit="kN"))
     rows: list[list[str | Cell]] = []
     for pair in zip(*study.table_2.values(), strict=True):
         _, case, _, joint = pair[0].row.split()
@@ -107,7 +100,12 @@ def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         Note(RECONSTRUCTED),
         Points(STRUCTURE),
         _fits(study),
-        Table(f"Table 2 of the thesis: {TABLE_2.title}", columns, rows, file),
+        Table(
+            f"Table 2 of the thesis: {TABLE_2.title}",
+            (*columns, *ours(_HEADS.values(), "kN")),
+            rows,
+            file,
+        ),
         Text(
             "Differences are left as they are. The thesis prints one decimal, which alone is up to "
             "2.9 % of Case I's axial forces. “Calibrated”: the stiffnesses were fitted to this "
@@ -120,31 +118,20 @@ def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
             f"{100 * on_all.largest:.1f} %)."
         ),
     ]
-    return blocks, [_table_2_file(study, file)]
+    # what the second fit makes of each row stands in the file beside it
+    what = "Table 2 of the thesis beside ours, stiffnesses fitted to all 36 forces, kN"
+    return blocks, [rows_file(file, what, study.table_2["all cases"])]
 
 
 _HEADS: dict[Set, str] = {"all cases": "fitted to all 36", "case I": "fitted to Case I"}
 
 
-def _table_2_file(study: MitSS1Study, file: str) -> DataFile:
-    """The 36 rows; what the second fit makes of each stands in the file beside it."""
-    rows = [row.to_dict() for row in study.table_2["all cases"]]
-    return csv_file(
-        file,
-        "Table 2 of the thesis beside ours, stiffnesses fitted to all 36 forces, kN",
-        FILE_COLUMNS,
-        [[row[c] for c in FILE_COLUMNS] for row in rows],
-    )
-
-
 def case_i_file(study: MitSS1Study) -> DataFile:
     """Table 2 beside the stiffnesses that were fitted to Case I alone."""
-    rows = [row.to_dict() for row in study.table_2["case I"]]
-    return csv_file(
+    return rows_file(
         "published-son-2002-table-2-fitted-to-case-I.csv",
         "Table 2 of the thesis beside ours, stiffnesses fitted to Case I alone, kN",
-        FILE_COLUMNS,
-        [[row[c] for c in FILE_COLUMNS] for row in rows],
+        study.table_2["case I"],
     )
 
 
@@ -163,13 +150,10 @@ def _fits(study: MitSS1Study) -> Table:
     return Table(
         "The two stored fits and the errors that they leave",
         (
-            Column("set", "", False),
-            Column("k", "N/µm"),
-            Column("k_y", "N/µm"),
-            Column("largest", "", True, "Case I"),
-            Column("rms", "", True, "Case I"),
-            Column("largest", "", True, "Cases II and III"),
-            Column("rms", "", True, "Cases II and III"),
+            *texts("set"),
+            *numbers("k", "k_y", unit="N/µm"),
+            *numbers("largest", "rms", group="Case I"),
+            *numbers("largest", "rms", group="Cases II and III"),
         ),
         rows,
         "report.json",
@@ -177,10 +161,8 @@ def _fits(study: MitSS1Study) -> Table:
 
 
 def _difference(row: PublishedRow) -> Cell:
-    size = abs(row.difference_percent)
-    # a rounded zero has no sign
-    shown = row.difference_percent if size >= 0.05 else 0.0
-    return Cell(percent(shown), "good" if size < 5 else "poor")
+    met = abs(row.difference_percent) < CLOSE
+    return Cell(percent(nearly(row.difference_percent)), "good" if met else "poor")
 
 
 def cases_table(study: MitSS1Study, cases: Sequence[str] = tuple(CASES)) -> Table:
@@ -201,10 +183,10 @@ def cases_table(study: MitSS1Study, cases: Sequence[str] = tuple(CASES)) -> Tabl
     return Table(
         "Largest parallelism that keeps every bearing within its assumed static rating",
         (
-            Column("case", "", False),
-            Column("largest force at 300 µm/m", "kN"),
-            Column("share of the rating"),
-            Column("largest parallelism", "µm/m"),
+            *texts("case"),
+            *numbers("largest force at 300 µm/m", unit="kN"),
+            *numbers("share of the rating"),
+            *numbers("largest parallelism", unit="µm/m"),
         ),
         rows,
         "report.json",

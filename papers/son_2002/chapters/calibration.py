@@ -7,9 +7,9 @@ from math import isfinite
 from types import MappingProxyType
 
 from strutwork.papers.son_2002.calibration import Part
-from strutwork.papers.son_2002.chapters.modes import nearly
 from strutwork.papers.son_2002.whole_study import WholeStudy
-from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Points, Table, Text
+from strutwork.papers.tables import nearly, numbers, texts
+from strutwork.reports.content import Block, Cell, Chapter, Figure, Points, Table, Text
 from strutwork.reports.data_files import csv_file, json_file
 from strutwork.reports.figures.modes import singular_values
 from strutwork.reports.numbers import MINUS, percent, significant
@@ -125,13 +125,11 @@ def _parameters(found: Mapping[Part, Calibration]) -> Table:
     return Table(
         "Calibrated parameters",
         (
-            Column("parameter", "", False),
-            Column("value"),
-            Column("unit", "", False),
-            Column("standard error"),
-            Column("bounds", "", False),
-            Column("", "", False),
-            Column("step", "", False),
+            *texts("parameter"),
+            *numbers("value"),
+            *texts("unit"),
+            *numbers("standard error"),
+            *texts("bounds", "", "step"),
         ),
         rows,
         FILE,
@@ -162,13 +160,11 @@ def _targets(found: Mapping[Part, Calibration]) -> Table:
     return Table(
         "Targets; residuals in units of the stated uncertainty, red beyond two",
         (
-            Column("target", "", False),
-            Column("published and weight"),
-            Column("ours"),
-            Column("unit", "", False),
-            Column("difference"),
-            Column("residual"),
-            Column("step", "", False),
+            *texts("target"),
+            *numbers("published and weight", "ours"),
+            *texts("unit"),
+            *numbers("difference", "residual"),
+            *texts("step"),
         ),
         rows,
         FILE,

@@ -6,7 +6,8 @@ from strutwork.papers.son_2002.assembly_map import FORCES
 from strutwork.papers.son_2002.designs import DATUM_ZONE, MARGIN, RAIL_LENGTH
 from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study
 from strutwork.papers.son_2002.tolerances import RAIL_HEIGHT, STATIC_RATING
-from strutwork.reports.content import Block, Column, Figure, Table, Text
+from strutwork.papers.tables import numbers, texts
+from strutwork.reports.content import Block, Figure, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.figures.force_bars import ForceBars, force_bars
 from strutwork.reports.figures.theme import PALETTE
@@ -82,12 +83,10 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         Table(
             "The three designs: largest worst-case force in any bearing",
             (
-                Column("design, our reading", "", False),
-                Column("radial", "kN", True, "rails alone"),
-                Column("axial", "kN", True, "rails alone"),
-                Column("radial", "kN", True, "rails and pins"),
-                Column("axial", "kN", True, "rails and pins"),
-                Column("tool along y, rails alone", "µm"),
+                *texts("design, our reading"),
+                *numbers("radial", "axial", unit="kN", group="rails alone"),
+                *numbers("radial", "axial", unit="kN", group="rails and pins"),
+                *numbers("tool along y, rails alone", unit="µm"),
             ),
             rows,
             file,

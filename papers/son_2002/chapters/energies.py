@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from strutwork.papers.son_2002.modes import NamedModes
 from strutwork.papers.son_2002.whole_study import WholeStudy
+from strutwork.papers.tables import numbers, texts
 from strutwork.reports.content import Block, Column, Figure, Table
 from strutwork.reports.figures.modes import energy_bars
 from strutwork.reports.numbers import fixed
@@ -80,9 +81,9 @@ def _energy_table(study: WholeStudy, kinds: list[str]) -> Table:
     return Table(
         "Modes at home: share of the name's pattern that the mode holds, and its strain energy",
         (
-            Column("mode", "", False),
-            Column("frequency", "Hz"),
-            Column("of its pattern"),
+            *texts("mode"),
+            *numbers("frequency", unit="Hz"),
+            *numbers("of its pattern"),
             *(Column(k, "", True, "strain energy") for k in kinds),
         ),
         rows,

@@ -8,10 +8,12 @@ import numpy as np
 
 from strutwork.kinematics import drive_values
 from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from strutwork.papers.published_rows import COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.son_2002.assembly_map import FORCES
+from strutwork.papers.son_2002.chapters.plane import axes, extremes, plane_file
 from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study, degrees_text
 from strutwork.papers.son_2002.published import MACHINE, MANIPULABILITY
+from strutwork.papers.tables import numbers, rows_file, texts
 from strutwork.reports.content import (
     Block,
     Cell,
@@ -22,7 +24,7 @@ from strutwork.reports.content import (
     Table,
     Text,
 )
-from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
+from strutwork.reports.data_files import DataFile, netcdf_file
 from strutwork.reports.figures.curves import Curve, curves, heat
 from strutwork.reports.figures.theme import PALETTE
 from strutwork.reports.numbers import fixed, percent, significant
@@ -33,10 +35,8 @@ def kinematics_chapter(study: MitSS1Study) -> Chapter:
     machine, found = study.machine, study.kinematics
     x, b = found["x"].to_numpy(), found["b"].to_numpy()
     condition = found["condition"].to_numpy()
-    marks = {}
-    for word, pick in (("largest", np.nanargmax), ("smallest", np.nanargmin)):
-        i, j = np.unravel_index(int(pick(condition)), condition.shape)
-        marks[f"{word}, {condition[i, j]:.3f}"] = (1e3 * x[i], degrees(b[j]))
+    picks = {"largest": np.nanargmax, "smallest": np.nanargmin}
+    marks = extremes(*axes(found), condition, picks, "{:.3f}".format)
     drives = found["drive"].to_numpy()
     middle = int(np.abs(x).argmin())
     home = drive_values(machine, machine.place(machine.home()))
@@ -88,12 +88,7 @@ def kinematics_chapter(study: MitSS1Study) -> Chapter:
         _published_kinematics(study),
         Table(
             "Blocks at x = z = b = 0, and their travel within the nominal workspace",
-            (
-                Column("", "", False),
-                Column("at home", "mm"),
-                Column("lowest", "mm"),
-                Column("highest", "mm"),
-            ),
+            (*texts(""), *numbers("at home", "lowest", "highest", unit="mm")),
             [
                 [
                     f"block {k + 1}",
@@ -156,13 +151,7 @@ def _published_kinematics(study: MitSS1Study) -> Table:
     ]
     return Table(
         "Manipulability of section 6.4 beside ours",
-        (
-            Column("quantity", "", False),
-            Column("published"),
-            Column("ours"),
-            Column("difference"),
-            Column("status", "", False),
-        ),
+        (*texts("quantity"), *numbers("published", "ours", "difference"), *texts("status")),
         rows,
         file_name(MANIPULABILITY.key),
     )
@@ -170,27 +159,18 @@ def _published_kinematics(study: MitSS1Study) -> Table:
 
 def _kinematics_files(study: MitSS1Study) -> list[DataFile]:
     found = study.kinematics
-    rows = [
-        [
-            float(x),
-            float(b),
-            *map(float, found["drive"].to_numpy()[i, j]),
-            float(found["condition"].to_numpy()[i, j]),
-            float(found["determinant"].to_numpy()[i, j]),
-        ]
-        for i, x in enumerate(found["x"].to_numpy())
-        for j, b in enumerate(found["b"].to_numpy())
-    ]
-    heads = ["x_m", "b_rad", "block1_m", "block2_m", "block3_m", "condition", "determinant_m"]
-    published = [row.to_dict() for row in _manipulability(study)]
+    maps = {f"block{k + 1}_m": found["drive"].to_numpy()[..., k] for k in range(3)}
+    maps |= {"condition": found["condition"].to_numpy()}
+    maps |= {"determinant_m": found["determinant"].to_numpy()}
     return [
-        csv_file("kinematics.csv", "drives, condition number, determinant over x, b", heads, rows),
+        plane_file(
+            "kinematics.csv", "drives, condition number, determinant over x, b", found, maps
+        ),
         netcdf_file("kinematics.nc", "the same as a dataset", found),
-        csv_file(
+        rows_file(
             file_name(MANIPULABILITY.key),
             "manipulability of the thesis beside ours",
-            COLUMNS,
-            [[row[c] for c in COLUMNS] for row in published],
+            _manipulability(study),
         ),
     ]
 
@@ -198,13 +178,12 @@ def _kinematics_files(study: MitSS1Study) -> list[DataFile]:
 def map_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     """The largest bearing force over the workspace."""
     found = study.forces
-    x, b = 1e3 * found["x"].to_numpy(), np.degrees(found["b"].to_numpy())
+    x, b = axes(found)
     file = "assembly-map.csv"
     figures = []
     for k, kind in enumerate(FORCES):
         values = 1e-3 * found["force"].to_numpy()[:, :, k].max(axis=-1)
-        i, j = np.unravel_index(int(np.nanargmax(values)), values.shape)
-        marks = {f"worst, {values[i, j]:.3g} kN": (float(x[i]), float(b[j]))}
+        marks = extremes(x, b, values, {"worst": np.nanargmax}, "{:.3g} kN".format)
         figures.append(
             Figure(
                 f"assembly-map-{kind.split()[0]}",
@@ -223,13 +202,12 @@ def map_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         "pins stay parallel to each other. Height does not matter at all."
     )
     bearings = [str(n) for n in found["bearing"].to_numpy()]
-    rows = [
-        [float(u), float(v), *map(float, found["force"].to_numpy()[i, j].ravel())]
-        for i, u in enumerate(found["x"].to_numpy())
-        for j, v in enumerate(found["b"].to_numpy())
-    ]
-    heads = ["x_m", "b_rad", *(f"{kind.split()[0]} {n} [N]" for kind in FORCES for n in bearings)]
+    maps = {
+        f"{kind.split()[0]} {n} [N]": found["force"].to_numpy()[:, :, k, m]
+        for k, kind in enumerate(FORCES)
+        for m, n in enumerate(bearings)
+    }
     return [text, Row(tuple(figures), 380)], [
-        csv_file(file, "worst-case force of every bearing over x and b", heads, rows),
+        plane_file(file, "worst-case force of every bearing over x and b", found, maps),
         netcdf_file("assembly-map.nc", "the same as a dataset, with the tool's places", found),
     ]

@@ -26,15 +26,14 @@ from strutwork.papers.son_2002.tolerances import (
     RAIL_HEIGHT,
     STATIC_RATING,
 )
+from strutwork.papers.tables import assumed
 from strutwork.reports.chapters.overconstraint import governing, label, shown
 from strutwork.reports.content import (
     Chapter,
-    Column,
     Fact,
     Facts,
     Figure,
     Note,
-    Table,
     Text,
 )
 from strutwork.reports.data_files import json_file
@@ -230,10 +229,8 @@ def assumptions_chapter(study: MitSS1Study) -> Chapter:
         "Assumptions and their sources",
         (
             Text(f"The thesis: {get(NAME).paper.citation}"),
-            Table(
-                "Dimensions, properties and tolerances of the assembly forces",
-                [Column(h, "", False) for h in ("assumption", "value", "source")],
-                _assumed(machine),
+            assumed(
+                "Dimensions, properties and tolerances of the assembly forces", _assumed(machine)
             ),
             whole_assumptions(study.whole.whole),
         ),

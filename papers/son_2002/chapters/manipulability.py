@@ -8,11 +8,13 @@ import numpy as np
 import xarray as xr
 
 from strutwork.machines.hexel_hexapod import REACH, TILT
-from strutwork.papers.published_rows import CLOSE, COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_rows import CLOSE, PublishedRow, file_name
+from strutwork.papers.son_2002.chapters.plane import axes, extremes, plane_file
 from strutwork.papers.son_2002.manipulability import IDENTITY, MEASURES, PARTS, manipulability_rows
 from strutwork.papers.son_2002.published import MANIPULABILITY
-from strutwork.reports.content import Block, Cell, Chapter, Column, Figure, Points, Row, Table, Text
-from strutwork.reports.data_files import csv_file, netcdf_file
+from strutwork.papers.tables import numbers, rows_file, texts
+from strutwork.reports.content import Block, Cell, Chapter, Figure, Points, Row, Table, Text
+from strutwork.reports.data_files import netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import percent, significant
 
@@ -25,17 +27,14 @@ def manipulability_chapter(found: xr.Dataset) -> Chapter:
     found : xarray.Dataset
         Of `hexapod_manipulability`.
     """
-    x, a = 1e3 * found["x"].to_numpy(), np.degrees(found["a"].to_numpy())
+    x, a = axes(found, "a")
     file = "manipulability.csv"
     rows = []
     for part in PARTS:
         figures = []
         for words, name in MEASURES.items():
             values = found[f"{part}_{name}"].to_numpy()
-            marks = {}
-            for word, pick in (("least", np.nanargmin), ("most", np.nanargmax)):
-                i, j = np.unravel_index(int(pick(values)), values.shape)
-                marks[f"{word}, {significant(float(values[i, j]))}"] = (x[i], a[j])
+            marks = extremes(x, a, values, {"least": np.nanargmin, "most": np.nanargmax})
             unit = found[f"{part}_{name}"].attrs["units"].replace("^3", "³")
             title = words if unit == "1" else f"{words} ({unit})"
             figures.append(
@@ -80,26 +79,18 @@ def manipulability_chapter(found: xr.Dataset) -> Chapter:
             )
         ),
     ]
-    lines = [row.to_dict() for row in published]
-    names = [str(n) for n, v in found.data_vars.items() if v.dims == ("x", "a")]
-    columns = [found[n].to_numpy() for n in names]
+    maps = {str(n): v.to_numpy() for n, v in found.data_vars.items() if v.dims == ("x", "a")}
     files = (
-        csv_file(
+        plane_file(
             file,
             "condition, smallest axis and volume of both ellipsoids over x and tilt",
-            ["x_m", "a_rad", *names],
-            [
-                [float(u), float(t), *(float(v[i, j]) for v in columns)]
-                for i, u in enumerate(found["x"].to_numpy())
-                for j, t in enumerate(found["a"].to_numpy())
-            ],
+            found,
+            maps,
+            "a",
         ),
         netcdf_file("manipulability.nc", "the same as a dataset, with all semi-axes", found),
-        csv_file(
-            file_name(MANIPULABILITY.key),
-            "manipulability of the thesis beside ours",
-            COLUMNS,
-            [[line[c] for c in COLUMNS] for line in lines],
+        rows_file(
+            file_name(MANIPULABILITY.key), "manipulability of the thesis beside ours", published
         ),
     )
     return Chapter("manipulability", "Manipulability", tuple(blocks), files)
@@ -114,13 +105,7 @@ def _identity(found: xr.Dataset) -> float:
 def _published(rows: tuple[PublishedRow, ...]) -> Table:
     return Table(
         "Section 2.2 of the thesis beside ours",
-        (
-            Column("quantity", "", False),
-            Column("published"),
-            Column("ours"),
-            Column("difference"),
-            Column("status", "", False),
-        ),
+        (*texts("quantity"), *numbers("published", "ours", "difference"), *texts("status")),
         [
             [
                 r.quantity,

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from strutwork.fea.solid_fields import SurfaceField
-from strutwork.papers.published_rows import COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.son_2002.calibrated import Which
 from strutwork.papers.son_2002.chapters.energies import MODES_FILE, energy_blocks
+from strutwork.papers.son_2002.chapters.plane import axes, plane_file
 from strutwork.papers.son_2002.figures.mode_surface import mode_surface, modes_view
 from strutwork.papers.son_2002.mode_files import mode_fields, mode_scene
 from strutwork.papers.son_2002.modes import (
@@ -21,11 +22,11 @@ from strutwork.papers.son_2002.modes import (
 )
 from strutwork.papers.son_2002.published import MODES, MOUNT_MODES
 from strutwork.papers.son_2002.whole_study import SETS, WholeStudy
+from strutwork.papers.tables import nearly, numbers, rows_file, texts
 from strutwork.reports.content import (
     Block,
     Cell,
     Chapter,
-    Column,
     Figure,
     Note,
     Points,
@@ -95,21 +96,14 @@ def _published(study: WholeStudy) -> Table:
     return Table(
         f"Frequencies of the thesis beside ours at home; red: beyond {MET:g} %",
         (
-            Column("mode", "", False),
-            Column("thesis", "", False),
-            Column("published", "Hz"),
-            Column("ours", "Hz"),
-            Column("difference"),
-            Column("status", "", False),
+            *texts("mode", "thesis"),
+            *numbers("published", "ours", unit="Hz"),
+            *numbers("difference"),
+            *texts("status"),
         ),
         rows,
         file_name(MODES.key),
     )
-
-
-def nearly(difference: float) -> float:
-    """A difference in percent whose rounding to one decimal keeps no sign of zero."""
-    return difference if abs(difference) >= 0.05 else 0.0
 
 
 def _row_name(row: PublishedRow) -> str:
@@ -176,8 +170,7 @@ def _ordered(study: WholeStudy) -> dict[str, tuple[Which, str]]:
 
 def _postures(study: WholeStudy) -> list[Block]:
     found = study.postures
-    b = np.degrees(found["b"].to_numpy())
-    along = 1e3 * found["x"].to_numpy()
+    along, b = axes(found)
     dashes = ("dash", "solid", "dot")
     figures = []
     for key, words in (("tilt", TILT), ("struts", STRUTS)):
@@ -265,15 +258,10 @@ def _files(study: WholeStudy) -> list[DataFile]:
             rows.append([which, i + 1, float(frequency), name, held, *map(share.get, parts)])
     postures = study.postures
     published = [
-        csv_file(
+        rows_file(
             file_name(table.key),
             f"{table.title} beside ours",
-            COLUMNS,
-            [
-                [line[c] for c in COLUMNS]
-                for line in (r.to_dict() for r in study.rows)
-                if (line["row"] in {v.row for v in table})
-            ],
+            [r for r in study.rows if r.row in {v.row for v in table}],
         )
         for table in (MODES, MOUNT_MODES)
     ]
@@ -298,15 +286,11 @@ def _files(study: WholeStudy) -> list[DataFile]:
         *published,
         mode_fields(SHAPES_FILE, "shapes of all drawn modes, largest motion one", pictures),
         *scenes,
-        csv_file(
+        plane_file(
             POSTURES_FILE,
             "frequencies of tilt and struts over x and tilt",
-            ["x_m", "b_rad", "tilt_Hz", "struts_Hz"],
-            [
-                [float(x), float(b), float(postures["tilt"][i, j]), float(postures["struts"][i, j])]
-                for i, x in enumerate(postures["x"].to_numpy())
-                for j, b in enumerate(postures["b"].to_numpy())
-            ],
+            postures,
+            {f"{key}_Hz": postures[key].to_numpy() for key in ("tilt", "struts")},
         ),
         netcdf_file("mode-postures.nc", "the same as a dataset", postures),
     ]  # fmt: skip

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import degrees
 
-import numpy as np
 import xarray as xr
 
-from strutwork.papers.published_rows import COLUMNS, PublishedRow, file_name
+from strutwork.papers.published_rows import PublishedRow, file_name
+from strutwork.papers.son_2002.chapters.plane import axes, extremes, plane_file
 from strutwork.papers.son_2002.planar_stiffness import (
     CORNERS,
     FORMULAS,
@@ -24,6 +24,7 @@ from strutwork.papers.son_2002.stiffness_table import (
     table_6_fits,
     table_6_rows,
 )
+from strutwork.papers.tables import numbers, rows_file, texts
 from strutwork.reports.content import (
     Block,
     Cell,
@@ -36,7 +37,7 @@ from strutwork.reports.content import (
     Table,
     Text,
 )
-from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
+from strutwork.reports.data_files import DataFile, json_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import MINUS, fixed, micro, percent, significant
 
@@ -108,19 +109,17 @@ def _facts(found: xr.Dataset) -> Facts:
 
 
 def _maps(found: xr.Dataset) -> Row:
-    x, b = 1e3 * found["x"].to_numpy(), np.degrees(found["b"].to_numpy())
+    x, b = axes(found)
     figures = []
     for formula, words in FORMULAS.items():
         values = found["stiffness"].sel(formula=formula, direction="x").to_numpy() / 1e6
-        marks = {}
-        for word, pick in (("softest", np.nanargmin), ("stiffest", np.nanargmax)):
-            i, j = np.unravel_index(int(pick(values)), values.shape)
-            marks[f"{word}, {significant(float(values[i, j]))}"] = (x[i], b[j])
         figures.append(
             Figure(
                 f"planar-stiffness-{formula}",
                 f"Kxx over the map of Fig. 29-(a), {words}.",
-                heat(x, b, values, ("x (mm)", "tilt b (deg)", "Kxx (N/µm)"), marks),
+                heat(
+                    x, b, values, ("x (mm)", "tilt b (deg)", "Kxx (N/µm)"), extremes(x, b, values)
+                ),
                 f"Map of the stiffness along x over x and tilt, {words}; softest and stiffest pose "
                 "marked.",
                 MAP,
@@ -149,9 +148,8 @@ def _table_6(rows: tuple[PublishedRow, ...]) -> Table:
         "Table 6 of the thesis, measured stiffness, beside ours at the tool tip, N/µm: "
         "not reproducible",
         (
-            Column("place", "", False),
-            Column("along", "", False),
-            Column("ours"),
+            *texts("place", "along"),
+            *numbers("ours"),
             *(
                 Column(head, "", True, group)
                 for group in groups
@@ -226,30 +224,15 @@ def _swap(fits: tuple[ColumnFit, ...]) -> str:
 def _files(
     found: xr.Dataset, rows: tuple[PublishedRow, ...], fits: tuple[ColumnFit, ...]
 ) -> list[DataFile]:
-    heads = ["x_m", "b_rad"]
-    values = []
-    for formula in FORMULAS:
-        for direction in ("x", "z"):
-            heads.append(f"K{direction * 2}_{formula} [N/m]")
-            values.append(found["stiffness"].sel(formula=formula, direction=direction).to_numpy())
-    lines = [row.to_dict() for row in rows]
+    stiffness = found["stiffness"]
+    maps = {
+        f"K{d * 2}_{formula} [N/m]": stiffness.sel(formula=formula, direction=d).to_numpy()
+        for formula in FORMULAS
+        for d in ("x", "z")
+    }
     return [
-        csv_file(
-            MAP,
-            "stiffness over x and tilt by both formulas",
-            heads,
-            [
-                [float(u), float(t), *(float(v[i, j]) for v in values)]
-                for i, u in enumerate(found["x"].to_numpy())
-                for j, t in enumerate(found["b"].to_numpy())
-            ],
-        ),
+        plane_file(MAP, "stiffness over x and tilt by both formulas", found, maps),
         netcdf_file("planar-stiffness.nc", "the same as a dataset, blocked stiffness too", found),
-        csv_file(
-            file_name(TABLE_6.key),
-            "Table 6 of the thesis beside ours, both readings",
-            COLUMNS,
-            [[line[c] for c in COLUMNS] for line in lines],
-        ),
+        rows_file(file_name(TABLE_6.key), "Table 6 of the thesis beside ours, both readings", rows),
         json_file(FITS, "residuals of every model for Table 6", [f.to_dict() for f in fits]),
     ]

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+
 import numpy as np
 
 from strutwork.papers.son_2002.size import mit_ss1_scale
+from strutwork.papers.tables import numbers, texts
 from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from strutwork.reports.figures.scaling import deflection_powers, frequency_powers, stiffness_powers
 from strutwork.reports.numbers import fixed, micro, share, significant
-from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS
+from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents
 from strutwork.studies.scale import ScaleStudy
 
 FILE = "size.csv"
@@ -155,28 +158,17 @@ def _exponents(both: dict[str, ScaleStudy]) -> Table:
 
 
 def _removal(both: dict[str, ScaleStudy]) -> Table:
-    rows = []
-    for name, study in both.items():
-        for i, law in enumerate(study.laws):
-            found = study.removal(i)
-            for k, n in enumerate(ACTUATOR_EXPONENTS):
-                first = found["x"][k]
-                rows.append(
-                    [
-                        f"{name}, {law}",
-                        f"{n:g}",
-                        _power(first.feed),
-                        _power(first.cutting_force),
-                        *(_power(some[k].deflection) for some in found.values()),
-                    ]
-                )
+    rows = [
+        row
+        for name, study in both.items()
+        for i, law in enumerate(study.laws)
+        for row in removal_rows(f"{name}, {law}", study.removal(i), _power)
+    ]
     return Table(
         "Exponents of the size at constant removal rate, drives' force ~ Lⁿ (eqs 19 to 23)",
         (
-            Column("machine and joints", "", False),
-            Column("n"),
-            Column("feed"),
-            Column("cutting force"),
+            *texts("machine and joints"),
+            *numbers("n", "feed", "cutting force"),
             *(Column(a, "", True, "deflection") for a in "xyz"),
         ),
         rows,
@@ -184,7 +176,24 @@ def _removal(both: dict[str, ScaleStudy]) -> Table:
     )
 
 
+def removal_rows(
+    name: str, found: Mapping[str, Sequence[RemovalExponents]], shown: Callable[[float], str]
+) -> list[list[str]]:
+    """Exponents at constant removal rate by the drives' n: feed, cutting force, deflections."""
+    return [
+        [
+            name,
+            f"{n:g}",
+            shown(some[0].feed),
+            shown(some[0].cutting_force),
+            *(shown(one.deflection) for one in some),
+        ]
+        for n, *some in zip(ACTUATOR_EXPONENTS, *found.values(), strict=True)
+    ]
+
+
 def _power(value: float) -> str:
+    """An exponent with three decimals, and no zero with a sign."""
     return fixed(round(float(value), 3) + 0.0, 3)
 
 

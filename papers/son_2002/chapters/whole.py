@@ -7,11 +7,13 @@ import numpy as np
 from strutwork.machines.mit_ss1_frame import MOUNTS
 from strutwork.machines.mit_ss1_whole import MitSS1Whole
 from strutwork.papers.son_2002.calibrated import CALIBRATED_GRANITE
+from strutwork.papers.son_2002.chapters.plane import axes, extremes, plane_file
 from strutwork.papers.son_2002.figures.whole_machine import whole_machine_view
 from strutwork.papers.son_2002.published import FIGURE_29_TICK, MACHINE, STIFFNESS
 from strutwork.papers.son_2002.whole_study import WholeStudy
+from strutwork.papers.tables import assumed
 from strutwork.reports.content import Block, Column, Fact, Facts, Figure, Row, Table, Text
-from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
+from strutwork.reports.data_files import DataFile, json_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import fixed, micro, significant
 from strutwork.studies.variables import AXES
@@ -92,15 +94,12 @@ def _drawing(whole: MitSS1Whole) -> dict[str, object]:
 def calibrated_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
     """Stiffness with the bearings that the modes were calibrated with, and with the granite."""
     found = study.stiffness
-    x, b = 1e3 * found["x"].to_numpy(), np.degrees(found["b"].to_numpy())
+    x, b = axes(found)
     held = found["stiffness"].sel(base="rails held")
     figures = []
     for axis in AXES:
         values = held.sel(direction=axis).to_numpy() / 1e6
-        marks = {}
-        for word, pick in (("softest", np.nanargmin), ("stiffest", np.nanargmax)):
-            i, j = np.unravel_index(int(pick(values)), values.shape)
-            marks[f"{word}, {significant(float(values[i, j]))}"] = (float(x[i]), float(b[j]))
+        marks = extremes(x, b, values)
         figures.append(
             Figure(
                 f"stiffness-calibrated-{axis}",
@@ -127,23 +126,14 @@ def calibrated_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
             "with what the granite bends besides. The work table is not in the model."
         ),
     ]
-    heads = ["x_m", "b_rad"]
-    columns = []
-    for base in found["base"].to_numpy():
-        for axis in AXES:
-            heads.append(f"K{axis * 2} {base} [N/m]")
-            columns.append(found["stiffness"].sel(base=base, direction=axis).to_numpy())
+    maps = {
+        f"K{axis * 2} {base} [N/m]": found["stiffness"].sel(base=base, direction=axis).to_numpy()
+        for base in found["base"].to_numpy()
+        for axis in AXES
+    }
+    what = "stiffness of the calibrated machine over x and tilt"
     return blocks, [
-        csv_file(
-            STIFFNESS_FILE,
-            "stiffness of the calibrated machine over x and tilt",
-            heads,
-            [
-                [float(u), float(t), *(float(v[i, j]) for v in columns)]
-                for i, u in enumerate(found["x"].to_numpy())
-                for j, t in enumerate(found["b"].to_numpy())
-            ],
-        ),
+        plane_file(STIFFNESS_FILE, what, found, maps),
         netcdf_file("stiffness-calibrated.nc", "the same as a dataset", found),
     ]
 
@@ -178,10 +168,9 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
     frame, machine = whole.frame, whole.machine
     mm = 1e3
     mounts = " and ".join(micro(k) for k in whole.mount_stiffness)
-    return Table(
+    return assumed(
         "The whole machine: granite, mounts, masses; its bearings differ from those above, "
         "which are calibrated to other numbers",
-        [Column(h, "", False) for h in ("assumption", "value", "source")],
         [
             [
                 "Granite: envelope; Young's modulus, density",
