@@ -292,7 +292,9 @@ def tolerance(
 
 @app.command()
 def scale(
-    machine: Annotated[str, typer.Argument(metavar="MACHINE", help="mit-ss1.")],
+    machine: Annotated[
+        str, typer.Argument(metavar="MACHINE", help="A machine whose size is studied.")
+    ],
     low: Annotated[float, typer.Option("--from", help="Shortest struts, m.")] = 0.1,
     high: Annotated[float, typer.Option("--to", help="Longest struts, m.")] = 3.0,
     lengths: Annotated[int, typer.Option(min=2, max=10_000, help="Lengths, evenly spaced.")] = 30,
@@ -312,7 +314,8 @@ def scale(
     """Show what the size of a machine does to locked-in forces, stiffness and frequencies."""
     from strutwork.reports.cli import scale as work
 
-    work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
+    study = work.study_of(machine)
+    study(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
 app.command()(move)
@@ -323,7 +326,7 @@ app.command()(new)
 def report(
     target: Annotated[
         str,
-        typer.Argument(metavar="TARGET", help="A machine, a comparison (azulay-2014) or a FILE."),
+        typer.Argument(metavar="TARGET", help="A machine, a paper's key or a FILE."),
     ],
     out: Annotated[
         str | None,

@@ -7,14 +7,8 @@ import pytest
 
 from strutwork.machines import Proposed3PPRS, get, roll_angles
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
-from strutwork.studies import (
-    AS_IN_AZULAY,
-    hemisphere,
-    on_plane,
-    plane_map,
-    read_netcdf,
-    stiffness_map,
-)
+from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
+from strutwork.studies import hemisphere, on_plane, plane_map, read_netcdf, stiffness_map
 from tests.cli.conftest import Program
 
 FEW = ("--lattice", "1", "--rolls", "2", "--workers", "1", "--ranges", "revolute")
