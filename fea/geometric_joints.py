@@ -88,7 +88,9 @@ def spring_parts(system: System, displacements: Array) -> Iterator[Part]:
         nodes = np.array([structure.mesh_index[n] for n in spring.nodes])
         first, second = nodes
         k = spring.diagonal
-        pull = k * (displacements[:, second] - displacements[:, first])
+        axes = system.placed.spring_axes(spring)
+        moved = displacements[:, second] - displacements[:, first]
+        pull = np.einsum("...ij,j,...kj,...k->...i", axes, k, axes, moved)
         span = system.placed.positions[:, second] - system.placed.positions[:, first]
         length = np.linalg.norm(span, axis=-1)[:, None]
         apart = length > 0

@@ -201,7 +201,8 @@ def _part_forces(system: System, solution: StaticSolution) -> Iterator[Force]:
         axes = system.placed.beam_geometry[1][:, b]
         for end in (0, 1):
             force = solution.beam_forces[:, b, end, :3, 0]
-            yield beam.nodes[end], -np.einsum("pij,pi->pj", axes, force), beam.offsets[end]
+            offset = system.placed.beam_offsets[..., b, end, :]
+            yield beam.nodes[end], -np.einsum("pij,pi->pj", axes, force), offset
     turned = (system.joint_frames @ solution.joint_forces[..., 0][..., None])[..., :3, 0]
     for j, joint in enumerate(structure.linkage.joints):
         for name, sign in zip(joint.between, (-1.0, 1.0), strict=True):
@@ -217,8 +218,12 @@ def _element_forces(system: System, solution: StaticSolution) -> Iterator[Force]
         stretch = moved[:, index[spring.nodes[-1]], :3]
         if len(spring.nodes) == 2:
             stretch = stretch - moved[:, index[spring.nodes[0]], :3]
-            yield spring.nodes[0], spring.diagonal[:3] * stretch, NOWHERE
-        yield spring.nodes[-1], -spring.diagonal[:3] * stretch, NOWHERE
+        turn = placed.spring_axes(spring)[..., :3, :3]
+        stiffness = turn * spring.diagonal[:3] @ np.swapaxes(turn, -1, -2)
+        pull = (stiffness @ stretch[..., None])[..., 0]
+        if len(spring.nodes) == 2:
+            yield spring.nodes[0], pull, NOWHERE
+        yield spring.nodes[-1], -pull, NOWHERE
     for element in structure.elements:
         nodes = [index[n] for n in element.nodes]
         u = moved[:, nodes].reshape(system.poses, -1, 1)

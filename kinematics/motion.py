@@ -233,6 +233,7 @@ class Motion:
             self.joints.names,
             walk.status.reshape(batch),
             tuple(walk.reasons),
+            self._turns(bodies).reshape(*batch, -1, 3, 3),
         )
         return Moved(
             placement,
@@ -245,6 +246,10 @@ class Motion:
                 bodies.rotation.reshape(*batch, *bodies.rotation.shape[1:]),
             ),
         )
+
+    def _turns(self, bodies: BodyPoses) -> Array:
+        """Rotations of the bodies from where the home's own are counted, (p, b, 3, 3)."""
+        return bodies.rotation if self.home.turns is None else bodies.rotation @ self.home.turns
 
     def _tool(self, bodies: BodyPoses, positions: Array, batch: tuple[int, ...]) -> Poses | None:
         if self.linkage.tool is None:

@@ -33,6 +33,10 @@ class Placement:
         0 where the pose is good, else 1 + index into `reasons`.
     reasons : tuple of str
         Why a pose is not good.
+    turns : (..., b, 3, 3) or None
+        Rotation of each body of `Linkage.body_names` from the configuration in which vectors of
+        its parts are written in global axes: these follow their bodies. None: no body has turned,
+        or no part has such vectors.
     """
 
     positions: NDArray[Any]
@@ -41,6 +45,7 @@ class Placement:
     names: tuple[tuple[str, str], ...] = ()
     status: NDArray[np.int8] | None = None
     reasons: tuple[str, ...] = ()
+    turns: NDArray[Any] | None = None
 
     def __post_init__(self) -> None:
         if self.status is None:
@@ -92,6 +97,23 @@ class Placement:
             frames=self.frames[index],
             values=self.values[index],
             status=np.asarray(self.status)[index],
+            turns=None if self.turns is None else self.turns[index],
+        )
+
+    def flat(self) -> Placement:
+        """The same poses with one batch axis."""
+        count, batch = int(np.prod(self.batch, dtype=int)), len(self.batch)
+
+        def made(array: NDArray[Any]) -> NDArray[Any]:
+            return array.reshape(count, *array.shape[batch:])
+
+        return replace(
+            self,
+            positions=made(self.positions),
+            frames=made(self.frames),
+            values=made(self.values),
+            status=made(np.asarray(self.status)),
+            turns=None if self.turns is None else made(self.turns),
         )
 
 

@@ -9,7 +9,7 @@ from math import degrees
 import numpy as np
 
 from strutwork.errors import ModelError
-from strutwork.kinematics import Linkage, Placement
+from strutwork.kinematics import Joint, Linkage, Placement
 
 #: A coordinate may pass its limit by this much, m or rad: the rounding of a pose at the limit.
 SLACK = 1e-9
@@ -46,10 +46,13 @@ class Limit:
 
 def joint_limits(linkage: Linkage) -> tuple[Limit, ...]:
     """The ranges that the joints of a linkage state themselves."""
+    return joint_limits_of(linkage.joints)
+
+
+def joint_limits_of(joints: Iterable[Joint]) -> tuple[Limit, ...]:
+    """The ranges that joints state themselves."""
     return tuple(
-        Limit(j.name, d, low, high, j.type)
-        for j in linkage.joints
-        for d, (low, high) in j.limits.items()
+        Limit(j.name, d, low, high, j.type) for j in joints for d, (low, high) in j.limits.items()
     )
 
 

@@ -1,19 +1,29 @@
-"""A structure read from a model file."""
+"""A machine as data: its structure in one configuration, how it moves, what acts on it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, ModelWarning
 from strutwork.fea import preloaded
-from strutwork.kinematics import Placement
+from strutwork.kinematics import Placement, Poses
+from strutwork.kinematics.motion import Motion
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.drives import Drive
+from strutwork.machines.limits import Limit
 from strutwork.machines.model_solid_element import SolidElement
 from strutwork.msa import LoadCase, PlacedStructure, Structure
 from strutwork.overconstraint.tolerance import Tolerance
 
 __all__ = ["Damping", "Model", "ModelWarning"]
+
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -63,6 +73,18 @@ class Model:
         Greatest forces and moments that joints may bear, N and N·m.
     preload : str or None
         The load case under which the structure vibrates.
+    limits : tuple of Limit
+        Ranges of joint coordinates.
+    task : tuple of str
+        Directions in which the tool is to move; empty where nobody says.
+    workspace : TaskGrid or None
+        Poses that maps and reports look at.
+    drives : tuple of Drive
+        What the drives can do.
+    rotation : (3, 3)
+        Of the tool in this placement.
+    closed_form : callable or None
+        Placement at poses of the tool, where the machine has formulas for it.
     solids : tuple of SolidElement
         Its elements that are solids. Their monitors, nodes inside a solid, are nodes of the
         linkage and none of the file.
@@ -81,6 +103,12 @@ class Model:
     force_limits: Mapping[tuple[str, str], float] = field(default_factory=dict)
     solids: tuple[SolidElement, ...] = ()
     preload: str | None = None
+    limits: tuple[Limit, ...] = ()
+    task: tuple[str, ...] = ()
+    workspace: TaskGrid | None = None
+    drives: tuple[Drive, ...] = ()
+    rotation: Array = field(default_factory=lambda: np.eye(3))
+    closed_form: Callable[[Poses], Placement] | None = None
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"
@@ -101,6 +129,17 @@ class Model:
         if self.tool is None:
             raise ModelError("tool", "is missing.", 'Add a table [tool] with tcp = "NODE".')
         return self.tool
+
+    @cached_property
+    def motion(self) -> Motion:
+        """How it moves, from this placement.
+
+        Raises
+        ------
+        ModelError
+            Its joints do not close.
+        """
+        return Motion(self.structure.linkage, self.placement, self.rotation)
 
     @cached_property
     def placed(self) -> PlacedStructure:

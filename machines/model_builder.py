@@ -11,8 +11,15 @@ import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Damping, Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
+from strutwork.machines.model_motion_tables import (
+    drives_of,
+    home_values,
+    task_of,
+    workspace_of,
+)
 from strutwork.machines.model_parts import beams_of, joint_of, masses_of, springs_of, unknown
 from strutwork.machines.model_schema import ModelTable
 from strutwork.machines.model_solid_element import SolidElement
@@ -51,6 +58,8 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     _check_bodies(tables)
     _check_nodes(tables)
     joints = tuple(joint_of(table) for table in tables.joints)
+    home = home_values(tables, joints)
+    task = task_of(tables)
     supports = _supports(tables)
     nodes = tuple(tables.nodes)
     grounds = tuple(joint.between[0] for joint in supports.values())
@@ -87,7 +96,8 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     placement = Placement(
         np.array(positions, dtype=float).reshape(-1, 3),
         np.array(frames, dtype=float).reshape(-1, 3, 3),
-        np.zeros(0),
+        np.array(list(home.values()), dtype=float),
+        tuple(home),
     )
     model = Model(
         title=tables.title,
@@ -103,6 +113,10 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         force_limits=toleranced.limits,
         solids=solids,
         preload=tables.preload,
+        limits=joint_limits(linkage),
+        task=task,
+        workspace=workspace_of(tables, task),
+        drives=drives_of(tables, {j.name: j for j in joints}),
     )
     if model.preload is not None:
         model.case(model.preload)

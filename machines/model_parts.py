@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Joint
+from strutwork.kinematics.joint import JOINT_TYPES
 from strutwork.machines.model import ModelWarning
 from strutwork.machines.model_schema import (
     BodyTable,
@@ -157,8 +158,30 @@ def joint_of(table: JointTable) -> Joint:
         stiffness=by_direction(table.stiffness),
         damping=by_direction(table.damping),
         driven=table.driven,
+        limits=_limits(table),
         matrix=table.matrix,
     )
+
+
+def _limits(table: JointTable) -> dict[str, tuple[float, float]]:
+    part = f"joint {table.name}"
+    named = {d: getattr(table.limits, d) for d in DIRECTIONS}
+    found = {d: span for d, span in named.items() if span is not None}
+    for direction, (low, high) in found.items():
+        if not low < high:
+            raise ModelError(
+                part,
+                f"limits of {direction} are {low:g} and {high:g}.",
+                "Give the lower one first.",
+            )
+        held = {*JOINT_TYPES[table.type], *by_direction(table.stiffness)} - set(table.driven)
+        if direction in held or table.matrix is not None:
+            raise ModelError(
+                part,
+                f"has limits in {direction}, in which it does not move.",
+                "Limit a direction that is free or driven.",
+            )
+    return found
 
 
 def springs_of(tables: ModelTable) -> tuple[Spring, ...]:

@@ -99,11 +99,11 @@ class SolidElement:
 
     def stiffness(self, at: PlacedStructure) -> Array:
         """Stiffness in global axes, (..., 6 k, 6 k)."""
-        return self._everywhere(self._stiffness, at)
+        return self._turned(self._stiffness, at)
 
     def mass(self, at: PlacedStructure) -> Array:
         """Mass in global axes, (..., 6 k, 6 k)."""
-        return self._everywhere(self._mass, at)
+        return self._turned(self._mass, at)
 
     def motion(self, nodes: Array) -> Array:
         """Displacements of the surface's points, global axes.
@@ -159,6 +159,10 @@ class SolidElement:
         shapes = self.reduced.shapes
         return np.asarray(shapes.reshape(-1, 3, shapes.shape[1])[self.surface])
 
-    @staticmethod
-    def _everywhere(matrix: Array, at: PlacedStructure) -> Array:
-        return np.broadcast_to(matrix, (*at.batch, *matrix.shape))
+    def _turned(self, matrix: Array, at: PlacedStructure) -> Array:
+        turn = at.turn_of(self.nodes[0])
+        if at.placement.turns is not None:
+            blocks = matrix.reshape(2 * len(self.nodes), 3, 2 * len(self.nodes), 3)
+            turned = np.einsum("...ik,akbl,...jl->...aibj", turn, blocks, turn, optimize=True)
+            matrix = turned.reshape(*turn.shape[:-2], *matrix.shape)
+        return np.broadcast_to(matrix, (*at.batch, *matrix.shape[-2:]))

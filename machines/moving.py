@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 from strutwork.kinematics.motion import Motion
 from strutwork.machines.limits import Limit, joint_limits
-from strutwork.machines.model_file import read_model
-from strutwork.machines.variants import is_machine, named_machine
+from strutwork.machines.load import load
 
 
 @dataclass(frozen=True)
@@ -37,14 +36,7 @@ def moving(name: str) -> Moving:
     ModelError
         An unknown machine, or a file that cannot be read or whose joints do not close.
     """
-    if is_machine(name):
-        found = named_machine(name)
-        machine, home = found.machine, found.machine.home()
-        linkage = machine.linkage
-        motion = Motion(linkage, machine.place(home), home.rotation)
-        title = found.title
-    else:
-        model = read_model(name)
-        linkage = model.structure.linkage
-        motion, title = Motion(linkage, model.placement), model.title or name
-    return Moving(title, motion, joint_limits(linkage))
+    found = load(name)
+    linkage = found.structure.linkage
+    # a range of a coordinate that only the machine's own formulas know is no motion's
+    return Moving(found.title or name, found.motion, joint_limits(linkage))

@@ -62,11 +62,14 @@ class System:
                 yield f"beam {structure.beams[beam].name}", np.array([a, b]), stiffness[:, s]
         index = structure.linkage.node_index
         for spring in structure.springs:
-            k = np.diag(spring.diagonal)
+            turn = placed.spring_axes(spring)
+            k = turn @ np.diag(spring.diagonal) @ np.swapaxes(turn, -1, -2)
             nodes = np.array([index[n] for n in spring.nodes])
             if len(nodes) == 2:
-                k = np.block([[k, -k], [-k, k]])
-            yield f"spring {spring.name}", nodes, np.broadcast_to(k, (self.poses, *k.shape))
+                k = np.concatenate(
+                    [np.concatenate([k, -k], -1), np.concatenate([-k, k], -1)], axis=-2
+                )
+            yield f"spring {spring.name}", nodes, np.broadcast_to(k, (self.poses, *k.shape[-2:]))
         for j in self.topology.elastic_joints:
             joint = structure.linkage.joints[j]
             k = self._joint_global(j, joint.stiffness_matrix)
@@ -330,7 +333,7 @@ class System:
         offsets = self.placed.segment_offsets
         for k in (0, 1):
             part = turned[..., 6 * k : 6 * k + 6]
-            at_node = np.einsum("sji,psj->psi", rigid_map(offsets[:, k]), part)
+            at_node = (np.swapaxes(rigid_map(offsets[..., k, :]), -1, -2) @ part[..., None])[..., 0]
             for s, node in enumerate(structure.segments[:, 1 + k]):
                 loads[:, node] += at_node[:, s]
 
@@ -385,14 +388,8 @@ class System:
 
 def system_of(placed: PlacedStructure) -> System:
     """The system of a placed structure, its batch made flat."""
-    flat = placed.placement
-    if len(flat.batch) != 1:
-        count = int(np.prod(flat.batch, dtype=int))
-        positions = flat.positions.reshape(count, *flat.positions.shape[-2:])
-        frames = flat.frames.reshape(count, *flat.frames.shape[-3:])
-        values = flat.values.reshape(count, flat.values.shape[-1])
-        status = np.asarray(flat.status).reshape(count)
-        flat = type(flat)(positions, frames, values, flat.names, status, flat.reasons)
-        added = None if placed.stiffening is None else placed.stiffening.flat(count)
+    if len(placed.batch) != 1:
+        flat = placed.placement.flat()
+        added = None if placed.stiffening is None else placed.stiffening.flat(*flat.batch)
         placed = PlacedStructure(placed.structure, flat, added)
     return System(placed, Topology(placed.structure))

@@ -52,10 +52,15 @@ def program_of(system: System) -> Program | None:
     structure: Structure = system.placed.structure
     # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
     kept = structure.__dict__
-    if "_program" not in kept:
-        kept["_program"] = compile_program(system)
-    program: Program | None = kept["_program"]
+    name = _kept_as(system)
+    if name not in kept:
+        kept[name] = compile_program(system)
+    program: Program | None = kept[name]
     return program
+
+
+def _kept_as(system: System) -> str:
+    return "_program" if system.placed.placement.turns is None else "_turned_program"
 
 
 def compiled_compliance(
@@ -88,7 +93,7 @@ def compiled_compliance(
         if renewed is not None and _dependent(renewed) != _dependent(program):
             compliance[again], doubt = _run(part, renewed, workers)
             if 2 * doubt.sum() < part.poses:
-                system.placed.structure.__dict__["_program"] = renewed
+                system.placed.structure.__dict__[_kept_as(system)] = renewed
             again[again] = doubt
     return compliance, again
 
@@ -98,6 +103,12 @@ def _dependent(program: Program) -> set[tuple[int, int]]:
     found = program.loops.dependent
     direction = program.axis_direction[found] + 3 * program.turns[found]
     return set(zip(program.axis_joint[found].tolist(), direction.tolist(), strict=True))
+
+
+def _frames(part: PlacedStructure) -> Array:
+    """Frames of the joints, then rotations of the bodies where these carry axes, (q, f, 3, 3)."""
+    frames, turns = part.placement.frames, part.placement.turns
+    return frames if turns is None else np.concatenate([frames, turns], axis=1)
 
 
 def _run(system: System, program: Program, workers: int) -> tuple[Array, NDArray[np.bool_]]:
@@ -113,7 +124,7 @@ def _run(system: System, program: Program, workers: int) -> tuple[Array, NDArray
         run_program(
             program,
             np.ascontiguousarray(part.positions, dtype=float),
-            np.ascontiguousarray(part.placement.frames, dtype=float),
+            np.ascontiguousarray(_frames(part), dtype=float),
             compliance[start:stop],
             quality[start:stop],
         )

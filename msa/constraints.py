@@ -150,7 +150,8 @@ def rigid_rows(system: System) -> Array:
             if b >= 0:
                 arm = placement.positions[:, i] - references[:, b]
                 row[:, :, 6 * b : 6 * b + 6] += sign * rigid_map(arm)
-        rows.append(row[:, spring.diagonal > 0])
+        axes = np.swapaxes(system.placed.spring_axes(spring), -1, -2)
+        rows.append((axes @ row)[:, spring.diagonal > 0])
     matrix = np.concatenate(rows, axis=1)
     matrix.reshape(*matrix.shape[:2], bodies, 6)[..., 3:] /= length
     size = np.linalg.norm(matrix, axis=-1, keepdims=True)
@@ -216,7 +217,8 @@ def _large_free_twists(system: System) -> Array:
     parts = [(graph.axes, graph.points, np.stack([graph.first, graph.second], axis=1))]
     for spring in placed.structure.springs:
         nodes = [index[n] for n in spring.nodes]
-        axes = np.eye(6)[spring.diagonal > 0]
+        axes = np.swapaxes(np.broadcast_to(placed[0].spring_axes(spring), (6, 6)), 0, 1)
+        axes = axes[spring.diagonal > 0]
         pair = np.array([owner[nodes[0]] if len(nodes) == 2 else -1, owner[nodes[-1]]])
         ones = np.ones((len(axes), 1))
         parts.append((axes, ones * placement.positions[nodes[-1]], (ones * pair).astype(np.intp)))

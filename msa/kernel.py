@@ -193,6 +193,7 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
     positions : (q, n, 3)
         Mesh nodes, m.
     frames : (q, j, 3, 3)
+        Of the joints, then of the bodies where these carry axes.
     start, stop : int
     compliance : (q, 6, 6)
         Filled.

@@ -28,11 +28,26 @@ def axes_and_pivots(p, point, frame, axis, pivot):  # type: ignore[no-untyped-de
 def _element_axes(p, item, point, frame, ends, local, length):  # type: ignore[no-untyped-def]
     """Ends (2, 3, w), local axes as rows (3, 3, w) and length (w) of a beam element."""
     beam = p.item_beam[item]
+    body = p.turn_frame[beam]
     for e in range(2):
         node = p.item_nodes[item, e]
+        ox, oy, oz = (
+            p.item_offsets[item, e, 0],
+            p.item_offsets[item, e, 1],
+            p.item_offsets[item, e, 2],
+        )
         for k in range(3):
             for w in range(LANES):
                 ends[e, k, w] = point[node, k, w] + p.item_offsets[item, e, k]
+        if body >= 0 and (ox != 0.0 or oy != 0.0 or oz != 0.0):
+            for k in range(3):
+                for w in range(LANES):
+                    ends[e, k, w] = (
+                        point[node, k, w]
+                        + frame[body, k, 0, w] * ox
+                        + frame[body, k, 1, w] * oy
+                        + frame[body, k, 2, w] * oz
+                    )
     for w in range(LANES):
         dx = ends[1, 0, w] - ends[0, 0, w]
         dy = ends[1, 1, w] - ends[0, 1, w]
@@ -47,6 +62,17 @@ def _element_axes(p, item, point, frame, ends, local, length):  # type: ignore[n
         x, y, z = local[0, 0, w], local[0, 1, w], local[0, 2, w]
         if joint >= 0:
             ux, uy, uz = frame[joint, 0, 2, w], frame[joint, 1, 2, w], frame[joint, 2, 2, w]
+        elif body >= 0:
+            # the default is that of the body's axes
+            px = frame[body, 0, 0, w] * x + frame[body, 1, 0, w] * y + frame[body, 2, 0, w] * z
+            py = frame[body, 0, 1, w] * x + frame[body, 1, 1, w] * y + frame[body, 2, 1, w] * z
+            along = px * px + py * py < 1e-12
+            vx = ox if given else 0.0
+            vy = oy if given else (1.0 if along else 0.0)
+            vz = oz if given else (0.0 if along else 1.0)
+            ux = frame[body, 0, 0, w] * vx + frame[body, 0, 1, w] * vy + frame[body, 0, 2, w] * vz
+            uy = frame[body, 1, 0, w] * vx + frame[body, 1, 1, w] * vy + frame[body, 1, 2, w] * vz
+            uz = frame[body, 2, 0, w] * vx + frame[body, 2, 1, w] * vy + frame[body, 2, 2, w] * vz
         elif given:
             ux, uy, uz = ox, oy, oz
         else:

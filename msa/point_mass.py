@@ -18,7 +18,7 @@ def mass_axes(mass: PointMass, placed: PlacedStructure) -> Array:
     """Axes of inertia and offset as columns, (p, 3, 3), of a flat batch."""
     positions, index = placed.positions, placed.structure.mesh_index
     if mass.axes is None:
-        return np.broadcast_to(np.eye(3), (len(positions), 3, 3))
+        return np.broadcast_to(placed.turn_of(mass.node), (len(positions), 3, 3))
     corner, along, side = (positions[:, index[node]] for node in mass.axes)
     up = np.cross(along - corner, side - corner)
     return axes_frame(up, along - corner, mass.node)

@@ -130,6 +130,8 @@ class Program(NamedTuple):
         From the nodes to the element's ends, m.
     properties : (b, 6)
         As `Beam.properties`.
+    turn_frame : (b,)
+        Frame of the beam's body, in whose axes its vectors are; −1 for global axes.
     orientation : (b, 3)
         NaN for the default.
     orientation_joint : (b,)
@@ -137,7 +139,7 @@ class Program(NamedTuple):
     link_nodes : (l, 2)
         Mesh nodes of the springs and elastic joints that carry nothing, −1 for ground.
     link_joint : (l,)
-        Joint in whose axes the stiffness is given, or −1 for global axes.
+        Frame in whose axes the stiffness is given, or −1 for global axes.
     link_stiffness : (l, 6, 6)
     touch_start : (e + l + 1,)
         Range of each element's touches, dependent coordinates included, beams before links.
@@ -179,6 +181,7 @@ class Program(NamedTuple):
     item_beam: Ints
     item_offsets: Array
     properties: Array
+    turn_frame: Ints
     orientation: Array
     orientation_joint: Ints
     link_nodes: Ints

@@ -19,7 +19,7 @@ from strutwork.msa.program_loops import (
     loop_program,
     spread_program,
 )
-from strutwork.msa.structure import Structure
+from strutwork.msa.structure import PlacedStructure, Structure
 from strutwork.msa.topology import Topology
 
 Array = NDArray[Any]
@@ -61,7 +61,8 @@ def compile_program(system: System) -> Program | None:
             return None
         loops = closed_loops({j: list(t) for j, t in closing.items()}, system, length, scale, moves)
     follows = following(loops)
-    links = _links(topology)
+    frames = body_frames(system.placed)
+    links = _links(topology, frames)
     touches = _touches(structure, of_vertex, links)
     order = _order(len(coordinates), follows, [*touches], moves)
     position = np.argsort(order)
@@ -108,6 +109,7 @@ def compile_program(system: System) -> Program | None:
         item_beam=ints(segments[:, 0]),
         item_offsets=_offsets(structure),
         properties=np.array([b.properties for b in structure.beams]).reshape(-1, 6),
+        turn_frame=ints([frames.get(b.nodes[0], -1) for b in structure.beams]),
         orientation=np.array(
             [
                 b.orientation if isinstance(b.orientation, tuple) else (np.nan,) * 3
@@ -215,8 +217,18 @@ def _coordinates(topology: Topology) -> tuple[list[_Coordinate], dict[int, list[
     return found, of_vertex
 
 
-def _links(topology: Topology) -> list[tuple[tuple[int, int], int, Array]]:
-    """Springs and elastic joints that carry nothing: nodes, joint of the axes, stiffness."""
+def body_frames(placed: PlacedStructure) -> dict[str, int]:
+    """Frame of each node's body behind those of the joints; none where bodies carry no axes."""
+    linkage = placed.structure.linkage
+    if placed.placement.turns is None:
+        return {}
+    owner = linkage.body_of_node
+    first = len(linkage.joints)
+    return {n: first + int(b) for n, b in zip(linkage.nodes, owner, strict=True) if b >= 0}
+
+
+def _links(topology: Topology, frames: dict[str, int]) -> list[tuple[tuple[int, int], int, Array]]:
+    """Springs and elastic joints that carry nothing: nodes, frame of the axes, stiffness."""
     structure = topology.structure
     linkage = structure.linkage
     index = linkage.node_index
@@ -224,7 +236,8 @@ def _links(topology: Topology) -> list[tuple[tuple[int, int], int, Array]]:
     for spring in structure.springs:
         nodes = [index[n] for n in spring.nodes]
         pair = (nodes[0], nodes[1]) if len(nodes) == 2 else (-1, nodes[0])
-        found.append((pair, -1, np.diag(spring.diagonal)))
+        axes = frames.get(spring.nodes[0], -1) if len(nodes) == 2 else -1
+        found.append((pair, axes, np.diag(spring.diagonal)))
     for j in topology.elastic_joints:
         if j not in topology.forest.tree_joints:
             first, second = (index[n] for n in linkage.joints[j].between)

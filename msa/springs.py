@@ -15,7 +15,7 @@ from strutwork.kinematics import DIRECTIONS
 
 @dataclass(frozen=True)
 class Spring:
-    """A spring in global axes.
+    """A spring; to ground in global axes, else in those that its first node's body carries.
 
     Parameters
     ----------
@@ -79,7 +79,8 @@ class PointMass:
         From the node to the centre of mass, m.
     axes : (str, str, str) or None
         Nodes that carry the axes of inertia and offset: x from the first to the second, y on
-        the third's side in their plane. None: global axes.
+        the third's side in their plane. None: global axes, which the body carries along
+        where the placement says how it has turned.
 
     Raises
     ------

@@ -271,9 +271,39 @@ class PlacedStructure:
         ends = []
         for k in (0, 1):
             rows = [index[b.nodes[k]] for b in s.beams]
-            shift = np.array([b.offsets[k] for b in s.beams]).reshape(-1, 3)
-            ends.append(positions[..., rows, :] + shift)
+            ends.append(positions[..., rows, :] + self.beam_offsets[..., k, :])
         return ends[0], ends[1]
+
+    @cached_property
+    def beam_offsets(self) -> Array:
+        """From the nodes of the whole beams to their ends, (b, 2, 3) or (..., b, 2, 3), m."""
+        beams = self.structure.beams
+        shift = np.array([b.offsets for b in beams]).reshape(-1, 2, 3)
+        turns = self.beam_turns
+        if turns is None or not np.any(shift):
+            return shift
+        return np.asarray(shift @ np.swapaxes(turns, -1, -2))
+
+    @cached_property
+    def beam_turns(self) -> Array | None:
+        """Rotation of each beam's body, (..., b, 3, 3); None where no body has turned."""
+        beams = self.structure.beams
+        if self.placement.turns is None or not beams:
+            return None
+        return np.stack([self.turn_of(b.nodes[0]) for b in beams], axis=-3)
+
+    def turn_of(self, node: str) -> Array:
+        """Rotation of a node's body from where its parts are described, (3, 3) or (..., 3, 3)."""
+        linkage, turns = self.structure.linkage, self.placement.turns
+        body = linkage.body_of_node[linkage.node_index[node]]
+        return np.eye(3) if turns is None or body < 0 else np.asarray(turns[..., body, :, :])
+
+    def spring_axes(self, spring: Spring) -> Array:
+        """Axes of a spring, (6, 6) or (..., 6, 6): global to ground, else of its first body."""
+        turn = np.eye(3) if len(spring.nodes) == 1 else self.turn_of(spring.nodes[0])
+        axes = np.zeros((*turn.shape[:-2], 6, 6))
+        axes[..., :3, :3] = axes[..., 3:, 3:] = turn
+        return axes
 
     @cached_property
     def beam_geometry(self) -> tuple[Array, Array]:
@@ -298,7 +328,16 @@ class PlacedStructure:
                 up[..., i, :] = self.frame(beam.orientation, f"beam {beam.name}")[..., :, 2]
             elif beam.orientation is not None:
                 up[..., i, :] = beam.orientation
-        return beam_axes(start, end, up, [b.name for b in s.beams])
+        names = [b.name for b in s.beams]
+        turns = self.beam_turns
+        if turns is None:
+            return beam_axes(start, end, up, names)
+        # in the axes of its body, in which vectors and the default are what the beam says
+        turns = np.broadcast_to(turns, (*start.shape[:-1], 3, 3))
+        named = [i for i, beam in enumerate(s.beams) if isinstance(beam.orientation, str)]
+        up[..., named, :] = turned_back(turns[..., named, :, :], up[..., named, :])
+        length, axes = beam_axes(turned_back(turns, start), turned_back(turns, end), up, names)
+        return length, np.asarray(axes @ np.swapaxes(turns, -1, -2))
 
     def frame(self, joint: str, part: str = "structure") -> Array:
         """Axes of a joint as columns, (..., 3, 3)."""
@@ -352,14 +391,14 @@ class PlacedStructure:
 
     @cached_property
     def segment_offsets(self) -> Array:
-        """From the mesh nodes of each beam element to its ends, (s, 2, 3), m."""
-        s = self.structure
-        result = np.zeros((len(s.segments), 2, 3))
+        """From the mesh nodes of each beam element to its ends, (s, 2, 3) or (..., s, 2, 3), m."""
+        s, offsets = self.structure, self.beam_offsets
+        result = np.zeros((*offsets.shape[:-3], len(s.segments), 2, 3))
         last = -1
-        for beam in s.beams:
+        for i, beam in enumerate(s.beams):
             first, last = last + 1, last + beam.elements
-            result[first, 0] = beam.offsets[0]
-            result[last, 1] = beam.offsets[1]
+            result[..., first, 0, :] = offsets[..., i, 0, :]
+            result[..., last, 1, :] = offsets[..., i, 1, :]
         return result
 
     def check(self) -> None:
@@ -373,6 +412,7 @@ class PlacedStructure:
             first, second = (index[n] for n in spring.nodes)
             arm = self.placement.positions[..., second, :] - self.placement.positions[..., first, :]
             # work of the spring in a rigid rotation about each axis
+            arm = turned_back(self.spring_axes(spring)[..., :3, :3], arm)
             resisted = spring.diagonal[:3, None] * rigid_map(arm)[..., :3, 3:]
             if np.abs(resisted).max(initial=0.0) > 1e-9 * spring.diagonal.max():
                 raise ModelError(
@@ -381,6 +421,11 @@ class PlacedStructure:
                     "direction: it would resist a rigid rotation of both.",
                     "Put its nodes at one place or along its direction, or use a joint.",
                 )
+
+
+def turned_back(rotation: Array, vector: Array) -> Array:
+    """Rᵀ v, (..., 3, 3) and (..., 3)."""
+    return np.asarray(np.einsum("...ji,...j->...i", rotation, vector))
 
 
 def rigid_map(arm: Array) -> Array:

@@ -253,7 +253,12 @@ def _feature_frame(placed: PlacedStructure, tolerance: Tolerance, first: int) ->
         if tolerance.axis is None
         else np.broadcast_to(np.asarray(tolerance.axis, dtype=float), (*placed.batch, 3))
     )
-    return axes_frame(axis, tolerance.along, part)
+    # directions that the tolerance names go with its feature's body
+    datum = tolerance.datum or placed.structure.linkage.joints[first].between[0]
+    turn = placed.turn_of(datum)
+    if tolerance.axis is None:
+        axis = np.einsum("...ji,...j->...i", turn, axis)
+    return np.asarray(turn @ axes_frame(axis, tolerance.along, part))
 
 
 def _at_joint(

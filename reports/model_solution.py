@@ -13,7 +13,14 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError, StrutworkError
 from strutwork.kinematics import NearMechanism, near_motions
 from strutwork.machines.model import Model, ModelWarning
-from strutwork.msa import StaticSolution, solve, tool_compliance, tool_stiffness
+from strutwork.msa import (
+    PlacedStructure,
+    Spring,
+    StaticSolution,
+    solve,
+    tool_compliance,
+    tool_stiffness,
+)
 from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 
 Array = NDArray[Any]
@@ -86,7 +93,9 @@ class ModelSolution:
             "reactions": {node: self._force(joint, m) for node, joint in model.supports.items()},
             "joint_forces": {j: self._force(j, m) for j in model.joints},
             "spring_forces": {
-                spring.name: _spring_force(s.displacements[..., m], nodes, spring).tolist()
+                spring.name: _spring_force(
+                    s.displacements[..., m], nodes, spring, model.placed
+                ).tolist()
                 for spring in model.structure.springs
             },
             "beam_forces": {
@@ -175,8 +184,11 @@ def _warn_of_undetermined(undetermined: Mapping[str, tuple[str, ...]]) -> None:
     )
 
 
-def _spring_force(displacements: Array, nodes: dict[str, int], spring: Any) -> Array:
-    """On the node of a spring to ground, or the second node of one between two, (6,)."""
+def _spring_force(
+    displacements: Array, nodes: dict[str, int], spring: Spring, placed: PlacedStructure
+) -> Array:
+    """On the node of a spring to ground, or the second of one between two, global axes, (6,)."""
     last = displacements[nodes[spring.nodes[-1]]]
     first = displacements[nodes[spring.nodes[0]]] if len(spring.nodes) == 2 else 0.0
-    return np.asarray(-spring.diagonal * (last - first))
+    axes = placed.spring_axes(spring)
+    return np.asarray(-(axes * spring.diagonal) @ axes.T @ (last - first))

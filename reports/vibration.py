@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -122,10 +123,9 @@ def vibration_target(
     modal_ratio: float | None = None,
     loss_factor: float | None = None,
     preload: str | None = None,
+    put: Callable[[Model], Model] | None = None,
 ) -> Target:
     """The structure that a model file or a machine's name stands for.
-
-    A machine stands at home.
 
     Parameters
     ----------
@@ -135,6 +135,8 @@ def vibration_target(
         Damping in place of the file's; joints' dashpots stay.
     preload : str or None
         Load case in place of the file's preload.
+    put : callable, optional
+        Puts the machine at another pose; it stands at home else.
 
     Raises
     ------
@@ -142,8 +144,7 @@ def vibration_target(
         No such machine, variant or file, a variant for statics, a wrong model, both kinds of
         damping, an unknown load case.
     """
-    from strutwork.machines.catalogue import CATALOGUE
-    from strutwork.machines.model_file import read_model
+    from strutwork.machines.load import load, machine_model
 
     if modal_ratio is not None and loss_factor is not None:
         raise ModelError(
@@ -160,16 +161,11 @@ def vibration_target(
                 name, "has no load cases to preload it.", "Describe it in a model file."
             )
         found = require_mass(named_machine(name))
-        machine = found.machine
-        placed = machine.structure.at(machine.place(machine.home()))
-        return Target(found.title, found.stem, placed, placed.structure.linkage.nodes, given)
-    if Path(name).suffix != ".toml" and not Path(name).exists():
-        raise ModelError(
-            name,
-            "is no machine of the catalogue and no model file.",
-            "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
-        )
-    model = read_model(name)
+        model = machine_model(found.machine, found.title)
+        model = model if put is None else put(model)
+        return Target(model.title, found.stem, model.placed, model.nodes, given)
+    model = load(name)
+    model = model if put is None else put(model)
     if preload is not None:
         model = replace(model, preload=preload)
     return model_target(model, Path(name).stem, given)

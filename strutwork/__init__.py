@@ -16,6 +16,7 @@ from strutwork.errors import (
     UnitError,
     UnreachableError,
 )
+from strutwork.loading import load
 from strutwork.outcome import Outcome
 
 __version__ = "0.1.0"
@@ -34,4 +35,5 @@ __all__ = [
     "UnitError",
     "UnreachableError",
     "__version__",
+    "load",
 ]

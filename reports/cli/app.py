@@ -14,10 +14,11 @@ import typer
 from strutwork import __version__
 from strutwork.names import visible
 from strutwork.reports.cli.choices import (
+    JointAt,
     Json,
     Loss,
-    ModelFile,
     Objective,
+    Pose,
     Preload,
     Ranges,
     Ratio,
@@ -90,19 +91,21 @@ def machines(json: Json = False) -> None:
 
 
 @app.command()
-def check(file: ModelFile, json: Json = False) -> None:
-    """Count freedoms and redundant constraints of a model file, and name them."""
+def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
+    """Count freedoms and redundant constraints of a machine, and name them."""
     from strutwork.reports.cli import check as work
+    from strutwork.reports.cli.subject import subject
 
-    work.run(file, json)
+    work.run(subject(target, pose, joint), json)
 
 
 @app.command()
-def solve(file: ModelFile, json: Json = False) -> None:
-    """Solve the load cases of a model file, and the stiffness at its tool."""
+def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
+    """Solve the load cases of a machine, and the stiffness at its tool."""
     from strutwork.reports.cli import solve as work
+    from strutwork.reports.cli.subject import subject
 
-    work.run(file, json)
+    work.run(subject(target, pose, joint), json)
 
 
 @app.command("map")
@@ -174,6 +177,8 @@ def modes(
             help="Elastic modes; rigid-body modes come first and in addition.",
         ),
     ] = 10,
+    pose: Pose = None,
+    joint: JointAt = None,
     out: Annotated[
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Write them there as a universal file."),
@@ -185,11 +190,13 @@ def modes(
 ) -> None:
     """Find the lowest natural frequencies, with their shapes and damping ratios."""
     from strutwork.reports.cli import modes as work
+    from strutwork.reports.cli.subject import where
 
     work.run(
         target,
         count,
         out,
+        at=where(pose, joint),
         modal_ratio=modal_ratio,
         loss_factor=loss_factor,
         preload=preload,
@@ -217,6 +224,8 @@ def frf(
             "--output", callback=typed, metavar="NODE:DIR", help="What moves; the input by default."
         ),
     ] = None,
+    pose: Pose = None,
+    joint: JointAt = None,
     lines: Annotated[
         int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
     ] = 1000,
@@ -231,6 +240,7 @@ def frf(
 ) -> None:
     """Compute a frequency response, and the exact least dynamic stiffness in its band."""
     from strutwork.reports.cli import frf as work
+    from strutwork.reports.cli.subject import where
 
     if (low is None) != (high is None):
         raise typer.BadParameter("give both --from and --to, or neither for an automatic band.")
@@ -241,6 +251,7 @@ def frf(
         None if low is None or high is None else (low, high),
         lines,
         out,
+        at=where(pose, joint),
         modal_ratio=modal_ratio,
         loss_factor=loss_factor,
         preload=preload,

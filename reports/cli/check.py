@@ -1,15 +1,15 @@
-"""`strutwork check`: mobility, redundancy and mass of a model file."""
+"""`strutwork check`: mobility, redundancy and mass of a machine."""
 
 from __future__ import annotations
 
-from strutwork.machines.model_file import read_model
+from strutwork.machines.model import Model
 from strutwork.reports.cli.output import console, print_json, show, table
 from strutwork.reports.model_check import ModelCheck, check_model
 
 
-def run(file: str, json: bool) -> None:
-    """Check a model file and print what was found."""
-    found = check_model(read_model(file))
+def run(model: Model, json: bool) -> None:
+    """Check a machine and print what was found."""
+    found = check_model(model)
     if json:
         print_json(found.to_dict())
     else:

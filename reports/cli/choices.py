@@ -25,7 +25,6 @@ class Ranges(StrEnum):
     NONE = "none"
 
 
-ModelFile = Annotated[str, typer.Argument(metavar="FILE", help="A model file (TOML).")]
 Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object, in SI units, and nothing else.")
 ]
@@ -34,6 +33,25 @@ Target = Annotated[
     str,
     typer.Argument(
         metavar="FILE_OR_MACHINE", help="A model file, or a machine: NAME or NAME:VARIANT."
+    ),
+]
+Pose = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--pose",
+        callback=typed,
+        metavar="DIR=VALUE,...",
+        help="Where the tool stands, as in --pose x=20mm,rz=5deg: x, y, z of the tool centre "
+        "point, and its rotation vector from home. What is not named stays, where it can.",
+    ),
+]
+JointAt = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--joint",
+        callback=typed,
+        metavar="JOINT:DIR=VALUE",
+        help="A joint coordinate, driven or not, as in --joint ram1:z=310mm. Repeatable.",
     ),
 ]
 Ratio = Annotated[

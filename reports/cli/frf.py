@@ -8,6 +8,7 @@ from strutwork.errors import ModelError
 from strutwork.fea import Port
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table, tell
+from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.covering_band import covering_band
 from strutwork.reports.vibration import APART, TargetResponse, target_response, vibration_target
 
@@ -20,13 +21,14 @@ def run(
     lines: int,
     out: str | None,
     *,
+    at: Where = HOME,
     modal_ratio: float | None,
     loss_factor: float | None,
     preload: str | None = None,
     json: bool,
 ) -> None:
     """Compute the response and print what it says; without a band, over one that covers."""
-    target = vibration_target(name, modal_ratio, loss_factor, preload)
+    target = vibration_target(name, modal_ratio, loss_factor, preload, at.put)
     ports = (target.port(given), target.port(given if output is None else output))
     if band is None:
         band, stop = covering_band(target.placed, list(dict.fromkeys(ports)))

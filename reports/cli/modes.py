@@ -8,6 +8,7 @@ import numpy as np
 
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table, tell
+from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.vibration import TargetModes, target_modes, vibration_target
 
 _DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
@@ -18,13 +19,14 @@ def run(
     count: int,
     out: str | None,
     *,
+    at: Where = HOME,
     modal_ratio: float | None,
     loss_factor: float | None,
     preload: str | None = None,
     json: bool,
 ) -> None:
     """Find the lowest modes and print them."""
-    found = target_modes(vibration_target(name, modal_ratio, loss_factor, preload), count)
+    found = target_modes(vibration_target(name, modal_ratio, loss_factor, preload, at.put), count)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if found.modes.note:
         tell(f"Note: {found.modes.note}")

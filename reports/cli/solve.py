@@ -1,4 +1,4 @@
-"""`strutwork solve`: displacements, forces and the stiffness at the tool of a model file."""
+"""`strutwork solve`: displacements, forces and the stiffness at the tool of a machine."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
 
-from strutwork.machines.model_file import read_model
+from strutwork.machines.model import Model
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
 from strutwork.reports.cli.output import console, print_json, print_table, table
 from strutwork.reports.model_solution import ModelSolution, solve_model
@@ -20,9 +20,9 @@ _MOVED = [*(f"{a}, mm" for a in _AXES), *(f"r{a}, mrad" for a in _AXES)]
 _FORCE = [*(f"F{a}, N" for a in _AXES), *(f"M{a}, N·m" for a in _AXES)]
 
 
-def run(file: str, json: bool) -> None:
-    """Solve a model file and print the answers."""
-    found = solve_model(read_model(file))
+def run(model: Model, json: bool) -> None:
+    """Solve a machine's load cases and print the answers."""
+    found = solve_model(model)
     if json:
         print_json(found.to_dict())
     else:

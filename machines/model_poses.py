@@ -1,0 +1,143 @@
+"""A machine at other poses than home: one, or a batch of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from math import degrees
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from strutwork.errors import UnreachableError
+from strutwork.kinematics import DIRECTIONS, Placement
+from strutwork.kinematics.motion import Moved
+from strutwork.machines.limits import check_limits
+from strutwork.machines.model import Model
+
+#: A joint coordinate by its joint and direction.
+Coordinate = tuple[str, str]
+
+
+def targets(
+    model: Model,
+    task: Mapping[str, ArrayLike],
+    joints: Mapping[Coordinate, ArrayLike],
+) -> dict[str, ArrayLike]:
+    """Task coordinates with those that are not named and can be held, at home.
+
+    Raises
+    ------
+    ModelError
+        A direction in which the tool cannot move.
+    """
+    if not task and (joints or model.tool is None):
+        return {}
+    return {**task, **model.motion.rest(tuple(task), tuple(joints))}
+
+
+def moved(
+    model: Model,
+    task: Mapping[str, ArrayLike] | None = None,
+    joints: Mapping[Coordinate, ArrayLike] | None = None,
+) -> tuple[Moved, Placement]:
+    """Move a machine from home to a batch of targets.
+
+    Parameters
+    ----------
+    model : Model
+    task : mapping of direction to (...)
+        Of the tool, m and rad; what is not named stays, where it can.
+    joints : mapping of (joint, direction) to (...)
+
+    Returns
+    -------
+    moved : Moved
+        Of the generic motion, whose coordinates and reasons it has.
+    placement : Placement
+        By the machine's own formulas where it has some; poses outside joint ranges are marked.
+
+    Raises
+    ------
+    ModelError
+        As `Motion.move`.
+    """
+    wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
+    if not wanted and not coordinates:
+        coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
+    found = model.motion.move(task=wanted or None, joints=coordinates or None)
+    placement = found.placement
+    if model.closed_form is not None and found.tool is not None:
+        own = model.closed_form(found.tool)
+        # what the way there does not reach, no formula makes reachable on this branch
+        reasons = (*own.reasons, *placement.reasons)
+        late = np.asarray(placement.status) + len(own.reasons)
+        status = np.where(placement.reachable, np.asarray(own.status), late).astype(np.int8)
+        placement = replace(own, status=status, reasons=reasons)
+    return found, check_limits(model.limits, placement)
+
+
+def at_pose(
+    model: Model,
+    task: Mapping[str, float] | None = None,
+    joints: Mapping[Coordinate, float] | None = None,
+) -> Model:
+    """The same machine standing elsewhere.
+
+    Parameters
+    ----------
+    model : Model
+    task : mapping of direction to float
+        Of the tool, m and rad; what is not named stays, where it can.
+    joints : mapping of (joint, direction) to float
+
+    Raises
+    ------
+    ModelError
+        As `Motion.move`.
+    UnreachableError
+        The pose is out of reach or outside a joint's range; the message offers the nearest pose
+        on the way that is not.
+    """
+    if not task and not joints:
+        return model
+    found, placement = moved(model, task, joints)
+    reason = placement.reason(())
+    if reason:
+        raise UnreachableError("pose", f"cannot be taken: {reason}.", _offer(model, found, task))
+    where = pose_words({**(task or {})}, {**(joints or {})})
+    rotation = model.rotation if found.tool is None else found.tool.rotation
+    return replace(
+        model,
+        title=f"{model.title or 'Model'}, at {where}",
+        placement=placement,
+        rotation=rotation,
+    )
+
+
+def pose_words(task: Mapping[str, float], joints: Mapping[Coordinate, float]) -> str:
+    """`x = 20 mm, ram1:z = 310 mm`."""
+    words = []
+    for name, value in [*task.items(), *((f"{j}:{d}", v) for (j, d), v in joints.items())]:
+        turns = name.rpartition(":")[2].startswith("r")
+        shown = degrees(value) if turns else 1e3 * value
+        words.append(f"{name} = {shown:.6g} {'deg' if turns else 'mm'}")
+    return ", ".join(words)
+
+
+def _offer(model: Model, found: Moved, task: Mapping[str, float] | None) -> str:
+    """Remedy: how far the machine gets on the way, within its ranges."""
+    if found.tool is None or not task:
+        return "Move the target nearer to home."
+    last = found.share[()]
+    home = dict(zip(DIRECTIONS, model.motion.task_of(model.motion.home_pose), strict=True))
+    # the ranges may end before the reach does: the last share that keeps them, to 0.1 %
+    shares = np.linspace(0.0, float(last), 1001)
+    way = {d: home[d] + shares * (value - home[d]) for d, value in task.items()}
+    _, placed = moved(model, way)
+    good = np.flatnonzero(~placed.reachable)
+    first = int(good[0]) if good.size else len(shares)
+    if first == 0:
+        return "Home itself is outside: correct its limits."
+    near = {d: float(v[first - 1]) for d, v in way.items()}
+    return f"On the way from home it gets to {pose_words(near, {})}."

@@ -1,0 +1,33 @@
+"""The front door: a machine by its name or from its file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from strutwork.machines.model import Model
+
+
+def load(name: str | Path) -> Model:
+    """A machine by its name or from its file.
+
+    Parameters
+    ----------
+    name : str or Path
+        `NAME` or `NAME:VARIANT` of `strutwork machines`, or the path of a model file.
+
+    Returns
+    -------
+    strutwork.machines.model.Model
+        At home: for a file, the configuration that it describes.
+
+    Raises
+    ------
+    ModelError
+        No such machine, variant or file, or a wrong model.
+    """
+    # the rooms are entered only when somebody does: importing strutwork stays quick
+    from strutwork.machines.load import load as loaded  # noqa: PLC0415
+
+    return loaded(name)
