@@ -271,7 +271,7 @@ class PlacedMotion:
         rows = np.zeros((*vectors.shape[:2], self.position.shape[1], 6))
         for k, (body, _) in enumerate(self.of.plan[1]):
             rows[:, k, body, 3:] = vectors[:, k]
-        return rows.reshape(*vectors.shape[:2], -1)
+        return rows.reshape(*vectors.shape[:2], 6 * self.position.shape[1])
 
     @cached_property
     def _solved(self) -> tuple[Array, Array, Array]:
