@@ -323,6 +323,16 @@ class PlacedMotion:
         """Twists of the bodies per free spin, (p, 6 b, k)."""
         return np.asarray(self._solved[0][..., self._columns.stop :])
 
+    def row_forces(self, forces: Array) -> Array:
+        """Forces of the independent held rows that balance forces on the bodies, (p, r).
+
+        Parameters
+        ----------
+        forces : (p, 6 b)
+            At the bodies' points; they do no work in a motion of the coordinates.
+        """
+        return np.einsum("pnk,pn->pk", self._solved[0], forces)[:, : len(self.of.plan[0])]
+
     def twists(self, rates: Array) -> Array:
         """Twists of the bodies for rates (p, t), m/s and rad/s, (p, 6 b)."""
         return np.asarray(np.einsum("pnt,pt->pn", self.map, rates))

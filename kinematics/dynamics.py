@@ -1,0 +1,378 @@
+"""Rigid-body dynamics of a linkage: equation of motion, drive forces, joint reactions, energy.
+
+With N from the rates of the coordinates x to the twists of the bodies about their centres of
+mass (`body_motion`), M_b the mass of the bodies and w their weights:
+
+    M ẍ + C ẋ + g = Q,  M = Nᵀ M_b N,  C = Nᵀ (M_b Ṅ + Ω I N),  g = −Nᵀ w
+
+(virtual power, Kane and Levinson 1985, section 6.1). Ω I is the matrix [ω]× I of each body, so
+that Ṁ − 2 C is skew.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from strutwork.errors import ModelError, NumericalError, SingularPoseError
+from strutwork.kinematics.body_masses import BodyMasses
+from strutwork.kinematics.body_motion import BodyMotion, PlacedMotion
+from strutwork.kinematics.coordinates import Coordinates
+from strutwork.kinematics.frames import cross, cross_matrix
+from strutwork.kinematics.motion import Motion, Moved
+
+Array = NDArray[Any]
+
+#: Share of the largest singular value of the drives' rates below which a motion is not driven.
+DRIVEN = 1e-9
+#: Share of the forces that drives may leave unbalanced: rounding.
+BALANCE = 1e-8
+#: Share of the largest entry at which the least eigenvalue of a mass matrix is rounding.
+POSITIVE = 1e-12
+
+STANDARD_GRAVITY = (0.0, 0.0, -9.80665)
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """A linkage of rigid bodies with mass.
+
+    Elastic directions of joints are held, springs and dampers are left out.
+
+    Parameters
+    ----------
+    motion : Motion
+    masses : BodyMasses
+        At the motion's home, bodies in the order of `Linkage.body_names`.
+    coordinates : Coordinates
+        That describe the motion, as many as it has freedoms.
+    gravity : (3,)
+        m/s².
+
+    Raises
+    ------
+    ModelError
+        Masses of another number of bodies, a gravity that is not three finite numbers, or as
+        `BodyMotion`.
+    """
+
+    motion: Motion
+    masses: BodyMasses
+    coordinates: Coordinates
+    gravity: ArrayLike = STANDARD_GRAVITY
+    bodies: BodyMotion = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        names = self.motion.linkage.body_names
+        if len(self.masses.mass) != len(names):
+            raise ModelError(
+                "body masses",
+                f"are those of {len(self.masses.mass)} bodies; the linkage has {len(names)}.",
+                "Give one for each of: " + ", ".join(names) + ".",
+            )
+        pull = np.asarray(self.gravity, dtype=float)
+        if pull.shape != (3,) or not np.all(np.isfinite(pull)):
+            raise ModelError("gravity", "is not three finite numbers.", "Give m/s² along x, y, z.")
+        made = BodyMotion(self.motion, self.coordinates, self.masses.centre)
+        object.__setattr__(self, "bodies", made)
+
+    def at(self, moved: Moved) -> PlacedDynamics:
+        """The dynamics at reached poses; batch axes are made one.
+
+        Raises
+        ------
+        UnreachableError
+            A pose that was not reached.
+        SingularPoseError
+            A pose at which the coordinates do not tell how the bodies move.
+        """
+        placed = self.bodies.at(moved)
+        if placed.singular.any():
+            first = int(np.flatnonzero(placed.singular)[0])
+            raise SingularPoseError(
+                f"pose {first}",
+                f"is singular: there {', '.join(self.coordinates.labels)} do not tell how the "
+                "bodies move (a leg at the end of its working mode).",
+                "Leave such poses out, or describe the motion by other coordinates.",
+            )
+        return PlacedDynamics(self, placed)
+
+
+@dataclass(frozen=True)
+class PlacedDynamics:
+    """Dynamics at p poses; made by `Dynamics.at`.
+
+    Forces go with the coordinates or drives: N along a shift, N·m about a turn.
+    """
+
+    of: Dynamics
+    placed: PlacedMotion
+
+    def __repr__(self) -> str:
+        return f"<PlacedDynamics: {len(self.of.coordinates)} coordinates, {self.poses} poses>"
+
+    @property
+    def poses(self) -> int:
+        """Number of poses."""
+        return len(self.placed.position)
+
+    @cached_property
+    def inertia(self) -> Array:
+        """Inertia of the bodies about their centres, global axes, (p, b, 3, 3), kg·m²."""
+        turn = self.placed.rotation
+        return np.asarray(turn @ self.of.masses.inertia @ np.swapaxes(turn, -1, -2))
+
+    def _weighted(self, twists: Array) -> Array:
+        """M_b times twists or their rates, (p, 6 b, k)."""
+        parts = twists.reshape(self.poses, -1, 6, twists.shape[-1])
+        result = np.empty_like(parts)
+        result[:, :, :3] = self.of.masses.mass[:, None, None] * parts[:, :, :3]
+        result[:, :, 3:] = self.inertia @ parts[:, :, 3:]
+        return result.reshape(twists.shape)
+
+    @cached_property
+    def weights(self) -> Array:
+        """Weights of the bodies as wrenches at their centres, (p, 6 b)."""
+        result = np.zeros((self.poses, len(self.of.masses.mass), 6))
+        result[..., :3] = self.of.masses.mass[:, None] * np.asarray(self.of.gravity, dtype=float)
+        return result.reshape(self.poses, -1)
+
+    @cached_property
+    def mass(self) -> Array:
+        """M, (p, t, t), symmetric positive definite.
+
+        Raises
+        ------
+        NumericalError
+            A motion of the coordinates that moves no mass.
+        """
+        matrix = np.swapaxes(self.placed.map, -1, -2) @ self._weighted(self.placed.map)
+        matrix = (matrix + np.swapaxes(matrix, -1, -2)) / 2.0
+        size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
+        size = np.where(size > 0, size, 1.0)
+        least = np.linalg.eigvalsh(matrix / size[:, :, None] / size[:, None, :])[:, 0]
+        if least.min(initial=np.inf) <= POSITIVE:
+            raise NumericalError(
+                "mass matrix",
+                f"is not positive at pose {int(np.argmin(least))}: the bodies that move there "
+                "have no mass.",
+                "Give the tool's body and what it carries a mass.",
+            )
+        return np.asarray(matrix)
+
+    def coriolis(self, rates: ArrayLike) -> Array:
+        """C at rates (p, t) of the coordinates, (p, t, t); Ṁ − 2 C is skew."""
+        given = self._rates(rates)
+        spin = self.placed.twists(given).reshape(self.poses, -1, 6)[..., 3:]
+        whole = self._weighted(self.placed.map_rate(given))
+        parts = self.placed.map.reshape(self.poses, -1, 6, len(self.of.coordinates))
+        turned = cross_matrix(spin) @ self.inertia @ parts[:, :, 3:]
+        whole.reshape(parts.shape)[:, :, 3:] += turned
+        return np.asarray(np.swapaxes(self.placed.map, -1, -2) @ whole)
+
+    @property
+    def weight(self) -> Array:
+        """The force g of the coordinates that holds the bodies against gravity, (p, t)."""
+        return -np.einsum("pnt,pn->pt", self.placed.map, self.weights)
+
+    def kinetic(self, rates: ArrayLike) -> Array:
+        """Kinetic energy at rates (p, t), (p,), J."""
+        twists = self.placed.twists(self._rates(rates))
+        return np.einsum("pn,pnk->p", twists, self._weighted(twists[..., None])) / 2.0
+
+    @property
+    def potential(self) -> Array:
+        """Potential energy of the weights, zero at the origin, (p,), J."""
+        pull = np.asarray(self.of.gravity, dtype=float)
+        return -np.einsum("b,pbi,i->p", self.of.masses.mass, self.placed.points, pull)
+
+    def _rates(self, rates: ArrayLike) -> Array:
+        shape = (self.poses, len(self.of.coordinates))
+        return np.broadcast_to(np.asarray(rates, dtype=float), shape)
+
+    @cached_property
+    def drive_map(self) -> Array:
+        """Rates of the drives per rate of the coordinates, (p, a, t)."""
+        return np.asarray(self.placed.drives_on_bodies @ self.placed.map)
+
+    @cached_property
+    def _scaled_drives(self) -> tuple[Array, Array]:
+        """`drive_map` with turns at the machine's size, and the size of each drive, (a,)."""
+        length = self.of.motion.length
+        turning = np.array([d.startswith("r") for _, d in self.of.motion.linkage.driven])
+        size = np.where(turning, length, 1.0)
+        arm = np.where(self.of.coordinates.rotary, length, 1.0)
+        return size[:, None] * self.drive_map / arm, size
+
+    @cached_property
+    def drive_values(self) -> Array:
+        """Singular values of that map, largest first, (p, min(a, t))."""
+        return np.asarray(np.linalg.svd(self._scaled_drives[0], compute_uv=False))
+
+    @property
+    def held(self) -> Array:
+        """How well the drives hold the coordinates, (p,): least over largest singular value.
+
+        0 at a parallel singularity, or with fewer drives than freedoms.
+        """
+        values = self.drive_values
+        count = len(self.of.coordinates)
+        if values.shape[-1] < count or not count:
+            return np.zeros(self.poses)
+        return values[:, -1] / np.where(values[:, 0] > 0, values[:, 0], 1.0)
+
+    @property
+    def drive_sign(self) -> Array:
+        """Sense of as many drives as coordinates, (p,), else 0; changes at a parallel singularity."""
+        scaled = self._scaled_drives[0]
+        if scaled.shape[-1] != scaled.shape[-2]:
+            return np.zeros(self.poses)
+        return np.asarray(np.linalg.slogdet(scaled)[0])
+
+    def inverse(self, rates: ArrayLike, changes: ArrayLike, wrench: ArrayLike = 0.0) -> Forces:
+        """Forces that make a motion.
+
+        Parameters
+        ----------
+        rates, changes : (p, t)
+            First and second derivatives of the coordinates.
+        wrench : (p, 6) or (6,)
+            That acts on the tool at its centre point, N and N·m, global axes.
+        """
+        first, second = self._rates(rates), self._rates(changes)
+        twists = self.placed.twists(first)
+        accelerations = self.placed.accelerations(first, second)
+        needed = self._weighted(accelerations[..., None])[..., 0].reshape(self.poses, -1, 6)
+        spin = twists.reshape(self.poses, -1, 6)[..., 3:]
+        needed[..., 3:] += cross(spin, np.einsum("pbij,pbj->pbi", self.inertia, spin))
+        left = needed.reshape(self.poses, -1) - self.weights
+        acting = np.asarray(wrench, dtype=float)
+        if np.any(acting):
+            acting = np.broadcast_to(acting, (self.poses, 6))
+            left -= np.einsum("pkn,pk->pn", self.placed.tool_on_bodies, acting)
+        return Forces(self, first, left)
+
+
+@dataclass(frozen=True)
+class Forces:
+    """Forces along a motion; made by `PlacedDynamics.inverse`.
+
+    Parameters
+    ----------
+    at : PlacedDynamics
+    rates : (p, t)
+        Of the coordinates.
+    needed : (p, 6 b)
+        What joints and drives must do to the bodies, at their centres of mass, N and N·m.
+    """
+
+    at: PlacedDynamics
+    rates: Array
+    needed: Array
+
+    def __repr__(self) -> str:
+        return f"<Forces: {self.at!r}>"
+
+    @cached_property
+    def coordinates(self) -> Array:
+        """Q, the forces that go with the coordinates, (p, t)."""
+        return np.einsum("pnt,pn->pt", self.at.placed.map, self.needed)
+
+    @property
+    def spins(self) -> Array:
+        """Moments that bodies which spin freely would need not to, (p, k), N·m.
+
+        Where they are not zero such a body begins to spin; the other forces hold while it does
+        not.
+        """
+        return np.einsum("pnk,pn->pk", self.at.placed.spin_map, self.needed)
+
+    @cached_property
+    def drives(self) -> Array:
+        """Forces of the drives, (p, a), N or N·m.
+
+        With more drives than freedoms those of least norm, moments over the machine's size.
+
+        Raises
+        ------
+        SingularPoseError
+            A parallel singularity: there the drives do not hold the coordinates.
+        ModelError
+            Fewer drives than freedoms, which cannot make this motion.
+        """
+        scaled, size = self.at._scaled_drives  # noqa: SLF001 - one concept in two classes
+        dynamics = self.at.of
+        enough = scaled.shape[-2] >= scaled.shape[-1]
+        if enough and np.any(self.at.held <= DRIVEN):
+            first = int(np.flatnonzero(self.at.held <= DRIVEN)[0])
+            raise SingularPoseError(
+                f"pose {first}",
+                "is a parallel singularity: the drives do not hold the tool there.",
+                "Leave it out, or keep the path away from it.",
+            )
+        across = np.swapaxes(scaled, -1, -2)
+        arm = np.where(dynamics.coordinates.rotary, dynamics.motion.length, 1.0)
+        right = (self.coordinates / arm)[..., None]
+        if scaled.shape[-2] == scaled.shape[-1]:
+            found = np.linalg.solve(across, right)
+        elif enough:
+            found = scaled @ np.linalg.solve(across @ scaled, right)
+        else:
+            found = np.linalg.pinv(across) @ right
+            left = np.abs(across @ found - right).max(initial=0.0)
+            if left > BALANCE * np.abs(right).max(initial=0.0):
+                raise ModelError(
+                    "drives",
+                    f"are {scaled.shape[-2]} for {scaled.shape[-1]} freedoms and cannot make this "
+                    "motion.",
+                    "Drive more joint directions, or hold the freedoms that nothing drives.",
+                )
+        return np.asarray(found[..., 0] * size)
+
+    @property
+    def rates_of_drives(self) -> Array:
+        """Rates of the drives, (p, a), m/s or rad/s."""
+        return np.einsum("pat,pt->pa", self.at.drive_map, self.rates)
+
+    @property
+    def powers(self) -> Array:
+        """Powers of the drives, (p, a), W."""
+        return np.asarray(self.drives * self.rates_of_drives)
+
+    @property
+    def determined(self) -> bool:
+        """Whether rigid bodies tell what the joints bear: none of them is held twice."""
+        placed = self.at.placed
+        square = self.at.drive_map.shape[-1] == self.at.drive_map.shape[-2]
+        return square and len(placed.of.plan[0]) == len(placed.held) and not placed.of.idle
+
+    @property
+    def reactions(self) -> Array:
+        """Forces of each joint's first body on its second in the held directions, (p, r).
+
+        In joint axes at the joint's place, N and N·m, in the order of `reaction_labels`.
+
+        Raises
+        ------
+        ModelError
+            An over-constrained or redundantly driven linkage, whose rigid bodies do not tell.
+        """
+        if not self.determined:
+            raise ModelError(
+                "joint reactions",
+                "are not determined: the linkage is over-constrained, driven redundantly, or has "
+                "bodies that spin freely. Rigid bodies do not tell how its joints share a load.",
+                "Ask the elastic structure (`strutwork solve`), or free the redundant directions.",
+            )
+        placed = self.at.placed
+        driven = np.einsum("pan,pa->pn", placed.drives_on_bodies, self.drives)
+        return placed.row_forces(self.needed - driven)
+
+    @property
+    def reaction_labels(self) -> tuple[str, ...]:
+        """Names of the reactions, `joint:direction`."""
+        return self.at.placed.held.labels
