@@ -24,6 +24,7 @@ from strutwork.kinematics.body_motion import BodyMotion, PlacedMotion
 from strutwork.kinematics.coordinates import Coordinates
 from strutwork.kinematics.frames import cross, cross_matrix
 from strutwork.kinematics.motion import Motion, Moved
+from strutwork.kinematics.row_rates import row_rates
 
 Array = NDArray[Any]
 
@@ -254,7 +255,7 @@ class PlacedDynamics:
         if np.any(acting):
             acting = np.broadcast_to(acting, (self.poses, 6))
             left -= np.einsum("pkn,pk->pn", self.placed.tool_on_bodies, acting)
-        return Forces(self, first, left)
+        return Forces(self, first, twists, accelerations, left)
 
 
 @dataclass(frozen=True)
@@ -266,12 +267,16 @@ class Forces:
     at : PlacedDynamics
     rates : (p, t)
         Of the coordinates.
+    twists, accelerations : (p, 6 b)
+        Of the bodies at their centres of mass.
     needed : (p, 6 b)
-        What joints and drives must do to the bodies, at their centres of mass, N and N·m.
+        What joints and drives must do to the bodies there, N and N·m.
     """
 
     at: PlacedDynamics
     rates: Array
+    twists: Array
+    accelerations: Array
     needed: Array
 
     def __repr__(self) -> str:
@@ -339,6 +344,15 @@ class Forces:
         return np.einsum("pat,pt->pa", self.at.drive_map, self.rates)
 
     @property
+    def accelerations_of_drives(self) -> Array:
+        """Second derivatives of the drives' coordinates, (p, a), m/s² or rad/s²."""
+        placed = self.at.placed
+        drift = row_rates(placed.drives, placed.points, self.twists)
+        return np.einsum("pan,pn->pa", placed.drives_on_bodies, self.accelerations) + np.einsum(
+            "pan,pn->pa", drift, self.twists
+        )
+
+    @property
     def powers(self) -> Array:
         """Powers of the drives, (p, a), W."""
         return np.asarray(self.drives * self.rates_of_drives)
@@ -348,7 +362,7 @@ class Forces:
         """Whether rigid bodies tell what the joints bear: none of them is held twice."""
         placed = self.at.placed
         square = self.at.drive_map.shape[-1] == self.at.drive_map.shape[-2]
-        return square and len(placed.of.plan[0]) == len(placed.held) and not placed.of.idle
+        return square and len(placed.of.plan[0]) == len(placed.held)
 
     @property
     def reactions(self) -> Array:
@@ -364,8 +378,8 @@ class Forces:
         if not self.determined:
             raise ModelError(
                 "joint reactions",
-                "are not determined: the linkage is over-constrained, driven redundantly, or has "
-                "bodies that spin freely. Rigid bodies do not tell how its joints share a load.",
+                "are not determined: the linkage is over-constrained or driven redundantly. Rigid "
+                "bodies do not tell how its joints share a load.",
                 "Ask the elastic structure (`strutwork solve`), or free the redundant directions.",
             )
         placed = self.at.placed
