@@ -91,12 +91,18 @@ def require_independent(motion: Motion, coordinates: Coordinates) -> None:
         Names it.
     """
     bad = dependent(motion, coordinates)
-    if bad:
-        raise ModelError(
-            "motion",
-            f"{bad[0]} follows from the other coordinates that are given at home.",
-            "Leave it out: it moves with them.",
-        )
+    if not bad:
+        return
+    joint, direction = coordinates.names[coordinates.labels.index(bad[0])]
+    alone = Coordinates((), ((joint, direction),)) if joint else Coordinates((direction,))
+    still = bool(dependent(motion, alone))
+    raise ModelError(
+        "motion",
+        f"{bad[0]} cannot move from home: the joints hold it."
+        if still
+        else f"{bad[0]} follows from the other coordinates that are given at home.",
+        "Leave it out." if still else "Leave it out: it moves with them.",
+    )
 
 
 def dependent(motion: Motion, coordinates: Coordinates) -> list[str]:

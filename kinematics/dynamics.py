@@ -22,16 +22,11 @@ from strutwork.errors import ModelError, NumericalError, SingularPoseError
 from strutwork.kinematics.body_masses import BodyMasses
 from strutwork.kinematics.body_motion import BodyMotion, PlacedMotion
 from strutwork.kinematics.coordinates import Coordinates
-from strutwork.kinematics.frames import cross, cross_matrix
+from strutwork.kinematics.frames import cross_matrix
 from strutwork.kinematics.motion import Motion, Moved
-from strutwork.kinematics.row_rates import row_rates
 
 Array = NDArray[Any]
 
-#: Share of the largest singular value of the drives' rates below which a motion is not driven.
-DRIVEN = 1e-9
-#: Share of the forces that drives may leave unbalanced: rounding.
-BALANCE = 1e-8
 #: Share of the largest entry at which the least eigenvalue of a mass matrix is rounding.
 POSITIVE = 1e-12
 
@@ -127,8 +122,8 @@ class PlacedDynamics:
         turn = self.placed.rotation
         return np.asarray(turn @ self.of.masses.inertia @ np.swapaxes(turn, -1, -2))
 
-    def _weighted(self, twists: Array) -> Array:
-        """M_b times twists or their rates, (p, 6 b, k)."""
+    def weighted(self, twists: Array) -> Array:
+        """M_b times twists or their time derivatives, (p, 6 b, k)."""
         parts = twists.reshape(self.poses, -1, 6, twists.shape[-1])
         result = np.empty_like(parts)
         result[:, :, :3] = self.of.masses.mass[:, None, None] * parts[:, :, :3]
@@ -151,7 +146,7 @@ class PlacedDynamics:
         NumericalError
             A motion of the coordinates that moves no mass.
         """
-        matrix = np.swapaxes(self.placed.map, -1, -2) @ self._weighted(self.placed.map)
+        matrix = np.swapaxes(self.placed.map, -1, -2) @ self.weighted(self.placed.map)
         matrix = (matrix + np.swapaxes(matrix, -1, -2)) / 2.0
         size = np.sqrt(np.abs(np.diagonal(matrix, axis1=-2, axis2=-1)))
         size = np.where(size > 0, size, 1.0)
@@ -167,9 +162,9 @@ class PlacedDynamics:
 
     def coriolis(self, rates: ArrayLike) -> Array:
         """C at rates (p, t) of the coordinates, (p, t, t); Ṁ − 2 C is skew."""
-        given = self._rates(rates)
+        given = self.full(rates)
         spin = self.placed.twists(given).reshape(self.poses, -1, 6)[..., 3:]
-        whole = self._weighted(self.placed.map_rate(given))
+        whole = self.weighted(self.placed.map_rate(given))
         parts = self.placed.map.reshape(self.poses, -1, 6, len(self.of.coordinates))
         turned = cross_matrix(spin) @ self.inertia @ parts[:, :, 3:]
         whole.reshape(parts.shape)[:, :, 3:] += turned
@@ -178,20 +173,21 @@ class PlacedDynamics:
     @property
     def weight(self) -> Array:
         """The force g of the coordinates that holds the bodies against gravity, (p, t)."""
-        return -np.einsum("pnt,pn->pt", self.placed.map, self.weights)
+        return np.asarray(-np.einsum("pnt,pn->pt", self.placed.map, self.weights))
 
     def kinetic(self, rates: ArrayLike) -> Array:
         """Kinetic energy at rates (p, t), (p,), J."""
-        twists = self.placed.twists(self._rates(rates))
-        return np.einsum("pn,pnk->p", twists, self._weighted(twists[..., None])) / 2.0
+        twists = self.placed.twists(self.full(rates))
+        return np.einsum("pn,pnk->p", twists, self.weighted(twists[..., None])) / 2.0
 
     @property
     def potential(self) -> Array:
         """Potential energy of the weights, zero at the origin, (p,), J."""
         pull = np.asarray(self.of.gravity, dtype=float)
-        return -np.einsum("b,pbi,i->p", self.of.masses.mass, self.placed.points, pull)
+        return np.asarray(-np.einsum("b,pbi,i->p", self.of.masses.mass, self.placed.points, pull))
 
-    def _rates(self, rates: ArrayLike) -> Array:
+    def full(self, rates: ArrayLike) -> Array:
+        """Numbers for the coordinates, broadcast to all poses, (p, t)."""
         shape = (self.poses, len(self.of.coordinates))
         return np.broadcast_to(np.asarray(rates, dtype=float), shape)
 
@@ -201,7 +197,7 @@ class PlacedDynamics:
         return np.asarray(self.placed.drives_on_bodies @ self.placed.map)
 
     @cached_property
-    def _scaled_drives(self) -> tuple[Array, Array]:
+    def scaled_drives(self) -> tuple[Array, Array]:
         """`drive_map` with turns at the machine's size, and the size of each drive, (a,)."""
         length = self.of.motion.length
         turning = np.array([d.startswith("r") for _, d in self.of.motion.linkage.driven])
@@ -212,7 +208,7 @@ class PlacedDynamics:
     @cached_property
     def drive_values(self) -> Array:
         """Singular values of that map, largest first, (p, min(a, t))."""
-        return np.asarray(np.linalg.svd(self._scaled_drives[0], compute_uv=False))
+        return np.asarray(np.linalg.svd(self.scaled_drives[0], compute_uv=False))
 
     @property
     def held(self) -> Array:
@@ -224,169 +220,12 @@ class PlacedDynamics:
         count = len(self.of.coordinates)
         if values.shape[-1] < count or not count:
             return np.zeros(self.poses)
-        return values[:, -1] / np.where(values[:, 0] > 0, values[:, 0], 1.0)
+        return np.asarray(values[:, -1] / np.where(values[:, 0] > 0, values[:, 0], 1.0))
 
     @property
     def drive_sign(self) -> Array:
-        """Sense of as many drives as coordinates, (p,), else 0; changes at a parallel singularity."""
-        scaled = self._scaled_drives[0]
+        """Sense of as many drives as coordinates, (p,), else 0; it changes at singularities."""
+        scaled = self.scaled_drives[0]
         if scaled.shape[-1] != scaled.shape[-2]:
             return np.zeros(self.poses)
         return np.asarray(np.linalg.slogdet(scaled)[0])
-
-    def inverse(self, rates: ArrayLike, changes: ArrayLike, wrench: ArrayLike = 0.0) -> Forces:
-        """Forces that make a motion.
-
-        Parameters
-        ----------
-        rates, changes : (p, t)
-            First and second derivatives of the coordinates.
-        wrench : (p, 6) or (6,)
-            That acts on the tool at its centre point, N and N·m, global axes.
-        """
-        first, second = self._rates(rates), self._rates(changes)
-        twists = self.placed.twists(first)
-        accelerations = self.placed.accelerations(first, second)
-        needed = self._weighted(accelerations[..., None])[..., 0].reshape(self.poses, -1, 6)
-        spin = twists.reshape(self.poses, -1, 6)[..., 3:]
-        needed[..., 3:] += cross(spin, np.einsum("pbij,pbj->pbi", self.inertia, spin))
-        left = needed.reshape(self.poses, -1) - self.weights
-        acting = np.asarray(wrench, dtype=float)
-        if np.any(acting):
-            acting = np.broadcast_to(acting, (self.poses, 6))
-            left -= np.einsum("pkn,pk->pn", self.placed.tool_on_bodies, acting)
-        return Forces(self, first, twists, accelerations, left)
-
-
-@dataclass(frozen=True)
-class Forces:
-    """Forces along a motion; made by `PlacedDynamics.inverse`.
-
-    Parameters
-    ----------
-    at : PlacedDynamics
-    rates : (p, t)
-        Of the coordinates.
-    twists, accelerations : (p, 6 b)
-        Of the bodies at their centres of mass.
-    needed : (p, 6 b)
-        What joints and drives must do to the bodies there, N and N·m.
-    """
-
-    at: PlacedDynamics
-    rates: Array
-    twists: Array
-    accelerations: Array
-    needed: Array
-
-    def __repr__(self) -> str:
-        return f"<Forces: {self.at!r}>"
-
-    @cached_property
-    def coordinates(self) -> Array:
-        """Q, the forces that go with the coordinates, (p, t)."""
-        return np.einsum("pnt,pn->pt", self.at.placed.map, self.needed)
-
-    @property
-    def spins(self) -> Array:
-        """Moments that bodies which spin freely would need not to, (p, k), N·m.
-
-        Where they are not zero such a body begins to spin; the other forces hold while it does
-        not.
-        """
-        return np.einsum("pnk,pn->pk", self.at.placed.spin_map, self.needed)
-
-    @cached_property
-    def drives(self) -> Array:
-        """Forces of the drives, (p, a), N or N·m.
-
-        With more drives than freedoms those of least norm, moments over the machine's size.
-
-        Raises
-        ------
-        SingularPoseError
-            A parallel singularity: there the drives do not hold the coordinates.
-        ModelError
-            Fewer drives than freedoms, which cannot make this motion.
-        """
-        scaled, size = self.at._scaled_drives  # noqa: SLF001 - one concept in two classes
-        dynamics = self.at.of
-        enough = scaled.shape[-2] >= scaled.shape[-1]
-        if enough and np.any(self.at.held <= DRIVEN):
-            first = int(np.flatnonzero(self.at.held <= DRIVEN)[0])
-            raise SingularPoseError(
-                f"pose {first}",
-                "is a parallel singularity: the drives do not hold the tool there.",
-                "Leave it out, or keep the path away from it.",
-            )
-        across = np.swapaxes(scaled, -1, -2)
-        arm = np.where(dynamics.coordinates.rotary, dynamics.motion.length, 1.0)
-        right = (self.coordinates / arm)[..., None]
-        if scaled.shape[-2] == scaled.shape[-1]:
-            found = np.linalg.solve(across, right)
-        elif enough:
-            found = scaled @ np.linalg.solve(across @ scaled, right)
-        else:
-            found = np.linalg.pinv(across) @ right
-            left = np.abs(across @ found - right).max(initial=0.0)
-            if left > BALANCE * np.abs(right).max(initial=0.0):
-                raise ModelError(
-                    "drives",
-                    f"are {scaled.shape[-2]} for {scaled.shape[-1]} freedoms and cannot make this "
-                    "motion.",
-                    "Drive more joint directions, or hold the freedoms that nothing drives.",
-                )
-        return np.asarray(found[..., 0] * size)
-
-    @property
-    def rates_of_drives(self) -> Array:
-        """Rates of the drives, (p, a), m/s or rad/s."""
-        return np.einsum("pat,pt->pa", self.at.drive_map, self.rates)
-
-    @property
-    def accelerations_of_drives(self) -> Array:
-        """Second derivatives of the drives' coordinates, (p, a), m/s² or rad/s²."""
-        placed = self.at.placed
-        drift = row_rates(placed.drives, placed.points, self.twists)
-        return np.einsum("pan,pn->pa", placed.drives_on_bodies, self.accelerations) + np.einsum(
-            "pan,pn->pa", drift, self.twists
-        )
-
-    @property
-    def powers(self) -> Array:
-        """Powers of the drives, (p, a), W."""
-        return np.asarray(self.drives * self.rates_of_drives)
-
-    @property
-    def determined(self) -> bool:
-        """Whether rigid bodies tell what the joints bear: none of them is held twice."""
-        placed = self.at.placed
-        square = self.at.drive_map.shape[-1] == self.at.drive_map.shape[-2]
-        return square and len(placed.of.plan[0]) == len(placed.held)
-
-    @property
-    def reactions(self) -> Array:
-        """Forces of each joint's first body on its second in the held directions, (p, r).
-
-        In joint axes at the joint's place, N and N·m, in the order of `reaction_labels`.
-
-        Raises
-        ------
-        ModelError
-            An over-constrained or redundantly driven linkage, whose rigid bodies do not tell.
-        """
-        if not self.determined:
-            raise ModelError(
-                "joint reactions",
-                "are not determined: the linkage is over-constrained or driven redundantly. Rigid "
-                "bodies do not tell how its joints share a load.",
-                "Ask the elastic structure (`strutwork solve`), or free the redundant directions.",
-            )
-        placed = self.at.placed
-        driven = np.einsum("pan,pa->pn", placed.drives_on_bodies, self.drives)
-        return placed.row_forces(self.needed - driven)
-
-    @property
-    def reaction_labels(self) -> tuple[str, ...]:
-        """Names of the reactions, `joint:direction`."""
-        return self.at.placed.held.labels

@@ -10,9 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from strutwork.errors import ModelError, NumericalError, SingularPoseError, UnreachableError
-from strutwork.kinematics.dynamics import DRIVEN, Dynamics, Forces, PlacedDynamics
+from strutwork.errors import ModelError
+from strutwork.kinematics.drive_forces import DRIVEN, Forces, inverse_dynamics
+from strutwork.kinematics.dynamics import Dynamics, PlacedDynamics
 from strutwork.kinematics.motion import Moved
+from strutwork.kinematics.path_checks import (
+    PARALLEL,
+    check_touched,
+    check_way,
+    placed_along,
+    singular_at,
+)
 from strutwork.kinematics.trajectory import Trajectory
 
 Array = NDArray[Any]
@@ -24,15 +32,6 @@ PIECE = 256
 LARGEST, HOURS = 2_000_000, 12.0
 #: Poses by which the time is foreseen.
 TRIAL = 32
-#: Halvings of an interval in which a singularity lies.
-HALVINGS = 40
-#: Share of the largest `held` below which a least one is looked for between samples, how many
-#: are, and share that counts as none.
-NEAR, NEAREST, TOUCHED = 0.3, 8, 1e-6
-
-SERIAL = "serial (type 1): a leg reaches the end of its working mode"
-PARALLEL = "parallel (type 2): the drives do not hold the tool there"
-BOTH = "serial and parallel at once (type 3)"
 
 
 @dataclass(frozen=True)
@@ -52,6 +51,8 @@ class Followed:
         How well the drives hold the coordinates, as `PlacedDynamics.held`.
     kinetic, potential : (n,)
         Energies, J.
+    given_power : (n,)
+        Power of the wrench that acts on the tool, W.
     spins : (n, k)
         As `Forces.spins`.
     reactions : (n, r) or None
@@ -73,6 +74,7 @@ class Followed:
     held: Array
     kinetic: Array
     potential: Array
+    given_power: Array
     spins: Array
     joint_values: Array
     reactions: Array | None = None
@@ -84,7 +86,7 @@ class Followed:
     @property
     def rms_forces(self) -> Array:
         """Root of the mean square of each drive's force over time, (a,), N or N·m."""
-        return np.sqrt(self.weights @ self.forces**2 / self.weights.sum())
+        return np.asarray(np.sqrt(self.weights @ self.forces**2 / self.weights.sum()))
 
     @property
     def work(self) -> float:
@@ -100,8 +102,10 @@ class Followed:
     @property
     def imbalance(self) -> float:
         """Work less change of energy, as a share of all work that goes in and out."""
-        turned_over = float(self.weights @ np.abs(self.powers).sum(axis=1))
-        gap = abs(self.work - self.energy_change)
+        turned_over = float(
+            self.weights @ (np.abs(self.powers).sum(axis=1) + np.abs(self.given_power))
+        )
+        gap = abs(self.work + float(self.weights @ self.given_power) - self.energy_change)
         return gap / turned_over if turned_over > 0 else gap
 
 
@@ -160,9 +164,9 @@ def follow(
     last: tuple[Array, ...] | None = None
     for first in range(0, len(times), PIECE):
         some = times[first : first + PIECE]
-        moved, placed = _placed(dynamics, trajectory, some)
+        moved, placed = placed_along(dynamics, trajectory, some)
         _, rates, changes = trajectory.at(some)
-        forces = placed.inverse(rates, changes, wrench)
+        forces = inverse_dynamics(placed, rates, changes, wrench)
         state = (
             some,
             placed.placed.sign,
@@ -172,7 +176,7 @@ def follow(
         )
         if last is not None:
             state = tuple(np.concatenate([a, b]) for a, b in zip(last, state, strict=True))
-        _check_way(dynamics, trajectory, *state)
+        check_way(dynamics, trajectory, *state)
         last = tuple(part[-1:] for part in state)
         parts.append(_collected(trajectory, some, moved, placed, forces, reactions=reactions))
         labels = forces.reaction_labels if reactions else ()
@@ -181,17 +185,8 @@ def follow(
     joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     turning = np.array([d.startswith("r") for _, d in dynamics.motion.linkage.driven])
     joined["drives"][:, turning] = np.unwrap(joined["drives"][:, turning], axis=0)
-    _check_touched(dynamics, trajectory, times, joined["held"])
+    check_touched(dynamics, trajectory, times, joined["held"])
     return Followed(dynamics, times, weights, reaction_labels=labels, **joined)
-
-
-def move_along(dynamics: Dynamics, trajectory: Trajectory, times: ArrayLike) -> Moved:
-    """The linkage at times of a trajectory; poses that it cannot take are marked."""
-    values = trajectory.at(times)[0]
-    names = trajectory.coordinates.names
-    task = {d: values[:, k] for k, (joint, d) in enumerate(names) if not joint}
-    joints = {pair: values[:, k] for k, pair in enumerate(names) if pair[0]}
-    return dynamics.motion.move(task=task or None, joints=joints or None)
 
 
 def fastest(followed: Followed, limits: ArrayLike) -> float:
@@ -218,25 +213,6 @@ def fastest(followed: Followed, limits: ArrayLike) -> float:
     return float((np.abs(followed.speeds) / allowed).max(initial=0.0))
 
 
-def _placed(
-    dynamics: Dynamics, trajectory: Trajectory, times: Array
-) -> tuple[Moved, PlacedDynamics]:
-    moved = move_along(dynamics, trajectory, times)
-    bad = np.flatnonzero(~moved.reached)
-    if bad.size:
-        first = int(bad[0])
-        raise UnreachableError(
-            f"trajectory at t = {times[first]:.6g} s",
-            f"cannot be taken: {moved.placement.reason(first)}.",
-            "Keep the path within reach of the machine.",
-        )
-    placed = dynamics.bodies.at(moved)
-    lost = np.flatnonzero(placed.singular)
-    if lost.size:
-        raise _singular(float(times[lost[0]]), SERIAL)
-    return moved, PlacedDynamics(dynamics, placed)
-
-
 def _collected(
     trajectory: Trajectory,
     times: Array,
@@ -249,7 +225,7 @@ def _collected(
     held = placed.held
     # with fewer drives than freedoms the forces themselves tell whether the drives suffice
     if placed.drive_map.shape[-2] >= placed.drive_map.shape[-1] and np.any(held <= DRIVEN):
-        raise _singular(float(times[int(np.argmin(held))]), PARALLEL)
+        raise singular_at(float(times[int(np.argmin(held))]), PARALLEL)
     values, rates, _ = trajectory.at(times)
     pairs = placed.of.motion.linkage.driven
     names = placed.of.motion.joints.names
@@ -263,99 +239,37 @@ def _collected(
         "held": held,
         "kinetic": placed.kinetic(rates),
         "potential": placed.potential,
+        "given_power": forces.given_power,
         "spins": forces.spins,
         "joint_values": moved.placement.values,
     }
     return found | ({"reactions": forces.reactions} if reactions else {})
 
 
-def _singular(when: float, kind: str) -> SingularPoseError:
-    return SingularPoseError(
-        f"trajectory at t = {when:.6g} s",
-        f"passes through a singularity, {kind}.",
-        "Lead the path round it.",
-    )
+def within_speeds(
+    dynamics: Dynamics, make: Callable[[float], Trajectory], limits: ArrayLike
+) -> Trajectory:
+    """The fastest of a family of trajectories whose drives keep speed limits.
 
+    Parameters
+    ----------
+    dynamics : Dynamics
+    make : callable
+        From a duration, s, to a trajectory; all go the same way by the same time law.
+    limits : (a,)
+        m/s or rad/s; infinite where there is none, but not of every drive that moves.
 
-def _check_way(
-    dynamics: Dynamics,
-    trajectory: Trajectory,
-    times: Array,
-    sign: Array,
-    driven: Array,
-    points: Array,
-    speeds: Array,
-) -> None:
-    """No singularity and no jump between neighbouring poses."""
-    # the drives' rates per coordinate change sense at both kinds, the rows alone at serial ones
-    serial, parallel = np.diff(sign) != 0, np.diff(sign * driven) != 0
-    crossed = np.flatnonzero(serial | parallel)
-    if crossed.size:
-        k = int(crossed[0])
-        kind = BOTH if serial[k] and parallel[k] else SERIAL if serial[k] else PARALLEL
-        raise _singular(_bisected(dynamics, trajectory, times[k], times[k + 1]), kind)
-    span = np.diff(times)[:, None]
-    gap = np.diff(points, axis=0) - span[..., None] * (speeds[1:] + speeds[:-1]) / 2.0
-    pace = np.linalg.norm(speeds, axis=-1)
-    allowed = span * (pace[1:] + pace[:-1]) / 2.0 + 1e-6 * dynamics.motion.length
-    jump = np.argwhere(np.linalg.norm(gap, axis=-1) > allowed)
-    if len(jump):
-        k, body = (int(i) for i in jump[0])
-        raise NumericalError(
-            f"trajectory between t = {times[k]:.6g} s and {times[k + 1]:.6g} s",
-            f"jumps: {dynamics.motion.linkage.body_names[body]} would have to change to another "
-            "assembly or working mode, or the samples are too far apart.",
-            "Give more samples, or keep the path on one branch.",
+    Raises
+    ------
+    ModelError
+        No limit that bounds the speed, or as `follow` and `fastest`.
+    """
+    factor = fastest(follow(dynamics, make(1.0)), limits)
+    if not (np.isfinite(factor) and factor > 0):
+        raise ModelError(
+            "speed limits", "bound no drive that moves.", "Give a limit of a drive that moves."
         )
-
-
-def _bisected(dynamics: Dynamics, trajectory: Trajectory, low: float, high: float) -> float:
-    """Time between two at which a sign changes."""
-    wanted = _signs(dynamics, trajectory, low)
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2.0
-        found = _signs(dynamics, trajectory, middle)
-        if found is None:
-            return middle
-        low, high = (middle, high) if found == wanted else (low, middle)
-    return (low + high) / 2.0
-
-
-def _signs(dynamics: Dynamics, trajectory: Trajectory, when: float) -> tuple[float, float] | None:
-    moved = move_along(dynamics, trajectory, [when])
-    if not moved.reached.all():
-        return None
-    placed = PlacedDynamics(dynamics, dynamics.bodies.at(moved))
-    if placed.placed.singular.any():
-        return None
-    return float(placed.placed.sign[0]), float(placed.drive_sign[0])
-
-
-def _check_touched(
-    dynamics: Dynamics, trajectory: Trajectory, times: Array, held: Array
-) -> None:
-    """No singularity that the path touches between two poses without changing sides."""
-    # imported late: it takes a third of a small command's start
-    from scipy.optimize import minimize_scalar  # noqa: PLC0415
-
-    padded = np.concatenate([[np.inf], held, [np.inf]])
-    least = np.flatnonzero((held <= padded[:-2]) & (held <= padded[2:]) & (held < NEAR * held.max()))
-    near = least[np.argsort(held[least])][:NEAREST]
-
-    def hold(when: float) -> float:
-        moved = move_along(dynamics, trajectory, [when])
-        if not moved.reached.all():
-            return 0.0
-        placed = dynamics.bodies.at(moved)
-        return 0.0 if placed.singular.any() else float(PlacedDynamics(dynamics, placed).held[0])
-
-    for k in near:
-        low, high = times[max(k - 1, 0)], times[min(k + 1, len(times) - 1)]
-        found = minimize_scalar(
-            hold, bounds=(low, high), method="bounded", options={"xatol": 1e-9 * (high - low)}
-        )
-        if found.fun < TOUCHED * held.max():
-            raise _singular(float(found.x), PARALLEL)
+    return make(factor)
 
 
 def _require_time(dynamics: Dynamics, trajectory: Trajectory, times: Array) -> None:
@@ -366,7 +280,8 @@ def _require_time(dynamics: Dynamics, trajectory: Trajectory, times: Array) -> N
     trial = times[np.linspace(0, count - 1, TRIAL).astype(int)]
     begun = time.perf_counter()
     _, rates, changes = trajectory.at(trial)
-    _ = _placed(dynamics, trajectory, trial)[1].inverse(rates, changes).coordinates
+    placed = placed_along(dynamics, trajectory, trial)[1]
+    _ = inverse_dynamics(placed, rates, changes).coordinates
     hours = (time.perf_counter() - begun) / TRIAL * count / 3600.0
     columns = len(dynamics.motion.joints.names) + 6 * len(dynamics.motion.linkage.driven) + 12
     gigabytes = 8e-9 * count * columns

@@ -197,7 +197,9 @@ def circle(
 
     def curve(at: Array) -> Array:
         s = used.share(np.clip(at / duration, 0.0, 1.0))
-        angle, rate, change = (2 * pi * s / np.array([[1.0], [duration], [duration**2]]))[:, :, None]
+        angle, rate, change = (2 * pi * s / np.array([[1.0], [duration], [duration**2]]))[
+            :, :, None
+        ]
         c, d = np.cos(angle), np.sin(angle)
         return np.stack(
             [

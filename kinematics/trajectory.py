@@ -50,7 +50,7 @@ class Trajectory:
 
     @property
     def duration(self) -> float:
-        """s."""
+        """S."""
         return float(self.times[-1] - self.times[0])
 
     def at(self, times: ArrayLike) -> tuple[Array, Array, Array]:
@@ -180,8 +180,8 @@ class Roughness:
 
     def __str__(self) -> str:
         return (
-            f"{self.label} is not smooth near t = {self.time:.4g} s: accelerations from all samples "
-            f"and from every other one differ by {100 * self.share:.0f} % of the largest"
+            f"{self.label} is not smooth near t = {self.time:.4g} s: accelerations from all "
+            f"samples and from every other one differ by {100 * self.share:.0f} % of the largest"
         )
 
 

@@ -63,14 +63,14 @@ def velocity_rates(vector: Array, rate: Array) -> Array:
     slope_c = (3.0 * sine - 2.0 * safe - safe * cosine) / safe**5
     # below 1 rad by series, whose ninth term is below rounding, where the quotients cancel
     near = np.zeros((4, *t.shape))
-    for k in range(9):
-        sign, even = (-1.0) ** k, float(factorial(2 * k + 2))
-        odd = even * (2 * k + 3)
-        near[0] += sign * power**k / even
-        near[1] += sign * power**k / odd
-        if k:
-            near[2] += sign * 2 * k * power ** (k - 1) / even
-            near[3] += sign * 2 * k * power ** (k - 1) / odd
+    for i in range(9):
+        sign, even = (-1.0) ** i, float(factorial(2 * i + 2))
+        odd = even * (2 * i + 3)
+        near[0] += sign * power**i / even
+        near[1] += sign * power**i / odd
+        if i:
+            near[2] += sign * 2 * i * power ** (i - 1) / even
+            near[3] += sign * 2 * i * power ** (i - 1) / odd
     b, c, slope_b, slope_c = (
         np.where(small, series, closed)[..., None, None]
         for series, closed in zip(near, (b, c, slope_b, slope_c), strict=True)

@@ -86,7 +86,7 @@ def _factor(match: re.Match[str], part: str) -> float:
             return _SI[base]
     example = ("deg" if turning else "mm") + per[0]
     raise ModelError(
-        part, f'has {match[0]}, a unit that does not fit.', f'Write "{example}", or none for SI.'
+        part, f"has {match[0]}, a unit that does not fit.", f'Write "{example}", or none for SI.'
     )
 
 
@@ -96,7 +96,7 @@ def trajectory_files(study: TrajectoryStudy) -> tuple[DataFile, ...]:
     columns = ["t, s"]
     numbers = [followed.times]
 
-    def add(label: str, turning: bool, values: Array, end: str = "") -> None:  # noqa: FBT001
+    def add(label: str, turning: bool, values: Array, end: str = "") -> None:
         columns.append(f"{label}, {'deg' if turning else 'mm'}{end}")
         numbers.append(values * (degrees(1.0) if turning else 1e3))
 
@@ -116,9 +116,14 @@ def trajectory_files(study: TrajectoryStudy) -> tuple[DataFile, ...]:
     table = np.stack(numbers, axis=1).tolist()
     files = [csv_file("trajectory.csv", "drives along the trajectory", columns, table)]
     if followed.reactions is not None:
-        units = ["N*m" if label.rpartition(":")[2].startswith("r") else "N" for label in
-                 followed.reaction_labels]
-        head = ["t, s", *(f"{n}, {u}" for n, u in zip(followed.reaction_labels, units, strict=True))]
+        units = [
+            "N*m" if label.rpartition(":")[2].startswith("r") else "N"
+            for label in followed.reaction_labels
+        ]
+        head = [
+            "t, s",
+            *(f"{n}, {u}" for n, u in zip(followed.reaction_labels, units, strict=True)),
+        ]
         rows = np.column_stack([followed.times, followed.reactions]).tolist()
         files.append(csv_file("reactions.csv", "joint reactions", head, rows))
     return tuple(files)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from strutwork.errors import ModelError, UnitError
-from strutwork.studies.trajectory import DriveLimit
+from strutwork.studies.drive_demand import DriveLimit
 from strutwork.units import (
     ACCELERATION,
     FORCE,

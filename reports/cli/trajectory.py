@@ -17,7 +17,8 @@ from strutwork.reports.cli.drive_limits import drive_limits
 from strutwork.reports.cli.output import console, print_json, show, table, tell
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.trajectory_table import read_samples, trajectory_files
-from strutwork.studies.trajectory import DriveDemand, Peak, TrajectoryStudy, study_trajectory
+from strutwork.studies.drive_demand import DriveDemand, Peak
+from strutwork.studies.trajectory import TrajectoryStudy, study_trajectory
 from strutwork.units import ACCELERATION, quantity
 
 QUANTITIES = ("speed", "acceleration", "force", "power")
@@ -129,7 +130,7 @@ def _row(demand: DriveDemand) -> tuple[object, ...]:
     return (*cells, _unit("force", demand.rms_force, turning))
 
 
-def _unit(what: str, value: float, turning: bool) -> str:  # noqa: FBT001
+def _unit(what: str, value: float, turning: bool) -> str:
     if what == "power":
         return f"{show(value)} W"
     if what == "force":
@@ -137,7 +138,7 @@ def _unit(what: str, value: float, turning: bool) -> str:  # noqa: FBT001
     return _shown(value, turning) + {"speed": "/s", "acceleration": "/s²"}[what]
 
 
-def _shown(value: float, turning: bool) -> str:  # noqa: FBT001
+def _shown(value: float, turning: bool) -> str:
     return f"{show(degrees(value))} deg" if turning else f"{show(1e3 * value)} mm"
 
 
