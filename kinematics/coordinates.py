@@ -131,7 +131,7 @@ def home_rows(motion: Motion, coordinates: Coordinates) -> tuple[Array, Array]:
 
     def scaled(rows: Array, directions: Array) -> Array:
         over = np.where(directions < 3, 1.0 / length, 1.0)
-        return rows * over[:, None] * unit
+        return np.asarray(rows * over[:, None] * unit)
 
     held = constraint_rows(linkage, placement, joints.held)
     first = scaled(held.on_bodies(bodies.position)[0], held.direction)

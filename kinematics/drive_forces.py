@@ -115,8 +115,9 @@ class Forces:
         """Second derivatives of the drives' coordinates, (p, a), m/s² or rad/s²."""
         placed = self.at.placed
         drift = row_rates(placed.drives, placed.points, self.twists)
-        return np.einsum("pan,pn->pa", placed.drives_on_bodies, self.accelerations) + np.einsum(
-            "pan,pn->pa", drift, self.twists
+        steady = np.einsum("pan,pn->pa", drift, self.twists)
+        return np.asarray(
+            np.einsum("pan,pn->pa", placed.drives_on_bodies, self.accelerations) + steady
         )
 
     @property

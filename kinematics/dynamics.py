@@ -20,10 +20,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError, NumericalError, SingularPoseError
 from strutwork.kinematics.body_masses import BodyMasses
-from strutwork.kinematics.body_motion import BodyMotion, PlacedMotion
+from strutwork.kinematics.body_motion import BodyMotion
 from strutwork.kinematics.coordinates import Coordinates
 from strutwork.kinematics.frames import cross_matrix
 from strutwork.kinematics.motion import Motion, Moved
+from strutwork.kinematics.placed_motion import PlacedMotion
 
 Array = NDArray[Any]
 
@@ -178,7 +179,8 @@ class PlacedDynamics:
     def kinetic(self, rates: ArrayLike) -> Array:
         """Kinetic energy at rates (p, t), (p,), J."""
         twists = self.placed.twists(self.full(rates))
-        return np.einsum("pn,pnk->p", twists, self.weighted(twists[..., None])) / 2.0
+        momenta = self.weighted(twists[..., None])[..., 0]
+        return np.asarray(np.sum(twists * momenta, axis=-1) / 2.0)
 
     @property
     def potential(self) -> Array:

@@ -16,6 +16,7 @@ from strutwork.kinematics.dynamics import Dynamics, PlacedDynamics
 from strutwork.kinematics.motion import Moved
 from strutwork.kinematics.path_checks import (
     PARALLEL,
+    Way,
     check_touched,
     check_way,
     placed_along,
@@ -161,23 +162,21 @@ def follow(
     _require_time(dynamics, trajectory, times)
     parts: list[dict[str, Array]] = []
     labels: tuple[str, ...] = ()
-    last: tuple[Array, ...] | None = None
+    last: Way | None = None
     for first in range(0, len(times), PIECE):
         some = times[first : first + PIECE]
         moved, placed = placed_along(dynamics, trajectory, some)
         _, rates, changes = trajectory.at(some)
         forces = inverse_dynamics(placed, rates, changes, wrench)
-        state = (
+        way = Way(
             some,
             placed.placed.sign,
             placed.drive_sign,
             placed.placed.points,
             forces.twists.reshape(len(some), -1, 6)[..., :3],
         )
-        if last is not None:
-            state = tuple(np.concatenate([a, b]) for a, b in zip(last, state, strict=True))
-        check_way(dynamics, trajectory, *state)
-        last = tuple(part[-1:] for part in state)
+        check_way(dynamics, trajectory, way if last is None else last.then(way))
+        last = way.end
         parts.append(_collected(trajectory, some, moved, placed, forces, reactions=reactions))
         labels = forces.reaction_labels if reactions else ()
         if progress is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -69,34 +70,51 @@ def singular_at(when: float, kind: str) -> SingularPoseError:
     )
 
 
-def check_way(
-    dynamics: Dynamics,
-    trajectory: Trajectory,
-    times: Array,
-    sign: Array,
-    driven: Array,
-    points: Array,
-    speeds: Array,
-) -> None:
-    """Refuse a path with a singularity or a jump between neighbouring poses.
+@dataclass(frozen=True)
+class Way:
+    """Neighbouring poses of a path.
 
     Parameters
     ----------
-    dynamics : Dynamics
-    trajectory : Trajectory
     times : (p,)
+        s.
     sign, driven : (p,)
         As `PlacedMotion.sign` and `PlacedDynamics.drive_sign`.
     points, speeds : (p, b, 3)
-        Of the bodies.
+        Of the bodies, m and m/s.
+    """
+
+    times: Array
+    sign: Array
+    driven: Array
+    points: Array
+    speeds: Array
+
+    def _parts(self) -> tuple[Array, ...]:
+        return self.times, self.sign, self.driven, self.points, self.speeds
+
+    def then(self, other: Way) -> Way:
+        """The poses of both, one way after the other."""
+        pairs = zip(self._parts(), other._parts(), strict=True)
+        return Way(*(np.concatenate(pair) for pair in pairs))
+
+    @property
+    def end(self) -> Way:
+        """Its last pose."""
+        return Way(*(part[-1:] for part in self._parts()))
+
+
+def check_way(dynamics: Dynamics, trajectory: Trajectory, way: Way) -> None:
+    """Refuse a path with a singularity or a jump between neighbouring poses.
 
     Raises
     ------
     SingularPoseError, NumericalError
         Names the time, and the kind or the body.
     """
+    times, sign, points, speeds = way.times, way.sign, way.points, way.speeds
     # the drives' rates per coordinate change sense at both kinds, the rows alone at serial ones
-    serial, parallel = np.diff(sign) != 0, np.diff(sign * driven) != 0
+    serial, parallel = np.diff(sign) != 0, np.diff(sign * way.driven) != 0
     crossed = np.flatnonzero(serial | parallel)
     if crossed.size:
         k = int(crossed[0])

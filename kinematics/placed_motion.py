@@ -230,7 +230,8 @@ class PlacedMotion:
         forces : (p, 6 b)
             At the bodies' points; they do no work in a motion of the coordinates.
         """
-        return np.einsum("pnk,pn->pk", self._solved[0], forces)[:, : len(self.of.plan[0])]
+        found = np.einsum("pnk,pn->pk", self._solved[0], forces)
+        return np.asarray(found[:, : len(self.of.plan[0])])
 
     def twists(self, rates: Array) -> Array:
         """Twists of the bodies for rates (p, t), m/s and rad/s, (p, 6 b)."""
