@@ -53,6 +53,10 @@ class BodyMotion:
     points: Array
 
     def __post_init__(self) -> None:
+        if not len(self.coordinates):
+            raise ModelError(
+                "motion", "is described by no coordinate.", "Name directions of the tool or joints."
+            )
         require_independent(self.motion, self.coordinates)
         _ = self.plan
 
@@ -71,25 +75,27 @@ class BodyMotion:
         free = free.reshape(len(free) // 6, 6, free.shape[1])
         spins: list[tuple[int, Array]] = []
         names = self.motion.linkage.body_names
-        left = free.shape[-1]
-        basis = np.eye(left)
+        home = self.motion.joints.start(1).position[0] / self.motion.length
+        drives = home_rows(self.motion, Coordinates((), self.motion.linkage.driven))[1]
+        basis = np.eye(free.shape[-1])
         for body in range(len(names)):
-            if not basis.shape[1]:
-                break
-            left_, values, _ = np.linalg.svd(free[body, 3:] @ basis)
-            if values[0] <= TURNS or (len(values) > 1 and values[1] > TURNS * values[0]):
+            turning = free[body, 3:] @ basis
+            if not basis.shape[1] or not (axis := _only_axis(turning)).any():
                 continue
-            axis = left_[:, 0]
+            row = axis @ turning
+            spin = free @ (basis @ row)
+            driven = np.abs(drives @ spin.ravel()).max(initial=0.0) > TURNS * np.abs(spin).max()
+            if driven or not _turns_as_one(spin, home, body):
+                continue
             spins.append((body, axis))
-            row = (axis @ free[body, 3:] @ basis)[None, None]
-            rest = null_space(row, HELD * float(np.abs(row).max()))[0]
+            rest = null_space(row[None, None], HELD * float(np.abs(row).max()))[0]
             basis = basis @ rest[:, np.abs(rest).max(axis=0) > 0]
         if basis.shape[1]:
             loose = np.abs(free @ basis).max(axis=(1, 2)) > TURNS
             raise ModelError(
                 "motion",
                 f"bodies {', '.join(n for n, one in zip(names, loose, strict=True) if one)} move "
-                f"although {', '.join(self.coordinates.labels) or 'nothing'} "
+                f"although {', '.join(self.coordinates.labels)} "
                 f"{'stands' if len(self.coordinates) == 1 else 'stand'} still.",
                 "Give further joint coordinates, or hold the joints that let them.",
             )
@@ -117,3 +123,22 @@ class BodyMotion:
             moved.bodies.position.reshape(count, bodies, 3),
             moved.bodies.rotation.reshape(count, bodies, 3, 3),
         )
+
+
+def _only_axis(turning: Array) -> Array:
+    """The line about which a body turns in all of some motions, (3, k) to (3,), else zero."""
+    left, values, _ = np.linalg.svd(turning)
+    if values[0] <= TURNS or (len(values) > 1 and values[1] > TURNS * values[0]):
+        return np.zeros(3)
+    return np.asarray(left[:, 0])
+
+
+def _turns_as_one(twists: Array, points: Array, body: int) -> bool:
+    """Whether all bodies that move turn about one line as a body does, (b, 6) about points."""
+    size = np.abs(twists).max()
+    moving = np.abs(twists).max(axis=1) > TURNS * size
+    spin, pace = twists[body, 3:], twists[body, :3]
+    alike = pace + np.cross(spin, points[moving] - points[body])
+    gap = np.abs(twists[moving] - np.concatenate([alike, np.tile(spin, (len(alike), 1))], axis=1))
+    # about a line that stays where it is: no shift along it
+    return bool(gap.max() <= TURNS * size and abs(pace @ spin) <= TURNS * size**2)

@@ -30,6 +30,8 @@ Array = NDArray[Any]
 
 #: Share of the largest entry at which the least eigenvalue of a mass matrix is rounding.
 POSITIVE = 1e-12
+#: Share of the momentum of a free spin that may be in motions of the coordinates: rounding.
+BALANCED = 1e-7
 
 STANDARD_GRAVITY = (0.0, 0.0, -9.80665)
 
@@ -86,6 +88,9 @@ class Dynamics:
             A pose that was not reached.
         SingularPoseError
             A pose at which the coordinates do not tell how the bodies move.
+        ModelError
+            A body that spins freely and is not balanced about its line: how it moves depends on
+            more than the coordinates.
         """
         placed = self.bodies.at(moved)
         if placed.singular.any():
@@ -96,7 +101,10 @@ class Dynamics:
                 "bodies move (a leg at the end of its working mode).",
                 "Leave such poses out, or describe the motion by other coordinates.",
             )
-        return PlacedDynamics(self, placed)
+        made = PlacedDynamics(self, placed)
+        if self.bodies.idle:
+            made.require_balanced()
+        return made
 
 
 @dataclass(frozen=True)
@@ -161,6 +169,29 @@ class PlacedDynamics:
             )
         return np.asarray(matrix)
 
+    def require_balanced(self) -> None:
+        """Refuse bodies that spin freely and whose spin moves the others, or is moved by them.
+
+        Raises
+        ------
+        ModelError
+            Names the body.
+        """
+        spins = self.placed.spin_map
+        weighted = self.weighted(spins)
+        own = np.einsum("pnk,pnk->pk", spins, weighted)
+        other = np.einsum("pnt,pnt->pt", self.placed.map, self.weighted(self.placed.map))
+        shared = np.abs(np.swapaxes(self.placed.map, -1, -2) @ weighted)
+        most = np.sqrt(other[:, :, None] * own[:, None, :])
+        bad = np.argwhere(shared > BALANCED * np.where(most > 0, most, 1.0))
+        if len(bad):
+            raise ModelError(
+                f"body {self.of.bodies.idle[int(bad[0, 2])]}",
+                "turns freely about a line about which its mass is not balanced: the coordinates "
+                "do not tell how it moves.",
+                "Hold or drive the joint that lets it, or give a coordinate of that joint.",
+            )
+
     def coriolis(self, rates: ArrayLike) -> Array:
         """C at rates (p, t) of the coordinates, (p, t, t); Ṁ − 2 C is skew."""
         given = self.full(rates)
@@ -216,13 +247,14 @@ class PlacedDynamics:
     def held(self) -> Array:
         """How well the drives hold the coordinates, (p,): least over largest singular value.
 
-        0 at a parallel singularity, or with fewer drives than freedoms.
+        The largest counts as one at least. 0 at a parallel singularity, or with fewer drives than
+        freedoms.
         """
         values = self.drive_values
         count = len(self.of.coordinates)
         if values.shape[-1] < count or not count:
             return np.zeros(self.poses)
-        return np.asarray(values[:, -1] / np.where(values[:, 0] > 0, values[:, 0], 1.0))
+        return np.asarray(values[:, -1] / np.maximum(values[:, 0], 1.0))
 
     @property
     def drive_sign(self) -> Array:

@@ -58,7 +58,7 @@ def placed_along(
     lost = np.flatnonzero(placed.singular)
     if lost.size:
         raise singular_at(float(times[lost[0]]), SERIAL)
-    return moved, PlacedDynamics(dynamics, placed)
+    return moved, dynamics.at(moved)
 
 
 def singular_at(when: float, kind: str) -> SingularPoseError:
