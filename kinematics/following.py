@@ -31,6 +31,8 @@ Tell = Callable[[int, int], None]
 PIECE = 256
 #: Poses of a trajectory, and hours that they may take.
 LARGEST, HOURS = 2_000_000, 12.0
+#: Pace of a body, as a share of the largest, below which it stands: rounding.
+STILL = 1e-12
 #: Poses by which the time is foreseen.
 TRIAL = 32
 
@@ -59,6 +61,8 @@ class Followed:
     reactions : (n, r) or None
         As `Forces.reactions`, where they were asked for.
     reaction_labels : tuple of str
+    paces : (n, b)
+        Largest component of each body's twist, m/s or rad/s.
     joint_values : (n, c)
         Coordinates of all joints, in the order of `Motion.joints.names`.
     """
@@ -77,12 +81,24 @@ class Followed:
     potential: Array
     given_power: Array
     spins: Array
+    paces: Array
     joint_values: Array
     reactions: Array | None = None
     reaction_labels: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Followed: {len(self.times)} poses, {self.drives.shape[1]} drives>"
+
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """Bodies that move, (b,)."""
+        largest = self.paces.max(axis=0)
+        return np.asarray(largest > STILL * largest.max(initial=0.0))
+
+    @property
+    def moving_mass(self) -> float:
+        """Of the bodies that move, kg."""
+        return float(self.dynamics.masses.mass[self.moves].sum())
 
     @property
     def rms_forces(self) -> Array:
@@ -240,6 +256,7 @@ def _collected(
         "potential": placed.potential,
         "given_power": forces.given_power,
         "spins": forces.spins,
+        "paces": np.abs(forces.twists).reshape(len(times), -1, 6).max(axis=-1),
         "joint_values": moved.placement.values,
     }
     return found | ({"reactions": forces.reactions} if reactions else {})

@@ -11,8 +11,11 @@ from strutwork.kinematics.trajectory import Trajectory, roughness
 from strutwork.machines.model import Model
 from strutwork.msa.body_mass import stretched_parts
 
-#: Rate at an end of the path, as a share of the largest, below which it begins or ends at rest.
-REST = 1e-6
+#: Rate at an end of the path, as a share of the largest, below which it begins or ends at rest:
+#: a spline through rounded samples leaves a little.
+REST = 1e-3
+#: Share of the work by which it may differ from the change of energy: what integrals leave.
+BALANCED = 1e-6
 #: Moment that would hold a body from spinning, as a share of the drives' largest.
 QUIET = 1e-9
 
@@ -34,8 +37,10 @@ def trajectory_notes(
             notes.append(f"the path {end} in motion, not at rest")
     light = [
         name
-        for name, mass in zip(linkage.body_names, dynamics.masses.mass, strict=True)
-        if mass == 0.0
+        for name, mass, moves in zip(
+            linkage.body_names, dynamics.masses.mass, followed.moves, strict=True
+        )
+        if moves and mass == 0.0
     ]
     if light:
         notes.append(f"without mass: {_listed(light)}")
@@ -53,6 +58,11 @@ def trajectory_notes(
         notes.append(f"left out, as bodies are rigid and joints free of loss: {_listed(left_out)}")
     if dynamics.bodies.idle:
         notes.append(_idle_note(followed))
+    if followed.imbalance > BALANCED:
+        notes.append(
+            f"work and energy differ by {followed.imbalance:.1e}: between samples the path changes "
+            "more than the integrals over time can follow"
+        )
     drives, freedoms = len(linkage.driven), len(path.coordinates)
     if drives > freedoms:
         notes.append(

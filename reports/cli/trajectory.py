@@ -81,7 +81,7 @@ def _print(study: TrajectoryStudy) -> None:
     pull = ", ".join(f"{g:g}" for g in np.asarray(followed.dynamics.gravity, dtype=float))
     screen.print(
         f"{len(path.times)} samples over {path.duration:.4g} s; gravity {pull} m/s²; rigid bodies "
-        f"of {followed.dynamics.masses.mass.sum():.4g} kg that move",
+        f"of {followed.moving_mass:.4g} kg that move",
         markup=False,
         soft_wrap=True,
     )
@@ -92,8 +92,11 @@ def _print(study: TrajectoryStudy) -> None:
     ]
     rest = f"; at home stay {', '.join(stays)}" if stays else ""
     screen.print(f"Given: {', '.join(moving)}{rest}", markup=False, soft_wrap=True)
-    heads = ["drive", *(word for q in QUANTITIES for word in (q, "at, s")), "RMS force"]
-    screen.print(table("Largest of each drive", heads, [_row(d) for d in study.demands]))
+    heads = ["drive", "from", "to", "speed", "at, s", "acceleration", "at, s"]
+    rows = [_motion_row(d) for d in study.demands]
+    screen.print(table("Motion of the drives, largest", heads, rows))
+    heads = ["drive", "force", "at, s", "RMS", "power", "at, s"]
+    screen.print(table("Forces of the drives, largest", heads, map(_force_row, study.demands)))
     screen.print(
         f"Work of the drives {show(followed.work)} J, change of energy "
         f"{show(followed.energy_change)} J; they differ by {followed.imbalance:.1e} of the work "
@@ -121,13 +124,21 @@ def _print_reactions(study: TrajectoryStudy) -> None:
     console().print(table("Joint reactions, largest", ["joint direction", "", "at, s"], rows))
 
 
-def _row(demand: DriveDemand) -> tuple[object, ...]:
+def _motion_row(demand: DriveDemand) -> tuple[object, ...]:
     turning = demand.direction.startswith("r")
-    cells: list[object] = [demand.label]
-    for what in QUANTITIES:
-        peak: Peak = getattr(demand, what)
-        cells += [_unit(what, peak.value, turning), f"{peak.time:.4g}"]
-    return (*cells, _unit("force", demand.rms_force, turning))
+    span = (_shown(value, turning) for value in (demand.low, demand.high))
+    return (demand.label, *span, *_cells(demand, "speed"), *_cells(demand, "acceleration"))
+
+
+def _force_row(demand: DriveDemand) -> tuple[object, ...]:
+    turning = demand.direction.startswith("r")
+    rms = _unit("force", demand.rms_force, turning)
+    return (demand.label, *_cells(demand, "force"), rms, *_cells(demand, "power"))
+
+
+def _cells(demand: DriveDemand, what: str) -> tuple[str, str]:
+    peak: Peak = getattr(demand, what)
+    return _unit(what, peak.value, demand.direction.startswith("r")), f"{peak.time:.4g}"
 
 
 def _unit(what: str, value: float, turning: bool) -> str:
@@ -186,7 +197,7 @@ def _plain(study: TrajectoryStudy) -> dict[str, Any]:
         "coordinates": list(study.trajectory.coordinates.labels),
         "held": dict(study.held),
         "gravity": np.asarray(followed.dynamics.gravity, dtype=float).tolist(),
-        "moving_mass": float(followed.dynamics.masses.mass.sum()),
+        "moving_mass": followed.moving_mass,
         "drives": [
             {
                 "drive": d.label,

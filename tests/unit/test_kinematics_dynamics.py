@@ -74,7 +74,7 @@ def test_a_slider_crank() -> None:
         (0.0, -G, 0.0),
         crank=(0.0, [0, 0, 0], [0, 0, crank_inertia]),
         rod=(m_rod, pin + share * (slider - pin), [0, 0, i_rod]),
-        slider=(m_slider, slider + [0.02, 0.01, 0.0], 0.3),
+        slider=(m_slider, slider + np.array([0.02, 0.01, 0.0]), 0.3),
     )
     found = forces_of(dynamics, turn - 0.3, rate, change)
     s, c = np.sin(turn), np.cos(turn)
