@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
+from strutwork.kinematics.given import given
 from strutwork.kinematics.independent import independent_rows
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.motion import Motion
@@ -55,11 +56,21 @@ class Coordinates:
         return tuple(f"{joint}:{d}" if joint else d for joint, d in self.names)
 
 
-def completed(motion: Motion, asked: Coordinates) -> tuple[Coordinates, dict[Name, float]]:
+def completed(
+    motion: Motion, asked: Coordinates, task: tuple[str, ...] = ()
+) -> tuple[Coordinates, dict[Name, float]]:
     """Coordinates that describe all of a motion, and the values at home of those added.
 
-    Other directions of the tool are held where they can be, then drives: those of a machine that
-    has more drives than its tool has freedoms.
+    Other directions of the tool are held where they can be, then drives that they leave free:
+    those of a machine with more drives than its tool has freedoms. Where only joint coordinates
+    are asked for, the drives come first.
+
+    Parameters
+    ----------
+    motion : Motion
+    asked : Coordinates
+    task : tuple of directions
+        Of the tool, held before its others.
 
     Raises
     ------
@@ -67,19 +78,50 @@ def completed(motion: Motion, asked: Coordinates) -> tuple[Coordinates, dict[Nam
         A direction or joint that does not exist or cannot move, or one that follows from the
         others.
     """
-    tool = dict(motion.rest(asked.tool, asked.joints)) if motion.linkage.tool is not None else {}
-    directions = tuple(d for d in DIRECTIONS if d in asked.tool or d in tool)
-    found = Coordinates(directions, asked.joints)
-    require_independent(motion, found)
+    _require_known(motion, asked)
+    require_independent(motion, asked)
     home = dict(zip(motion.joints.names, motion.home_values, strict=True))
-    added: dict[Name, float] = {("", d): value for d, value in tool.items()}
-    for pair in motion.linkage.driven:
-        if pair in found.joints or pair not in home:
+    drives = [pair for pair in motion.linkage.driven if pair in home]
+    tool: list[Name] = []
+    if motion.linkage.tool is not None:
+        place = dict(zip(DIRECTIONS, motion.task_of(motion.home_pose), strict=True))
+        home |= {("", d): value for d, value in place.items()}
+        tool = [("", d) for d in dict.fromkeys((*task, *DIRECTIONS))]
+    free = freedoms(motion)
+    found, added = asked, {}
+    for name in (*drives, *tool) if asked.joints and not asked.tool else (*tool, *drives):
+        if len(found) == free:
+            break
+        if name in found.names:
             continue
-        more = Coordinates(directions, (*found.joints, pair))
+        more = _with(found, name)
         if not dependent(motion, more):
-            found, added[pair] = more, float(home[pair])
+            found, added[name] = more, float(home[name])
     return found, added
+
+
+def _with(coordinates: Coordinates, name: Name) -> Coordinates:
+    """One more, the tool's in the order of directions."""
+    joint, direction = name
+    if joint:
+        return Coordinates(coordinates.tool, (*coordinates.joints, name))
+    tool = {*coordinates.tool, direction}
+    return Coordinates(tuple(d for d in DIRECTIONS if d in tool), coordinates.joints)
+
+
+def freedoms(motion: Motion) -> int:
+    """Freedoms of the bodies at home, those of bodies that only spin counted."""
+    held, _ = home_rows(motion, Coordinates())
+    return held.shape[1] - len(independent_rows(held, len(held))[0])
+
+
+def _require_known(motion: Motion, coordinates: Coordinates) -> None:
+    """Refuse names that do not exist, in the words of a motion."""
+    start = motion.home_pose if coordinates.tool else None
+    zeros: dict[str, ArrayLike] = dict.fromkeys(coordinates.tool, 0.0)
+    pairs: dict[Name, ArrayLike] = dict.fromkeys(coordinates.joints, 0.0)
+    if zeros or pairs:
+        given(motion.joints, start, motion.home_values, None, zeros or None, pairs or None)
 
 
 def require_independent(motion: Motion, coordinates: Coordinates) -> None:
@@ -107,8 +149,8 @@ def require_independent(motion: Motion, coordinates: Coordinates) -> None:
 
 def dependent(motion: Motion, coordinates: Coordinates) -> list[str]:
     """Labels of coordinates that follow from those before them at home."""
-    held, given = home_rows(motion, coordinates)
-    matrix = np.concatenate([held, given])
+    held, asked = home_rows(motion, coordinates)
+    matrix = np.concatenate([held, asked])
     kept, _ = independent_rows(matrix, len(held))
     return [
         label
@@ -135,14 +177,14 @@ def home_rows(motion: Motion, coordinates: Coordinates) -> tuple[Array, Array]:
 
     held = constraint_rows(linkage, placement, joints.held)
     first = scaled(held.on_bodies(bodies.position)[0], held.direction)
-    given = np.zeros((len(coordinates), first.shape[1]))
+    asked = np.zeros((len(coordinates), first.shape[1]))
     turned = np.array([DIRECTIONS.index(d) for _, d in coordinates.names], dtype=int)
     for k, (joint, _) in enumerate(coordinates.names):
         if not joint:
             if linkage.tool_body >= 0:
-                given[k, 6 * linkage.tool_body + turned[k]] = 1.0
+                asked[k, 6 * linkage.tool_body + turned[k]] = 1.0
             continue
         select = np.zeros_like(joints.held)
         select[linkage.joint_index[joint], turned[k]] = True
-        given[k] = constraint_rows(linkage, placement, select).on_bodies(bodies.position)[0, 0]
-    return first, scaled(given, turned)
+        asked[k] = constraint_rows(linkage, placement, select).on_bodies(bodies.position)[0, 0]
+    return first, scaled(asked, turned)

@@ -97,7 +97,7 @@ def trajectory_of(model: Model, samples: Samples) -> tuple[Trajectory, dict[Name
         tuple(d for d in DIRECTIONS if ("", d) in samples.values),
         tuple(pair for pair in samples.values if pair[0]),
     )
-    coordinates, added = completed(model.motion, asked)
+    coordinates, added = completed(model.motion, asked, model.task)
 
     def table(columns: Mapping[Name, Array], still: Mapping[Name, float] | None) -> Array | None:
         if not columns:

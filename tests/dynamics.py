@@ -18,7 +18,7 @@ from strutwork.msa.body_mass import body_masses
 
 Array = NDArray[Any]
 
-#: Machines of the catalogue that have mass, model files, and their joint coordinate without tool.
+#: Machines of the catalogue that have mass, and model files.
 HEAVY = (
     "mit-ss1",
     "eclipse-3pprs:calibrated",
@@ -29,6 +29,11 @@ HEAVY = (
     "examples/03_tripod.toml",
     "examples/04_four_bar.toml",
     "examples/05_two_link_leg.toml",
+    "machines/templates/3-rps.toml",
+    "machines/templates/6-ups.toml",
+    "machines/templates/linear-delta.toml",
+    "machines/templates/planar-3-rrr.toml",
+    "machines/templates/tricept.toml",
 )
 
 
