@@ -258,8 +258,9 @@ class PlacedStructure:
         beams = self.structure.beams
         shift = np.array([b.offsets for b in beams]).reshape(-1, 2, 3)
         turns = self.beam_turns
-        still = turns is None or not np.any(shift)
-        return shift if still else np.asarray(shift @ np.swapaxes(turns, -1, -2))
+        if turns is not None and np.any(shift):
+            shift = np.asarray(shift @ np.swapaxes(turns, -1, -2))
+        return shift
 
     @cached_property
     def beam_turns(self) -> Array | None:
