@@ -306,11 +306,10 @@ class PlacedStructure:
                 up[..., i, :] = self.frame(beam.orientation, f"beam {beam.name}")[..., :, 2]
             elif beam.orientation is not None:
                 up[..., i, :] = beam.orientation
-        names = [b.name for b in s.beams]
-        turns = self.beam_turns
+        names, turns = [b.name for b in s.beams], self.beam_turns
         if turns is None:
             return beam_axes(start, end, up, names)
-        # in the axes of its body, in which vectors and the default are what the beam says
+        # in its body's axes, in which vectors and the default are what the beam says
         turns = np.broadcast_to(turns, (*start.shape[:-1], 3, 3))
         named = [i for i, beam in enumerate(s.beams) if isinstance(beam.orientation, str)]
         up[..., named, :] = turned_back(turns[..., named, :, :], up[..., named, :])
