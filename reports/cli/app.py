@@ -244,6 +244,8 @@ def compare(
 @app.command()
 def tolerance(
     target: Target,
+    pose: Pose = None,
+    joint: JointAt = None,
     limit: Annotated[
         list[str] | None,
         typer.Option(
@@ -279,6 +281,7 @@ def tolerance(
     if quantile is not None and allocation is None:
         raise typer.BadParameter("--quantile belongs to --allocate.")
     from strutwork.reports.cli import tolerance as work
+    from strutwork.reports.cli.subject import where
     from strutwork.studies.tolerance_study import StudyOptions
 
     options = StudyOptions(
@@ -288,7 +291,7 @@ def tolerance(
         objective=None if allocation is None else allocation.value,
         quantile=quantile,
     )
-    work.run(target, limit or (), options, out, json=json)
+    work.run(target, limit or (), options, out, at=where(pose, joint), json=json)
 
 
 @app.command()
@@ -330,6 +333,8 @@ def report(
         str,
         typer.Argument(metavar="TARGET", help="A machine, a paper's key or a FILE."),
     ],
+    pose: Pose = None,
+    joint: JointAt = None,
     out: Annotated[
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
@@ -342,10 +347,11 @@ def report(
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
     from strutwork.reports.cli import report as work
+    from strutwork.reports.cli.subject import where
 
     if verify:
         if out is not None:
             raise typer.BadParameter("--verify writes nothing: leave --out out.")
         work.verify(target, json)
         return
-    work.run(target, out, json)
+    work.run(target, out, json, where(pose, joint))
