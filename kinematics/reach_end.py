@@ -18,7 +18,7 @@ Mask = NDArray[np.bool_]
 
 #: Halvings of the way between a pose that is reached and one that is not, before the end is
 #: looked for along the way of all bodies, and where it is not found there.
-HALVINGS, ALL = 5, 45
+HALVINGS, ALL = 2, 45
 #: The motion itself tells what is reached no better than this many halvings.
 OWN = 18
 #: The end lies within the last halving's gap, but for this share of it.
@@ -57,55 +57,68 @@ def reach_ends(family: PoseFamily, inside: Array, outside: Array) -> ReachEnds:
     family : PoseFamily
     inside, outside : (e, k)
     """
-    edge = outside - inside
-    low, high = _halved(family, inside, outside, HALVINGS)
+    edge, section = outside - inside, family.section
+    own = section is not None and family.place == section.place
+    low, high, reasons = _halved(family, inside, outside, HALVINGS)
     turned = np.zeros(len(low), dtype=bool)
-    exact, placements = low, None
-    if family.section is not None:
-        exact, placements, turned = _turned(family.section, low, high, edge)
-    rest = ~turned
-    if rest.any():
-        own = family.section is not None and family.place == family.section.place
+    found: Placement | None = None
+    exact = low
+    if section is not None:
+        # what a range alone forbids is no end of the way
+        free = np.zeros(len(low), dtype=bool) if own else section.place(high).reachable
+        exact, found, turned = _turned(section, low, high, edge, ~free)
+    rest = np.flatnonzero(~turned)
+    if rest.size:
         more = (OWN if own else ALL) - HALVINGS
-        low[rest], high[rest] = _halved(family, low[rest], high[rest], more)
-    beyond = family.place(high)
-    reasons = tuple(beyond.reason(i) for i in range(len(high)))
+        low[rest], high[rest], last = _halved(family, low[rest], high[rest], more)
+        reasons[rest] = last
     placement = family.place(low)
-    if placements is not None:
-        low[turned] = exact[turned]
-        placement = _with(placement, np.flatnonzero(turned), placements)
-    return ReachEnds(low, placement, turned, high, reasons)
+    if found is not None:
+        at = np.flatnonzero(turned)
+        low[at] = exact[at]
+        placement = _with(placement, at, found)
+    return ReachEnds(low, placement, turned, high, tuple(reasons))
 
 
-def _halved(family: PoseFamily, low: Array, high: Array, times: int) -> tuple[Array, Array]:
-    for _ in range(times):
+def _halved(
+    family: PoseFamily, low: Array, high: Array, times: int
+) -> tuple[Array, Array, NDArray[np.object_]]:
+    """The same edges, shorter, and why their ends are not reached."""
+    reasons = np.full(len(low), "", dtype=object)
+    for k in range(times):
         middle = 0.5 * (low + high)
-        good = family.place(middle).reachable[:, None]
+        placed = family.place(middle)
+        good = placed.reachable[:, None]
         low, high = np.where(good, middle, low), np.where(good, high, middle)
-    return low, high
+        for i in np.flatnonzero(~placed.reachable):
+            reasons[i] = placed.reason(int(i))
+        if k == times - 1:
+            never = np.flatnonzero(reasons == "")
+            if never.size:
+                beyond = family.place(high[never])
+                reasons[never] = [beyond.reason(i) for i in range(len(never))]
+    return low, high, reasons
 
 
 def _turned(
-    section: TaskSection, low: Array, high: Array, edge: Array
+    section: TaskSection, low: Array, high: Array, edge: Array, ends: Mask
 ) -> tuple[Array, Placement | None, Mask]:
     """Ends along the way of all bodies, where they are such: (e, k), those found, (e,)."""
     turned = np.zeros(len(low), dtype=bool)
     start = section.place(low)
-    # what a range alone forbids is no end of the way
-    ends = np.flatnonzero(~section.place(high).reachable & start.reachable)
-    if not ends.size:
+    at = np.flatnonzero(ends & start.reachable)
+    if not at.size:
         return low, None, turned
-    columns = {name: edge[ends, k] for k, name in enumerate(section.names)}
-    none = np.zeros(len(ends))
+    columns = {name: edge[at, k] for k, name in enumerate(section.names)}
+    none = np.zeros(len(at))
     wanted = [columns.get(DIRECTIONS[d], none) for d in section.directions]
     way = TurningWay(section.motion, section.directions, np.stack(wanted, axis=1))
-    gap = np.linalg.norm((high - low)[ends], axis=1) / np.linalg.norm(edge[ends], axis=1)
-    found = way.turns(start[ends], gap)
+    gap = np.linalg.norm((high - low)[at], axis=1) / np.linalg.norm(edge[at], axis=1)
+    found = way.turns(start[at], gap)
     good = found.found & (found.share >= 0.0) & (found.share <= (1.0 + SLACK) * gap)
-    at = ends[good]
     result = low.copy()
-    result[at] += found.share[good, None] * edge[at]
-    turned[at] = True
+    result[at[good]] += found.share[good, None] * edge[at[good]]
+    turned[at[good]] = True
     return result, found.placement[good], turned
 
 

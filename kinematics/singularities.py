@@ -214,7 +214,8 @@ def singularities_on_line(
     def share_of(one: Singularity) -> float:
         return float(way @ (np.array(list(one.parameters.values())) - points[0]) / (way @ way))
 
-    found.sort(key=share_of)
+    # a refined pose may have gone beyond the ends
+    found = sorted((one for one in found if -1e-12 <= share_of(one) <= 1 + 1e-12), key=share_of)
     near = SAME / (len(points) - 1)
     return tuple(
         one

@@ -10,7 +10,11 @@ import contourpy
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse.csgraph import (
+    breadth_first_order,
+    connected_components,
+    minimum_spanning_tree,
+)
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.lost_motion import Kind, kinds
@@ -152,7 +156,7 @@ def singularities_in_plane(
     curves: list[SingularCurve] = []
     points: list[Singularity] = []
     senses = edge_senses(looked, inner)
-    sense, missed = _one_sense(len(parameters), inner, np.sign(senses))
+    sense, missed = _one_sense(len(parameters), inner, senses)
     for part in PARTS:
         changed = inner[:0]
         if has_minor(looked.space, part):
@@ -163,7 +167,7 @@ def singularities_in_plane(
         low = local_minima(looked, inner, changed, part)
         if low.size:
             refined = refine_least(family, parameters[low], spacing, part)
-            points += _apart(singular_poses(family, refined), curves, points, spacing)
+            points += _apart(singular_poses(family, refined), curves, points, (x, y))
     curves += _border(family, looked, (x, y), centre)
     curves.sort(key=lambda c: _far(c.at, centre, spacing))
     points.sort(key=lambda p: _far(p, centre, spacing))
@@ -286,42 +290,51 @@ def _apart(
     found: list[Singularity],
     curves: list[SingularCurve],
     points: list[Singularity],
-    spacing: Array,
+    axes: tuple[Array, Array],
 ) -> list[Singularity]:
-    """Single poses that lie on no curve and were not found before."""
+    """Single poses within the plane that lie on no curve and were not found before."""
+    low, high = (np.array([f(a) for a in axes]) for f in (np.min, np.max))
+    spacing = (high - low) / [len(a) - 1 for a in axes]
     known = [c.points for c in curves] + [
         np.array([list(p.parameters.values())]) for p in points
     ]
     result: list[Singularity] = []
     for one in found:
         here = np.array(list(one.parameters.values()))
-        if all(np.abs((k - here) / spacing).max(axis=1).min() > 1.0 for k in known if len(k)):
+        inside = np.all((here >= low) & (here <= high))
+        if inside and all(np.abs((k - here) / spacing).max(axis=1).min() > 1.0 for k in known if len(k)):
             result.append(one)
             known.append(here[None])
     return result
 
 
-def _one_sense(count: int, edges: Indices, sign: Array) -> tuple[Array, int]:
-    """Sense of every pose's basis against the first of its region, ±1, and edges that disagree."""
+def _one_sense(count: int, edges: Indices, senses: Array) -> tuple[Array, int]:
+    """Sense of every pose's basis against the first of its region, ±1, and edges that disagree.
+
+    It is handed on between poses whose spaces are nearest to each other.
+    """
     sense = np.ones(count)
     if not len(edges):
         return sense, 0
-    both = np.concatenate([edges, edges[:, ::-1]])
-    graph = coo_array((np.ones(len(both)), both.T), shape=(count, count)).tocsr()
-    regions, label = connected_components(graph, directed=False)
+    apart = 2.0 - np.abs(senses)
+    graph = coo_array((apart, edges.T), shape=(count, count)).tocsr()
+    tree = minimum_spanning_tree(graph)
+    regions, label = connected_components(tree, directed=False)
     first = np.unique(label, return_index=True)[1]
     before = np.arange(count)
     for start in first[np.bincount(label, minlength=regions) > 1]:
-        order, found = breadth_first_order(graph, start, directed=False)
+        order, found = breadth_first_order(tree, start, directed=False)
         before[order[1:]] = found[order[1:]]
+    both = np.concatenate([edges, edges[:, ::-1]])
     key = both[:, 0] * count + both[:, 1]
-    sorted_ = np.argsort(key)
+    order = np.argsort(key)
     at = np.flatnonzero(before != np.arange(count))
-    place = sorted_[np.searchsorted(key[sorted_], before[at] * count + at)]
+    place = order[np.searchsorted(key[order], before[at] * count + at)]
+    sign = np.where(senses < 0.0, -1.0, 1.0)
     sense[at] = np.tile(sign, 2)[place]
     sense = _gathered(sense, before)
     agree = sense[edges[:, 0]] * sense[edges[:, 1]] * sign
-    return sense, int(np.count_nonzero(agree <= 0.0))
+    return sense, int(np.count_nonzero(agree < 0.0))
 
 
 def _gathered(sense: Array, before: Indices) -> Array:
