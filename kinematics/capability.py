@@ -74,9 +74,7 @@ class Zonotope:
         """
         d, count = self.generators.shape[-2:]
         picks = np.array(list(combinations(range(count), d - 1)), dtype=np.intp)
-        chosen = np.moveaxis(self.generators[..., picks], -3, -1).swapaxes(-1, -2)
-        if chosen.shape[-2] != d - 1:
-            chosen = np.swapaxes(chosen, -1, -2)
+        chosen = np.moveaxis(self.generators[..., picks], -3, -1)
         size = np.linalg.norm(self.generators, axis=(-2, -1))[..., None]
         _, values, right = np.linalg.svd(chosen)
         normals = right[..., -1, :]
