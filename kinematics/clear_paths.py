@@ -63,9 +63,7 @@ class ClearPath:
     length: float
 
 
-def path_reversals(
-    field: DriveField, points: ArrayLike, samples: int = SAMPLES
-) -> PathReversals:
+def path_reversals(field: DriveField, points: ArrayLike, samples: int = SAMPLES) -> PathReversals:
     """Where drives turn back along straight pieces between points of the parameters.
 
     Parameters
@@ -87,7 +85,8 @@ def path_reversals(
     lost = np.isnan(speeds).any(axis=(1, 2))
     if lost.any():
         raise ModelError(
-            "path", f"leaves the reach of the machine on its piece {int(lost.argmax()) + 1}.",
+            "path",
+            f"leaves the reach of the machine on its piece {int(lost.argmax()) + 1}.",
             "Keep it within the reach.",
         )
     start = np.where(_moves(speeds), np.sign(speeds[:, 1]), 0).astype(np.int8)
@@ -164,6 +163,7 @@ def _reversals(
         signs[:, s] = np.where(signs[:, s] == 0, signs[:, s - 1], signs[:, s])
     owner, sample, drive = np.nonzero(signs[:, :-1] * signs[:, 1:] < 0)
     first, second = points[owner, sample], points[owner, sample + 1]
+
     def speed(p: Array, k: NDArray[np.intp]) -> Array:
         along = field.gradient(p)[np.arange(len(p)), drive[k]]
         return np.asarray((along * way[owner[k]]).sum(axis=-1))
@@ -183,7 +183,7 @@ def _chords(patch: Patch, way: Array, lines: int) -> tuple[Array, Array]:
     # in the unit square about its middle
     half = 0.5 * np.abs(across).sum()
     offsets = half * np.linspace(-1.0, 1.0, lines + 2)[1:-1]
-    if min(np.abs(w)) < 1e-12:
+    if min(np.abs(w)) < 1e-12 and lines > 1:
         offsets = half * np.linspace(-1.0, 1.0, lines)
     base = offsets[:, None] * across
     with np.errstate(divide="ignore"):

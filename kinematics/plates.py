@@ -7,7 +7,7 @@ of drive directions have cones (Son 2002, chapter 4).
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, product
 from typing import Any
 
 import numpy as np
@@ -103,17 +103,16 @@ def plate_borders(
         As for `determinants`.
     """
     pairs, values = determinants(gradient, moving)
-    found = {}
-    for k, (i, j) in enumerate(pairs):
+    first, second = (np.array([p[n] for p in pairs], dtype=np.intp) for n in (0, 1))
 
-        def together(points: Array, i: int = i, j: int = j) -> Array:
-            g = field.gradient(points)
-            return np.asarray(g[:, i, 0] * g[:, j, 1] - g[:, i, 1] * g[:, j, 0])
+    def together(points: Array, which: NDArray[np.intp]) -> Array:
+        g, m = field.gradient(points), np.arange(len(points))
+        a, b = g[m, first[which]], g[m, second[which]]
+        return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
-        found[field.drives[i], field.drives[j]] = zero_lines(
-            together, values[..., k], patch.u, patch.v
-        )
-    return found
+    found = zero_lines(together, values, patch.u, patch.v)
+    names = [(field.drives[i], field.drives[j]) for i, j in pairs]
+    return dict(zip(names, found, strict=True))
 
 
 def reach(
@@ -143,23 +142,25 @@ def reach(
     c = gradient[..., moving, :]
     if np.isnan(c[start]).any():
         return seen
-    _, patterns = sectors(c[start])
     number = np.arange(seen.size).reshape(shape)
     first = int(number[start])
-    for signs in patterns:
+    for signs in map(np.array, _patterns(c[start])):
         heads, tails = [], []
         for i, j in WAYS:
-            one = tuple(slice(max(0, -d), min(n, n - d)) for d, n in zip((i, j), shape, strict=True))
+            one = tuple(
+                slice(max(0, -d), min(n, n - d)) for d, n in zip((i, j), shape, strict=True)
+            )
             two = tuple(slice(max(0, d), min(n, n + d)) for d, n in zip((i, j), shape, strict=True))
             way = _way(patch, one, two)
             keeps = np.ones(number[one].shape, dtype=bool)
             for end in (one, two):
                 along = np.einsum("klna,kla->kln", c[end], way)
-                small = 1e-9 * np.linalg.norm(c[end], axis=-1) * np.linalg.norm(
-                    way, axis=-1, keepdims=True
+                small = (
+                    1e-9
+                    * np.linalg.norm(c[end], axis=-1)
+                    * np.linalg.norm(way, axis=-1, keepdims=True)
                 )
-                # a drive that stands still for the whole path may do so
-                asked = np.where(signs == 0, -np.abs(along), signs * along)
+                asked = signs * along
                 keeps &= np.all(asked >= -small, axis=-1)
             tails.append(number[one][keeps])
             heads.append(number[two][keeps])
@@ -170,8 +171,28 @@ def reach(
     return seen
 
 
+def _patterns(gradient: Array) -> list[tuple[int, ...]]:
+    """Signs of the drives' speeds with which a path may leave a point, (n,) each.
+
+    Those of the cones; and where drives stand still, at a singular point or along a line that
+    several have in common, either sign of each: their cone opens beside the point only.
+    """
+    angles, signs = sectors(gradient)
+    rays = np.stack([np.cos(angles[:, 0]), np.sin(angles[:, 0])], axis=-1)
+    along = rays @ gradient.T
+    still = np.abs(along) <= PARALLEL * np.linalg.norm(gradient, axis=-1)
+    on_rays = np.where(still, 0, np.sign(along)).astype(int)
+    found: dict[tuple[int, ...], None] = {}
+    for pattern in (*signs.tolist(), *on_rays.tolist()):
+        open_ = [k for k, sign in enumerate(pattern) if sign == 0]
+        for chosen in product((1, -1), repeat=len(open_)):
+            full = list(pattern)
+            for k, sign in zip(open_, chosen, strict=True):
+                full[k] = sign
+            found[tuple(full)] = None
+    return list(found)
+
+
 def _way(patch: Patch, one: tuple[slice, ...], two: tuple[slice, ...]) -> Array:
-    steps = [
-        a[t] - a[o] for a, o, t in zip((patch.u, patch.v), one, two, strict=True)
-    ]
+    steps = [a[t] - a[o] for a, o, t in zip((patch.u, patch.v), one, two, strict=True)]
     return np.stack(np.meshgrid(*steps, indexing="ij"), axis=-1)

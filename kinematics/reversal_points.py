@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import minimum_filter
 
 from strutwork.kinematics.drive_fields import DriveField
 from strutwork.kinematics.zero_lines import zero_lines
@@ -27,8 +28,15 @@ FLAT = 1e-6
 #: Gradient at which a point counts as singular, as a share of the largest on the patch.
 ZERO = 1e-9
 
-#: Steps of Newton's method.
-STEPS = 60
+#: The same along a whole line of them, between whose points the line is not corrected.
+LINE = 1e-6
+
+#: Places nearer than this share of the patch are one.
+SAME = 1e-6
+
+#: Steps of Newton's method, and the last, as a share of the patch.
+STEPS = 40
+SETTLED = 1e-12
 
 #: The direction of the gradient turns by less than this between two points of a border, rad.
 TURN = 0.5
@@ -140,9 +148,13 @@ class DriveSingularities:
 
 
 def singularities(
-    field: DriveField, patch: Patch, gradient: Array, drive: int, finer: int = 2
-) -> DriveSingularities:
-    """Singular points and lines of a drive.
+    field: DriveField,
+    patch: Patch,
+    gradient: Array,
+    moving: NDArray[np.intp],
+    finer: int = 2,
+) -> tuple[DriveSingularities, ...]:
+    """Singular points and lines of drives.
 
     Started in every cell in which both derivatives change their signs, and where the gradient
     is least among its neighbours; where the index then misses some, on grids twice as fine.
@@ -151,87 +163,108 @@ def singularities(
     ----------
     field : DriveField
     patch : Patch
-    gradient : (k, l, 2)
-        Of the drive on the patch's grid.
-    drive : int
-        Its index in the field.
+    gradient : (k, l, n, 2)
+        On the patch's grid.
+    moving : (a,) of int
+        Drives that are looked at.
     finer : int
         Times that the grid is halved.
     """
-    turns = winding(field, patch, drive)
-    for _ in range(finer + 1):
-        found = _found(field, patch, gradient, drive, turns)
-        if found.complete is not False:
+    turns = windings(field, patch, moving)
+    found: dict[int, DriveSingularities] = {}
+    left = moving
+    for step in range(finer + 1):
+        found |= _found(field, patch, gradient, left, turns)
+        left = np.array([k for k in left if found[int(k)].complete is False], dtype=np.intp)
+        if not left.size or step == finer:
             break
         patch = patch.finer()
-        shape = (len(patch.u), len(patch.v), 2)
-        gradient = field.gradient(patch.points)[:, drive].reshape(shape)
-    return found
+        shape = (len(patch.u), len(patch.v), *gradient.shape[2:])
+        gradient = field.gradient(patch.points).reshape(shape)
+    return tuple(found[int(k)] for k in moving)
 
 
-def hessians(field: DriveField, patch: Patch, points: Array, drive: int) -> Array:
-    """Second derivatives of a drive's coordinate, (m, 2, 2): differences of exact gradients.
+def hessians(field: DriveField, patch: Patch, points: Array, drives: NDArray[np.intp]) -> Array:
+    """Second derivatives of a drive's coordinate at each point, (m, 2, 2).
 
-    Of the sixth order; not a number where the machine cannot take the points beside.
+    Differences of exact gradients, of the sixth order; not a number where the machine cannot
+    take the points beside.
+
+    Parameters
+    ----------
+    field : DriveField
+    patch : Patch
+    points : (m, 2)
+    drives : (m,) of int
     """
-    found = np.empty((len(points), 2, 2))
-    for k in (0, 1):
-        step = np.zeros(2)
-        step[k] = STEP * patch.span[k]
-        beside = np.concatenate([points + n * step for n in (-3, -2, -1, 1, 2, 3)])
-        g = field.gradient(beside)[:, drive].reshape(6, len(points), 2)
-        weights = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / (60.0 * step[k])
-        found[:, :, k] = np.einsum("n,nmi->mi", weights, g)
+    count = len(points)
+    steps = STEP * np.diag(patch.span)
+    counts = (-3, -2, -1, 1, 2, 3)
+    beside = np.concatenate([points + n * step for step in steps for n in counts])
+    g = _of(field, beside, np.tile(drives, 12)).reshape(2, 6, count, 2)
+    weights = np.array([-1.0, 9.0, -45.0, 45.0, -9.0, 1.0]) / 60.0
+    found = np.einsum("n,knmi->mik", weights, g) / np.diag(steps)
     return np.asarray((found + np.swapaxes(found, -1, -2)) / 2)
 
 
-def winding(field: DriveField, patch: Patch, drive: int) -> int | None:
-    """Turns of a drive's gradient along the border of the patch, counter-clockwise.
+def windings(field: DriveField, patch: Patch, moving: NDArray[np.intp]) -> dict[int, int | None]:
+    """Turns of drives' gradients along the border of the patch, counter-clockwise.
 
     None where the border leaves the reach or the gradient vanishes on it.
     """
-    span = patch.span
     way = patch.border()
-    g = field.gradient(way)[:, drive] * span
+    g = field.gradient(way)[:, moving] * patch.span
+    found: dict[int, int | None] = dict.fromkeys(moving.tolist())
     for _ in range(24):
         size = np.linalg.norm(g, axis=-1)
-        if np.isnan(g).any() or size.min() <= ZERO * size.max():
-            return None
-        angle = np.arctan2(g[:, 1], g[:, 0])
-        step = (np.diff(angle) + np.pi) % (2 * np.pi) - np.pi
-        wide = np.flatnonzero(np.abs(step) > TURN)
-        if not wide.size:
-            return round(float(step.sum()) / (2 * np.pi))
-        between = (way[wide] + way[wide + 1]) / 2
-        way = np.insert(way, wide + 1, between, axis=0)
-        g = np.insert(g, wide + 1, field.gradient(between)[:, drive] * span, axis=0)
-    return None
+        # a drive whose gradient vanishes on the border has no index there
+        sound = ~np.isnan(size).any(axis=0) & (size.min(axis=0) > ZERO * size.max(axis=0))
+        angle = np.arctan2(g[..., 1], g[..., 0])
+        step = (np.diff(angle, axis=0) + np.pi) % (2 * np.pi) - np.pi
+        wide = (np.abs(step) > TURN) & sound
+        for n, k in enumerate(moving.tolist()):
+            if sound[n] and not wide[:, n].any():
+                found[k] = round(float(step[:, n].sum()) / (2 * np.pi))
+        more = np.flatnonzero(wide.any(axis=1))
+        if not more.size:
+            break
+        between = (way[more] + way[more + 1]) / 2
+        way = np.insert(way, more + 1, between, axis=0)
+        g = np.insert(g, more + 1, field.gradient(between)[:, moving] * patch.span, axis=0)
+    return found
+
+
+def _of(field: DriveField, points: Array, drives: NDArray[np.intp]) -> Array:
+    """Gradient of one drive at each point, (m, 2)."""
+    return np.asarray(field.gradient(points)[np.arange(len(points)), drives])
 
 
 def _found(
-    field: DriveField, patch: Patch, gradient: Array, drive: int, turns: int | None
-) -> DriveSingularities:
-    name = field.drives[drive]
+    field: DriveField,
+    patch: Patch,
+    gradient: Array,
+    moving: NDArray[np.intp],
+    turns: dict[int, int | None],
+) -> dict[int, DriveSingularities]:
+    # derivatives and places count by the patch's own size
     scaled = gradient * patch.span
-    # mixed derivatives and places count by the patch's own size
-    size = float(np.nanmax(np.linalg.norm(scaled, axis=-1)))
-    places, bends = _newton(field, patch, _starts(patch, scaled), drive, size)
+    sizes = np.nanmax(np.linalg.norm(scaled, axis=-1), axis=(0, 1))
+    starts = [_starts(patch, scaled[:, :, k]) for k in moving]
+    owner = np.repeat(moving, [len(s) for s in starts])
+    places, bends, owner = _newton(field, patch, np.concatenate(starts), owner, sizes)
     own = bends * patch.span[:, None] * patch.span
     values = np.linalg.svd(own, compute_uv=False)
-    flat = values[:, 1] <= FLAT * values[:, 0] if len(values) else np.zeros(0, dtype=bool)
-    points = tuple(
-        SingularPoint(name, place, "strong" if np.linalg.det(bend) > 0 else "weak", bend)
-        for place, bend, single in zip(places, own, ~flat, strict=True)
-        if single
-    )
-    points = tuple(
-        SingularPoint(p.drive, p.place, p.kind, p.hessian / patch.span[:, None] / patch.span)
-        for p in points
-    )
-    lines: tuple[Array, ...] = ()
-    if flat.any():
-        lines = _lines(field, patch, gradient, drive, own[flat], size)
-    return DriveSingularities(name, points, lines, turns)
+    flat = values[:, 1] <= FLAT * values[:, 0]
+    found = {}
+    for k in moving.tolist():
+        name, mine = field.drives[k], owner == k
+        points = tuple(
+            SingularPoint(name, place, "strong" if np.linalg.det(bend) > 0 else "weak", bend)
+            for place, bend in zip(places[mine & ~flat], bends[mine & ~flat], strict=True)
+        )
+        lines = _lines(field, patch, gradient[:, :, k], k, own[mine & flat])
+        found[k] = DriveSingularities(name, points, lines, turns[k])
+    return found
 
 
 def _starts(patch: Patch, scaled: Array) -> Array:
@@ -239,30 +272,21 @@ def _starts(patch: Patch, scaled: Array) -> Array:
     corners = np.stack([scaled[:-1, :-1], scaled[1:, :-1], scaled[:-1, 1:], scaled[1:, 1:]])
     low, high = corners.min(axis=0), corners.max(axis=0)
     changes = np.all((low <= 0.0) & (high >= 0.0), axis=-1)
-    middles = np.stack(
-        np.meshgrid((patch.u[1:] + patch.u[:-1]) / 2, (patch.v[1:] + patch.v[:-1]) / 2, indexing="ij"),
-        axis=-1,
-    )
+    u, v = ((a[1:] + a[:-1]) / 2 for a in (patch.u, patch.v))
+    middles = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
     size = np.where(np.isnan(scaled[..., 0]), np.inf, np.linalg.norm(scaled, axis=-1))
-    ringed = np.pad(size, 1, constant_values=np.inf)
-    beside = np.stack(
-        [
-            ringed[1 + i : ringed.shape[0] - 1 + i, 1 + j : ringed.shape[1] - 1 + j]
-            for i in (-1, 0, 1)
-            for j in (-1, 0, 1)
-            if (i, j) != (0, 0)
-        ]
-    )
-    least = (size <= beside.min(axis=0)) & np.isfinite(size)
-    return np.concatenate(
-        [middles[changes], patch.points.reshape(*size.shape, 2)[least]]
-    )
+    least = (size <= minimum_filter(size, 3, mode="nearest")) & np.isfinite(size)
+    return np.concatenate([middles[changes], patch.points.reshape(*size.shape, 2)[least]])
 
 
 def _newton(
-    field: DriveField, patch: Patch, starts: Array, drive: int, size: float
-) -> tuple[Array, Array]:
-    """Zeros reached from some places, each once, and the second derivatives there."""
+    field: DriveField,
+    patch: Patch,
+    starts: Array,
+    owner: NDArray[np.intp],
+    sizes: Array,
+) -> tuple[Array, Array, NDArray[np.intp]]:
+    """Zeros reached from some places, each once, the second derivatives there, whose they are."""
     cell = np.array([np.diff(patch.u).max(), np.diff(patch.v).max()])
     places = starts.copy()
     bends = np.full((len(places), 2, 2), np.nan)
@@ -272,50 +296,49 @@ def _newton(
         i = np.flatnonzero(alive & ~settled)
         if not i.size:
             break
-        g = field.gradient(places[i])[:, drive] * patch.span
-        bend = hessians(field, patch, places[i], drive)
-        bends[i] = bend
-        own = bend * patch.span[:, None] * patch.span
+        g = _of(field, places[i], owner[i]) * patch.span
+        bends[i] = hessians(field, patch, places[i], owner[i])
+        own = bends[i] * patch.span[:, None] * patch.span
         bad = np.isnan(own).any(axis=(1, 2)) | np.isnan(g).any(axis=1)
-        own[bad] = np.eye(2)
+        own[bad], g[bad] = np.eye(2), 0.0
         # what is nearly flat is a line: go straight to it
         step = -(np.linalg.pinv(own, rcond=FLAT) @ g[..., None])[..., 0] * patch.span
-        far = np.abs(step / cell).max(axis=-1)
-        step /= np.maximum(far, 1.0)[:, None]
-        places[i] += np.where(bad[:, None], 0.0, step)
-        away = np.abs(places[i] - starts[i]).max(axis=-1) > 0
+        step /= np.maximum(np.abs(step / cell).max(axis=-1), 1.0)[:, None]
+        places[i] += step
         # a zero farther than a few cells has starts of its own
-        gone = np.any(np.abs(places[i] - starts[i]) > 6 * cell, axis=-1) & away
+        gone = np.any(np.abs(places[i] - starts[i]) > 6 * cell, axis=-1)
         alive[i[bad | gone]] = False
-        settled[i] = np.all(np.abs(step) <= 1e-13 * patch.span, axis=-1) | (
-            np.linalg.norm(g, axis=-1) <= 1e-14 * size
-        )
+        settled[i] = np.all(np.abs(step) <= SETTLED * patch.span, axis=-1)
     good = np.flatnonzero(alive & patch.inside(places))
-    rest = np.linalg.norm(field.gradient(places[good])[:, drive] * patch.span, axis=-1)
-    good = good[rest <= ZERO * size]
+    rest = np.linalg.norm(_of(field, places[good], owner[good]) * patch.span, axis=-1)
+    good = good[rest <= ZERO * sizes[owner[good]]]
     kept: list[int] = []
     for n in good:
-        if all(np.abs((places[n] - places[k]) / patch.span).max() > 1e-6 for k in kept):
+        apart = (places[n] - places[kept]) / patch.span
+        if not np.any((np.abs(apart).max(axis=-1) <= SAME) & (owner[kept] == owner[n])):
             kept.append(int(n))
-    return places[kept], bends[kept]
+    return places[kept], bends[kept], owner[kept]
 
 
 def _lines(
-    field: DriveField, patch: Patch, gradient: Array, drive: int, bends: Array, size: float
+    field: DriveField, patch: Patch, gradient: Array, drive: int, bends: Array
 ) -> tuple[Array, ...]:
     """Lines along which the whole gradient is zero."""
     lines: list[Array] = []
+    size = float(np.nanmax(np.linalg.norm(gradient * patch.span, axis=-1)))
     for bend in bends:
+        # points of a line that is known already
         _, _, right = np.linalg.svd(bend)
         across = right[0] * patch.span
 
-        def along(points: Array, across: Array = across) -> Array:
+        def along(points: Array, _: NDArray[np.intp], across: Array = across) -> Array:
             return np.asarray(field.gradient(points)[:, drive] @ across)
 
-        for line in zero_lines(along, gradient @ across, patch.u, patch.v):
+        (found,) = zero_lines(along, (gradient @ across)[..., None], patch.u, patch.v)
+        for line in found:
             rest = np.linalg.norm(field.gradient(line)[:, drive] * patch.span, axis=-1)
-            new = all(_apart(line, other, patch.span) > 1e-6 for other in lines)
-            if rest.max() <= ZERO * size * 1e3 and new:
+            new = all(_apart(line, other, patch.span) > SAME for other in lines)
+            if rest.max() <= LINE * size and new:
                 lines.append(line)
     return tuple(lines)
 

@@ -62,10 +62,7 @@ class Reversals:
     @cached_property
     def singular(self) -> tuple[DriveSingularities, ...]:
         """Singular points and lines of every drive that moves."""
-        return tuple(
-            singularities(self.field, self.patch, self.gradient[:, :, k], int(k))
-            for k in self.moving
-        )
+        return singularities(self.field, self.patch, self.gradient, self.moving)
 
     def signs(self, feed: ArrayLike) -> NDArray[np.int8]:
         """Of the drives' speeds along a feed direction (2,) at the grid's points, (k, l, n).
@@ -84,19 +81,15 @@ class Reversals:
         values = self.gradient @ way
         size = np.nanmax(np.abs(values), axis=(0, 1), initial=0.0)
         whole = np.nanmax(np.abs(self.gradient), axis=(0, 1, 3), initial=0.0)
-        found: dict[str, list[Array]] = {}
-        for k in self.moving:
-            # what rounding leaves of a drive that the feed does not move has signs as well
-            if size[k] <= STILL * whole[k]:
-                continue
+        # what rounding leaves of a drive that the feed does not move has signs as well
+        moved = np.array([k for k in self.moving if size[k] > STILL * whole[k]], dtype=np.intp)
 
-            def speed(points: Array, k: int = int(k)) -> Array:
-                return np.asarray(self.field.gradient(points)[:, k] @ way)
+        def speed(points: Array, which: NDArray[np.intp]) -> Array:
+            along = self.field.gradient(points) @ way
+            return np.asarray(along[np.arange(len(points)), moved[which]])
 
-            found[self.field.drives[k]] = zero_lines(
-                speed, values[..., k], self.patch.u, self.patch.v
-            )
-        return found
+        found = zero_lines(speed, values[..., moved], self.patch.u, self.patch.v)
+        return {self.field.drives[k]: lines for k, lines in zip(moved, found, strict=True)}
 
     def cones(self, point: ArrayLike) -> tuple[Array, NDArray[np.int8]]:
         """Cones of directions without a reversal at a point (2,): `sectors` of its gradients.

@@ -9,23 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
-Function = Callable[[Array], Array]
+
+#: Values (m,) of the functions of these numbers (m,) at points (m, 2).
+Functions = Callable[[Array, NDArray[np.intp]], Array]
 
 #: Width at which a root is found, as a share of its bracket.
 WIDTH = 1e-12
 
 
-def roots_between(
-    function: Callable[[Array, NDArray[np.intp]], Array], low: Array, high: Array
-) -> Array:
+def roots_between(functions: Functions, low: Array, high: Array) -> Array:
     """A root on each of some straight ways, between ends at which the signs differ.
 
     By Chandrupatla's method, which never leaves the bracket.
 
     Parameters
     ----------
-    function : callable
-        Value (m,) at points (m, 2) on the ways of these numbers (m,).
+    functions : callable
+        One for every way.
     low, high : (r, 2)
 
     Returns
@@ -41,7 +41,7 @@ def roots_between(
 
     def along(share: Array, number: Array) -> Array:
         k = number.astype(np.intp)
-        return function(low[k] + share[:, None] * (high[k] - low[k]), k)
+        return functions(low[k] + share[:, None] * (high[k] - low[k]), k)
 
     count = len(low)
     found = find_root(
@@ -53,37 +53,47 @@ def roots_between(
     return np.asarray(low + np.asarray(found.x)[:, None] * (high - low))
 
 
-def zero_lines(function: Function, values: Array, u: Array, v: Array) -> list[Array]:
-    """Lines of zeros over a grid.
+def zero_lines(functions: Functions, values: Array, u: Array, v: Array) -> list[list[Array]]:
+    """Lines of zeros of some functions over a grid.
 
     Parameters
     ----------
-    function : callable
-        Value (m,) at points (m, 2).
-    values : (k, l)
-        At the grid's points; not a number where there is none.
+    functions : callable
+    values : (k, l, n)
+        Of every function at the grid's points; not a number where there is none.
     u, v : (k,), (l,)
         Ascending.
 
     Returns
     -------
-    list of (c, 2)
-        Points where the lines cross the sides of the cells, to 1e-12 of a side. A closed line
-        ends with its first point. What comes and goes within one cell is not seen.
+    list of list of (c, 2)
+        For each function the points where its lines cross the sides of the cells, to 1e-12 of a
+        side. A closed line ends with its first point. What comes and goes within one cell is not
+        seen.
     """
-    sides, corners = _sides(values)
-    if not len(sides):
-        return []
     place = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1).reshape(-1, 2)
+    each = [_sides(values[..., k]) for k in range(values.shape[-1])]
+    counts = [len(sides) for sides, _ in each]
+    # all at once: a function of a machine is dear by the call
+    corners = np.concatenate([c for _, c in each]) if each else np.zeros((0, 2), dtype=np.intp)
+    owner = np.repeat(np.arange(len(each)), counts)
     points = roots_between(
-        lambda p, _: function(p), place[corners[:, 0]], place[corners[:, 1]]
+        lambda p, i: functions(p, owner[i]), place[corners[:, 0]], place[corners[:, 1]]
     )
-    known = {key: n for n, key in enumerate(sides)}
-    links: dict[int, list[int]] = {n: [] for n in range(len(sides))}
-    for one, other in _within(function, values, u, v, known):
-        links[one].append(other)
-        links[other].append(one)
-    return [points[way] for way in _ways(links)]
+    parts = np.split(points, np.cumsum(counts)[:-1]) if each else []
+    found = []
+    for number, ((sides, _), some) in enumerate(zip(each, parts, strict=True)):
+        known = {key: n for n, key in enumerate(sides)}
+        links: dict[int, list[int]] = {n: [] for n in range(len(sides))}
+
+        def one(p: Array, number: int = number) -> Array:
+            return functions(p, np.full(len(p), number))
+
+        for first, second in _within(one, values[..., number], u, v, known):
+            links[first].append(second)
+            links[second].append(first)
+        found.append([some[way] for way in _ways(links)])
+    return found
 
 
 Side = tuple[int, int, int]
@@ -107,7 +117,7 @@ def _sides(values: Array) -> tuple[list[Side], NDArray[np.intp]]:
 
 
 def _within(
-    function: Function, values: Array, u: Array, v: Array, known: dict[Side, int]
+    function: Callable[[Array], Array], values: Array, u: Array, v: Array, known: dict[Side, int]
 ) -> list[tuple[int, int]]:
     """Pairs of crossings that a line joins within a cell."""
     cells: dict[tuple[int, int], list[int]] = {}
