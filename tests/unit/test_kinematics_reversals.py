@@ -368,15 +368,16 @@ def test_reach_goes_round_no_extremum() -> None:
             axis=1,
         ),
     )
-    axis = np.linspace(-1, 1, 21)
-    found = reversals(field, axis, axis)
-    seen = found.reach((15, 10))
-    u, v = np.meshgrid(axis, axis, indexing="ij")
-    lost = (np.abs(v) < 0.5 - 1e-9) & (u < -1e-9)
-    assert not seen[lost].any()
-    # all the rest can be reached; beside the circle the grid's steps are too coarse
-    clear = ~lost & (np.abs(np.hypot(u, v) - 0.5) > 0.1)
-    assert seen[clear].mean() > 0.95
+    shares = []
+    for half in (10, 20):
+        axis = np.linspace(-1, 1, 2 * half + 1)
+        seen = reversals(field, axis, axis).reach((3 * half // 2, half))
+        u, v = np.meshgrid(axis, axis, indexing="ij")
+        lost = (np.abs(v) < 0.5 - 1e-9) & (u < -1e-9)
+        assert not seen[lost].any()
+        shares.append(float(seen[~lost].mean()))
+    # all the rest can be reached: where the way is narrow, along the circle, by a finer grid
+    assert 0.75 < shares[0] < shares[1] - 0.02
 
 
 def test_reversals_along_a_path_and_the_longest_clear_one() -> None:
