@@ -75,7 +75,7 @@ def test_apparent_joint_model_is_another(strutwork: Program) -> None:
 
 @pytest.mark.parametrize(
     ("machine", "expected"),
-    [("hexapod", "not in the catalogue"), ("model.toml", "one configuration")],
+    [("hexapod", "not in the catalogue"), ("model.toml", "does not exist")],
 )
 def test_no_machine_of_the_catalogue(machine: str, expected: str, strutwork: Program) -> None:
     run = strutwork("map", machine, "--json")
