@@ -377,7 +377,7 @@ def test_reach_goes_round_no_extremum() -> None:
         assert not seen[lost].any()
         shares.append(float(seen[~lost].mean()))
     # all the rest can be reached: where the way is narrow, along the circle, by a finer grid
-    assert 0.75 < shares[0] < shares[1] - 0.02
+    assert 0.7 < shares[0] < shares[1] - 0.02
 
 
 def test_reversals_along_a_path_and_the_longest_clear_one() -> None:
