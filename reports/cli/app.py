@@ -13,6 +13,7 @@ import typer
 
 from strutwork import __version__
 from strutwork.names import visible
+from strutwork.reports.cli.accuracy_command import accuracy
 from strutwork.reports.cli.choices import (
     JointAt,
     Json,
@@ -315,6 +316,7 @@ def scale(
     work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
+app.command()(accuracy)
 app.command()(move)
 app.command()(new)
 
