@@ -13,6 +13,7 @@ import typer
 
 from strutwork import __version__
 from strutwork.names import visible
+from strutwork.reports.cli.accuracy_command import accuracy
 from strutwork.reports.cli.choices import (
     JointAt,
     Json,
@@ -323,6 +324,7 @@ def scale(
     study(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
+app.command()(accuracy)
 app.command()(move)
 app.command()(new)
 app.command()(singularities)
