@@ -9,7 +9,9 @@ from typing import Any
 from strutwork.machines.model import Model
 from strutwork.names import visible
 from strutwork.reports.chapters import (
+    accuracy,
     motion,
+    singularities,
     workspace_assembly,
     workspace_stiffness,
     workspace_vibration,
@@ -100,6 +102,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: check_chapter(s.check),
     ),
     _module(motion),
+    _module(singularities),
     Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
     Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),
     _module(workspace_stiffness),
@@ -119,6 +122,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: tolerance_chapter(s.model, s.tolerances),
     ),
     _module(workspace_assembly),
+    _module(accuracy),
 )
 
 
