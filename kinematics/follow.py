@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -45,12 +45,15 @@ class Follower:
     fixed : mapping of direction to float
     step : (d,)
         How far a next pose may lie, m and rad.
+    told : callable, optional
+        How many poses of how many have been walked to.
     """
 
     motion: Motion
     directions: Sequence[str]
     fixed: Mapping[str, float]
     step: Array
+    told: Callable[[int, int], None] | None = None
     points: Array = field(init=False)
     bodies: BodyPoses = field(init=False)
     coordinates: Array = field(init=False)
@@ -95,6 +98,8 @@ class Follower:
                 coordinates[some] = walk.coordinates
                 number = [_number(reasons, text) for text in walk.reasons]
                 status[some] = np.array([0, *number], dtype=np.int8)[walk.status]
+                if self.told is not None:
+                    self.told(int(np.count_nonzero(tried)), count)
             got = turn[status[turn] == 0]
             self._keep(points[got], bodies[got], coordinates[got], distance[got])
         return self._placement(bodies, coordinates, status, tuple(reasons))

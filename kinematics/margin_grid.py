@@ -136,6 +136,7 @@ def margin_grid(
     margin: MarginFunction,
     *,
     halvings: int = HALVINGS,
+    at_once: bool = False,
     told: Told | None = None,
 ) -> MarginGrid:
     """Ask a margin at every point of a grid and find the border on every edge that crosses it.
@@ -151,6 +152,8 @@ def margin_grid(
     margin : callable
         From points (p, d) to their `Margins`.
     halvings : int
+    at_once : bool
+        Whether the margin wants all points of the grid together.
     told : callable, optional
 
     Raises
@@ -160,7 +163,8 @@ def margin_grid(
     """
     check_axes(directions, axes)
     shape = tuple(len(axis) for axis in axes)
-    found = asked(margin, grid_points(axes), told)
+    points = grid_points(axes)
+    found = margin(points) if at_once else asked(margin, points, told)
     margins = Margins(found.value.reshape(shape), found.reason.reshape(shape), found.reasons)
     crossings = _crossings(axes, margins, margin, halvings)
     return MarginGrid(tuple(directions), tuple(axes), margins, crossings)

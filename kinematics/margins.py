@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.capsules import Interference
+from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.placement import Placement
 
 Array = NDArray[Any]
@@ -158,7 +159,9 @@ def placement_slacks(
         unit = half if 0.0 < half < np.inf else 1.0
         for end, slack in (("least", value - limit.low), ("most", limit.high - value)):
             bound = limit.low if end == "least" else limit.high
-            if np.isfinite(bound):
+            # an angle between two axes is never negative: zero is no end of it
+            never = end == "least" and bound == 0.0 and limit.coordinate not in DIRECTIONS
+            if np.isfinite(bound) and not never:
                 slacks[_limit_words(limit, end, bound)] = np.where(good, slack / unit, 1.0)
     if interference is not None and len(interference.pairs):
         gaps = interference.gaps(placement) / interference.reach
