@@ -14,12 +14,10 @@ from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit
+from strutwork.machines.literature import AZULAY_2014, SON_2002, Paper
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
-from strutwork.machines.published import Paper
-from strutwork.machines.published_azulay import AZULAY_2014
-from strutwork.machines.published_son import SON_2002
 from strutwork.msa.structure import Structure
 
 
@@ -50,6 +48,16 @@ class CatalogueEntry:
         Where its dimensions come from.
     factory : callable
         Makes the machine with the paper's dimensions; takes other dimensions by name.
+    report : str
+        What writes its report: given its name and what tells the progress, returns title,
+        subtitle and chapters.
+    tolerances : str
+        What makes its `strutwork.studies.TolerancedMachine`; empty where nobody has stated
+        tolerances.
+    scale : str
+        What `strutwork scale` runs; empty where no study of its size exists.
+
+    The last three are references to `papers`, see `strutwork.machines.paper_reference.resolve`.
     """
 
     name: str
@@ -57,7 +65,13 @@ class CatalogueEntry:
     topology: str
     paper: Paper
     factory: Callable[..., Machine]
+    report: str
+    tolerances: str = ""
+    scale: str = ""
 
+
+#: What compares a machine with the four of one paper.
+_COMPARED = "strutwork.papers.azulay_2014.machine_page:machine_chapters"
 
 _ENTRIES = (
     CatalogueEntry(
@@ -66,6 +80,7 @@ _ENTRIES = (
         "[P circular] [P radial] R S",
         AZULAY_2014,
         Proposed3PPRS,
+        _COMPARED,
     ),
     CatalogueEntry(
         "eclipse-3pprs",
@@ -73,21 +88,44 @@ _ENTRIES = (
         "[P circular] [P vertical] R S",
         AZULAY_2014,
         Eclipse3PPRS,
+        _COMPARED,
     ),
     CatalogueEntry(
-        "alizade-3prps", "Alizade", "[P circular] R [P along the link] S", AZULAY_2014, Alizade3PRPS
+        "alizade-3prps",
+        "Alizade",
+        "[P circular] R [P along the link] S",
+        AZULAY_2014,
+        Alizade3PRPS,
+        _COMPARED,
     ),
-    CatalogueEntry("glozman-3prrs", "Glozman", "[P circular] [R] R S", AZULAY_2014, Glozman3PRRS),
+    CatalogueEntry(
+        "glozman-3prrs", "Glozman", "[P circular] [R] R S", AZULAY_2014, Glozman3PRRS, _COMPARED
+    ),
     CatalogueEntry(
         "prototype-3ppprs",
         "Prototype 3xPPPRS, redundant and reconfigurable",
         "[P curvilinear] [P tangential] [P radial] R S",
         AZULAY_2014,
         Prototype3PPPRS,
+        "strutwork.papers.azulay_2014.prototype_page:prototype_chapters",
     ),
-    CatalogueEntry("mit-ss1", "MIT-SS-1", "planar, [P vertical] R R", SON_2002, MitSS1),
     CatalogueEntry(
-        "hexel-hexapod", "Hexel hexapod", "U [P along the leg] S", SON_2002, HexelHexapod
+        "mit-ss1",
+        "MIT-SS-1",
+        "planar, [P vertical] R R",
+        SON_2002,
+        MitSS1,
+        "strutwork.papers.son_2002.mit_ss1_page:mit_ss1_chapters",
+        "strutwork.papers.son_2002.toleranced:mit_ss1",
+        "strutwork.papers.son_2002.scale_command:run",
+    ),
+    CatalogueEntry(
+        "hexel-hexapod",
+        "Hexel hexapod",
+        "U [P along the leg] S",
+        SON_2002,
+        HexelHexapod,
+        "strutwork.papers.son_2002.hexapod_page:hexapod_chapters",
     ),
 )
 

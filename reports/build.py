@@ -11,21 +11,9 @@ from strutwork import __version__
 from strutwork.errors import ModelError
 from strutwork.reports.content import Chapter, Page
 from strutwork.reports.data_files import DataFile
-from strutwork.reports.machine_study import Teller
 from strutwork.reports.page import render
 from strutwork.reports.report_folder import PAGE, require_ours, write_set
-
-#: The comparison of the four machines of the paper.
-COMPARISON = "azulay-2014"
-
-#: A planar machine: its report is about the forces that its assembly locks in.
-PLANAR = "mit-ss1"
-
-#: A hexapod beside that machine.
-HEXAPOD = "hexel-hexapod"
-
-#: A machine of which nothing is printed to stand beside.
-PROTOTYPE = "prototype-3ppprs"
+from strutwork.studies.progress import Teller
 
 
 @dataclass(frozen=True)
@@ -53,8 +41,8 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
     Parameters
     ----------
     target : str
-        A machine of the catalogue, "azulay-2014" for the comparison of its four machines, or
-        the path of a model file.
+        A machine of the catalogue, the key of a paper that has a page of its own, or the path of
+        a model file.
     folder : Path
         Made when missing. An earlier report in it is replaced, all of it; other files stay.
     progress : callable, optional
@@ -90,25 +78,13 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
 
 def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFile, ...]]:
     from strutwork.machines.catalogue import CATALOGUE
+    from strutwork.machines.paper_reference import resolve
     from strutwork.machines.variants import MARK, is_machine
 
     make: Callable[[], tuple[str, str, tuple[Chapter, ...]]]
-    if target == COMPARISON:
-        from strutwork.reports.comparison_report import comparison_chapters
-
-        make = partial(comparison_chapters, progress)
-    elif target == PROTOTYPE:
-        from strutwork.reports.prototype_report import prototype_chapters
-
-        make = partial(prototype_chapters, progress)
-    elif target == PLANAR:
-        from strutwork.reports.mit_ss1_report import mit_ss1_chapters
-
-        make = partial(mit_ss1_chapters, progress)
-    elif target == HEXAPOD:
-        from strutwork.reports.hexapod_report import hexapod_chapters
-
-        make = partial(hexapod_chapters, progress)
+    pages = {e.paper.key: e.paper.page for e in CATALOGUE.values() if e.paper.page}
+    if target in pages:
+        make = partial(resolve(pages[target]), progress)
     elif is_machine(target) and MARK in target:
         raise ModelError(
             f"report {target}",
@@ -116,19 +92,17 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
             f"Leave the variant out: {target.partition(MARK)[0]}.",
         )
     elif target in CATALOGUE:
-        from strutwork.reports.machine_report import machine_chapters
-
-        make = partial(machine_chapters, target, progress)
+        make = partial(resolve(CATALOGUE[target].report), target, progress)
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_chapters
 
-        make = partial(model_chapters, Path(target))
+        make = partial(model_chapters, Path(target), progress)
     else:
         raise ModelError(
             f"report {target}",
             "is no machine of the catalogue and no model file.",
-            f"Machines: {', '.join(CATALOGUE)}; comparison: {COMPARISON}; or the path of a TOML "
-            "file.",
+            f"Machines: {', '.join(CATALOGUE)}; comparison: {', '.join(pages)}; or the path of a "
+            "TOML file.",
         )
     title, subtitle, chapters = make()
     footer = f"Made by Strutwork {__version__}. This page needs no network."

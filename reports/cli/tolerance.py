@@ -20,7 +20,7 @@ from strutwork.reports.cli.tolerance_limits import parsed_limits
 from strutwork.studies.dataset_files import write_netcdf
 from strutwork.studies.tolerance_result import ToleranceStudy, write_table
 from strutwork.studies.tolerance_study import StudyOptions, tolerance_study
-from strutwork.studies.toleranced_machines import toleranced_machine
+from strutwork.studies.toleranced_machine import toleranced_machine
 
 #: Quantiles that the tables show.
 SHOWN = ("0.95", "0.99")
