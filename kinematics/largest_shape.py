@@ -23,7 +23,7 @@ from strutwork.kinematics.shape_touch import ROUGH, ShapeSearch, Touch
 Array = NDArray[Any]
 
 #: Points along each side of the cube that confirms a result.
-CONFIRM = {1: 101, 2: 81, 3: 25}
+CONFIRM = {1: 101, 2: 81, 3: 21}
 #: Centres to begin at, and good points of the grid among which they are sought.
 STARTS, SEEDS = 4, 3000
 #: Renewed searches after a bad point was found.
@@ -191,9 +191,16 @@ def _confirmed(
 ) -> tuple[LargestShape, Array]:
     """A result, and the points of a fine grid over it that are bad, (k, d)."""
     shape, size = search.shape, size * (1.0 - 1e-12)
-    points = centre + size * shape.filled(CONFIRM[len(centre)])
-    margins = asked(search.margin, points)
-    if len(touch.size) and touch.size[0] <= size * (1.0 + search.accuracy):
+    inside, least = shape.filled(CONFIRM[len(centre)]), size * (1.0 - search.accuracy)
+    while True:
+        points = centre + size * inside
+        bad = points[~asked(search.margin, points).good]
+        nearest = float(shape.gauge(bad - centre).min(initial=np.inf))
+        if nearest > size * (1.0 + 1e-9) or nearest < least:
+            break
+        # within the accuracy it may shrink
+        size = nearest * (1.0 - 0.1 * search.accuracy)
+    if len(touch.size):
         critical = centre + size * touch.rays[0]
         beyond = search.margin(touch.points[:1])
         reason = beyond.reasons[int(beyond.reason[0])]
@@ -202,7 +209,7 @@ def _confirmed(
         ends = np.minimum(rim - search.low, search.high - rim).min(axis=1)
         critical, reason = rim[int(ends.argmin())], "the grid ends"
     result = LargestShape(shape, centre, size, bound, critical, reason, len(points))
-    return result, points[~margins.good]
+    return result, bad
 
 
 def _lost() -> NumericalError:

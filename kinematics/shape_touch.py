@@ -15,7 +15,7 @@ Array = NDArray[Any]
 Mask = NDArray[np.bool_]
 
 #: Rays along each side of the shape's cube, and points looked at along each.
-RAYS, ALONG = {1: 3, 2: 41, 3: 15}, 16
+RAYS, ALONG = {1: 3, 2: 41, 3: 11}, 12
 #: Places that are looked at more closely, how far apart, and how much farther than the nearest.
 CLOSELY, APART, FARTHER = 10, 0.25, 1.15
 #: Steps of the centre from one start.

@@ -30,6 +30,7 @@ from strutwork.reports.cli.new_command import new
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
+from strutwork.reports.cli.workspace_command import workspace
 
 app = typer.Typer(
     name="strutwork",
@@ -319,6 +320,7 @@ def scale(
 
 
 app.command()(move)
+app.command()(workspace)
 app.command()(new)
 
 
