@@ -33,6 +33,7 @@ from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.trajectory_command import trajectory
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
+from strutwork.reports.cli.workspace_command import workspace
 
 app = typer.Typer(
     name="strutwork",
@@ -326,6 +327,7 @@ def scale(
 
 app.command()(accuracy)
 app.command()(move)
+app.command()(workspace)
 app.command()(new)
 app.command()(singularities)
 app.command()(trajectory)
