@@ -25,6 +25,7 @@ from strutwork.kinematics.singularities import (
     Singularity,
     end_kinds,
     local_minima,
+    ordered_ends,
     singular_pose,
     singular_poses,
 )
@@ -164,7 +165,7 @@ def singularities_in_plane(
             curves += _zero_lines(family, signed.reshape(shape), (x, y), part, centre)
             values = signed[inner]
             changed = inner[values[:, 0] * values[:, 1] < 0.0]
-        low = local_minima(looked, inner, changed, part)
+        low = local_minima(looked, edges, changed, part)
         if low.size:
             refined = refine_least(family, parameters[low], spacing, part)
             points += _apart(singular_poses(family, refined), curves, points, (x, y))
@@ -234,9 +235,8 @@ def _border(
     mask = looked.reach.reshape(len(axes[0]), len(axes[1]))
     result = []
     for start, end in _outlines(np.where(mask, 1.0, -1.0)):
-        inside = mask[start[:, 0], start[:, 1], None]
-        a, b = np.where(inside, start, end), np.where(inside, end, start)
-        ends = reach_ends(family, _at(axes, a), _at(axes, b))
+        flat = np.stack([k[:, 0] * mask.shape[1] + k[:, 1] for k in (start, end)], axis=1)
+        ends = reach_ends(family, *ordered_ends(looked, flat))
         found = end_kinds(family, ends)
         for run in _runs([k.value for k in found]):
             points = ends.parameters[run]

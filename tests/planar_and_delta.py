@@ -88,10 +88,10 @@ class Gliders:
         )
 
 
-def biglide() -> Gliders:
-    """Rails along x and y through the origin, rods of 1 m."""
+def biglide(turning: str = "revolute") -> Gliders:
+    """Rails along x and y through the origin, rods of 1 m; "spherical" makes rods that spin."""
     rails = np.eye(3)[:2]
-    return Gliders(rails, np.zeros((2, 3)), np.zeros((2, 3)), 1.0, "xy", "revolute")
+    return Gliders(rails, np.zeros((2, 3)), np.zeros((2, 3)), 1.0, "xy", turning)
 
 
 def linear_delta(rod: float, reach: float) -> Gliders:
