@@ -73,9 +73,7 @@ def reach_ends(
         rest = np.flatnonzero(~turned)
         if not rest.size or section is None:
             break
-        low[rest], high[rest], why[rest] = _halved(
-            family, low[rest], high[rest], times, why[rest]
-        )
+        low[rest], high[rest], why[rest] = _halved(family, low[rest], high[rest], times, why[rest])
         # what a range alone forbids is no end of the way
         ends = np.ones(len(rest), dtype=bool)
         if not own:
@@ -90,9 +88,7 @@ def reach_ends(
     rest = np.flatnonzero(~turned)
     if rest.size:
         times = (OWN if own else ALL) - (HALVINGS if section is not None else 0)
-        low[rest], high[rest], why[rest] = _halved(
-            family, low[rest], high[rest], times, why[rest]
-        )
+        low[rest], high[rest], why[rest] = _halved(family, low[rest], high[rest], times, why[rest])
     placement = family.place(low)
     low[turned] = exact[turned]
     for at, placed in placements:

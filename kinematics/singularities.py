@@ -18,7 +18,6 @@ from strutwork.kinematics.reach_end import ReachEnds, reach_ends
 from strutwork.kinematics.singularity_search import (
     Part,
     Refined,
-    has_minor,
     least,
     refine_least,
     refine_zeros,
@@ -26,7 +25,6 @@ from strutwork.kinematics.singularity_search import (
 )
 from strutwork.kinematics.tool_drive_space import (
     Freedoms,
-    ToolDriveSpace,
     tool_drive_space,
 )
 
@@ -265,9 +263,7 @@ def singular_poses(family: PoseFamily, refined: Refined) -> list[Singularity]:
     return result
 
 
-def ordered_ends(
-    looked: Looked, edges: NDArray[np.intp]
-) -> tuple[Array, Array, tuple[str, ...]]:
+def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array, tuple[str, ...]]:
     """Of edges with one end in reach: parameters there, of the other, and why that is not."""
     inside = np.where(looked.reach[edges[:, 0]], edges[:, 0], edges[:, 1])
     outside = edges.sum(axis=1) - inside

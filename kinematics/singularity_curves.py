@@ -222,9 +222,7 @@ def _zero_lines(
             closed = len(run) == len(start) and np.array_equal(start[0], start[-1])
             at = _nearest(refined.parameters[run], axes, home)
             one = singular_poses(family, refined[run[at : at + 1]])[0]
-            result.append(
-                SingularCurve(refined.parameters[run], one.kind, False, closed, one)
-            )
+            result.append(SingularCurve(refined.parameters[run], one.kind, False, closed, one))
     return result
 
 
@@ -295,14 +293,14 @@ def _apart(
     """Single poses within the plane that lie on no curve and were not found before."""
     low, high = (np.array([f(a) for a in axes]) for f in (np.min, np.max))
     spacing = (high - low) / [len(a) - 1 for a in axes]
-    known = [c.points for c in curves] + [
-        np.array([list(p.parameters.values())]) for p in points
-    ]
+    known = [c.points for c in curves] + [np.array([list(p.parameters.values())]) for p in points]
     result: list[Singularity] = []
     for one in found:
         here = np.array(list(one.parameters.values()))
         inside = np.all((here >= low) & (here <= high))
-        if inside and all(np.abs((k - here) / spacing).max(axis=1).min() > 1.0 for k in known if len(k)):
+        if inside and all(
+            np.abs((k - here) / spacing).max(axis=1).min() > 1.0 for k in known if len(k)
+        ):
             result.append(one)
             known.append(here[None])
     return result

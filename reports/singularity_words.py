@@ -179,5 +179,7 @@ def _csv(names: tuple[str, ...], others: tuple[str, ...], rows: list[tuple[Any, 
         shown = [
             repr(float(degrees(v) if t else 1e3 * v)) for v, t in zip(row, turns, strict=False)
         ]
-        writer.writerow([*shown, *(repr(v) if isinstance(v, float) else v for v in row[len(names):])])
+        writer.writerow(
+            [*shown, *(repr(v) if isinstance(v, float) else v for v in row[len(names) :])]
+        )
     return text.getvalue()

@@ -38,7 +38,9 @@ class Gliders:
     def __init__(
         self, rails: Array, origins: Array, seats: Array, rod: float, slides: str, turning: str
     ) -> None:
-        self.rails, self.origins, self.seats = (np.asarray(a, float) for a in (rails, origins, seats))
+        self.rails, self.origins, self.seats = (
+            np.asarray(a, float) for a in (rails, origins, seats)
+        )
         self.rod, self.slides, self.turning = rod, slides, turning
 
     @cached_property

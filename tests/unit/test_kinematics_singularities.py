@@ -101,10 +101,12 @@ def test_a_parallelogram_branches_where_it_is_flat() -> None:
 
 
 def three_sliders() -> tuple[Linkage, PoseFamily]:
-    """A plate in a plane on three equal rods, whose sliders run along x; rods parallel at rz = 0."""
+    """A plate in a plane on three equal rods, sliders along x; rods parallel at rz = 0."""
     seats = np.array([[-0.2, 0.0, 0.0], [0.2, 0.05, 0.0], [0.0, 0.2, 0.0]])
     legs = (1, 2, 3)
-    nodes = tuple(f"{n}{i}" for i in legs for n in ("rail", "slider", "foot", "root", "end", "seat"))
+    nodes = tuple(
+        f"{n}{i}" for i in legs for n in ("rail", "slider", "foot", "root", "end", "seat")
+    )
     bodies = [Body(GROUND, ("rail1", "rail2", "rail3", "table"))]
     joints = []
     for i in legs:
@@ -154,7 +156,7 @@ def test_a_motion_that_goes_on_at_held_drives_is_degenerate() -> None:
 
 
 def test_poses_are_classified_where_they_stand() -> None:
-    """On its circle both sliders of the biglide stand at the origin: the tool goes round at rest."""
+    """On its circle both sliders of the biglide stand at the origin: the tool goes round."""
     machine = biglide()
     known = tool_drive_space(machine.linkage, machine.place(np.array([[0.1, 0.2, 0.0]]))).known
     half = np.sqrt(0.5)
@@ -237,6 +239,7 @@ def test_bad_input_is_named() -> None:
         singularities_on_line(moving_biglide(("x",)), [0.0])
     with pytest.raises(ModelError, match="names x twice"):
         TaskSection.of(family.section.motion, ("x",), {"x": 1.0})  # type: ignore[union-attr]
+    machine = biglide()
+    placement = machine.place(np.array([[0.1, 0.2, 0.0]]))
     with pytest.raises(ModelError, match="characteristic length"):
-        machine = biglide()
-        tool_drive_space(machine.linkage, machine.place(np.array([[0.1, 0.2, 0.0]])), -1.0)
+        tool_drive_space(machine.linkage, placement, -1.0)
