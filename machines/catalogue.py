@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import radians
 from types import MappingProxyType
 from typing import Protocol
 
@@ -57,7 +58,11 @@ class CatalogueEntry:
     scale : str
         What `strutwork scale` runs; empty where no study of its size exists.
 
-    The last three are references to `papers`, see `strutwork.machines.paper_reference.resolve`.
+    around_home : mapping of direction to (float, int)
+        What its maps and report look over, where nothing else is asked: so far to either side of
+        home, m or rad, in so many points. Our choice, not its paper's.
+
+    The three before are references to `papers`, see `strutwork.machines.paper_reference.resolve`.
     """
 
     name: str
@@ -68,10 +73,14 @@ class CatalogueEntry:
     report: str
     tolerances: str = ""
     scale: str = ""
+    around_home: Mapping[str, tuple[float, int]] = field(default_factory=dict)
 
 
 #: What compares a machine with the four of one paper.
 _COMPARED = "strutwork.papers.azulay_2014.machine_page:machine_chapters"
+
+#: Upright poses about home: within the ring on which these machines are singular.
+_UPRIGHT: Mapping[str, tuple[float, int]] = {"x": (0.02, 5), "y": (0.02, 5), "z": (0.01, 3)}
 
 _ENTRIES = (
     CatalogueEntry(
@@ -81,6 +90,7 @@ _ENTRIES = (
         AZULAY_2014,
         Proposed3PPRS,
         _COMPARED,
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
         "eclipse-3pprs",
@@ -89,6 +99,7 @@ _ENTRIES = (
         AZULAY_2014,
         Eclipse3PPRS,
         _COMPARED,
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
         "alizade-3prps",
@@ -97,9 +108,16 @@ _ENTRIES = (
         AZULAY_2014,
         Alizade3PRPS,
         _COMPARED,
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
-        "glozman-3prrs", "Glozman", "[P circular] [R] R S", AZULAY_2014, Glozman3PRRS, _COMPARED
+        "glozman-3prrs",
+        "Glozman",
+        "[P circular] [R] R S",
+        AZULAY_2014,
+        Glozman3PRRS,
+        _COMPARED,
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
         "prototype-3ppprs",
@@ -108,6 +126,7 @@ _ENTRIES = (
         AZULAY_2014,
         Prototype3PPPRS,
         "strutwork.papers.azulay_2014.prototype_page:prototype_chapters",
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
         "mit-ss1",
@@ -118,6 +137,7 @@ _ENTRIES = (
         "strutwork.papers.son_2002.mit_ss1_page:mit_ss1_chapters",
         "strutwork.papers.son_2002.toleranced:mit_ss1",
         "strutwork.papers.son_2002.scale_command:run",
+        {"x": (0.1, 9), "ry": (radians(20.0), 9)},
     ),
     CatalogueEntry(
         "hexel-hexapod",
@@ -126,6 +146,7 @@ _ENTRIES = (
         SON_2002,
         HexelHexapod,
         "strutwork.papers.son_2002.hexapod_page:hexapod_chapters",
+        around_home={"x": (0.15, 7), "y": (0.15, 7), "z": (0.1, 3)},
     ),
 )
 

@@ -13,6 +13,7 @@ import typer
 
 from strutwork import __version__
 from strutwork.names import visible
+from strutwork.reports.cli.accuracy_command import accuracy
 from strutwork.reports.cli.choices import (
     JointAt,
     Json,
@@ -32,6 +33,7 @@ from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.trajectory_command import trajectory
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
+from strutwork.reports.cli.workspace_command import workspace
 
 app = typer.Typer(
     name="strutwork",
@@ -245,6 +247,8 @@ def compare(
 @app.command()
 def tolerance(
     target: Target,
+    pose: Pose = None,
+    joint: JointAt = None,
     limit: Annotated[
         list[str] | None,
         typer.Option(
@@ -280,6 +284,7 @@ def tolerance(
     if quantile is not None and allocation is None:
         raise typer.BadParameter("--quantile belongs to --allocate.")
     from strutwork.reports.cli import tolerance as work
+    from strutwork.reports.cli.subject import where
     from strutwork.studies.tolerance_study import StudyOptions
 
     options = StudyOptions(
@@ -289,7 +294,7 @@ def tolerance(
         objective=None if allocation is None else allocation.value,
         quantile=quantile,
     )
-    work.run(target, limit or (), options, out, json=json)
+    work.run(target, limit or (), options, out, at=where(pose, joint), json=json)
 
 
 @app.command()
@@ -320,7 +325,9 @@ def scale(
     study(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
+app.command()(accuracy)
 app.command()(move)
+app.command()(workspace)
 app.command()(new)
 app.command()(singularities)
 app.command()(trajectory)
@@ -332,6 +339,8 @@ def report(
         str,
         typer.Argument(metavar="TARGET", help="A machine, a paper's key or a FILE."),
     ],
+    pose: Pose = None,
+    joint: JointAt = None,
     out: Annotated[
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
@@ -344,10 +353,11 @@ def report(
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
     from strutwork.reports.cli import report as work
+    from strutwork.reports.cli.subject import where
 
     if verify:
         if out is not None:
             raise typer.BadParameter("--verify writes nothing: leave --out out.")
         work.verify(target, json)
         return
-    work.run(target, out, json)
+    work.run(target, out, json, where(pose, joint))
