@@ -25,6 +25,7 @@ from strutwork.kinematics.singularities import (
     Singularity,
     end_kinds,
     local_minima,
+    ordered_ends,
     singular_pose,
     singular_poses,
 )
@@ -164,7 +165,7 @@ def singularities_in_plane(
             curves += _zero_lines(family, signed.reshape(shape), (x, y), part, centre)
             values = signed[inner]
             changed = inner[values[:, 0] * values[:, 1] < 0.0]
-        low = local_minima(looked, inner, changed, part)
+        low = local_minima(looked, edges, changed, part)
         if low.size:
             refined = refine_least(family, parameters[low], spacing, part)
             points += _apart(singular_poses(family, refined), curves, points, (x, y))
@@ -221,9 +222,7 @@ def _zero_lines(
             closed = len(run) == len(start) and np.array_equal(start[0], start[-1])
             at = _nearest(refined.parameters[run], axes, home)
             one = singular_poses(family, refined[run[at : at + 1]])[0]
-            result.append(
-                SingularCurve(refined.parameters[run], one.kind, False, closed, one)
-            )
+            result.append(SingularCurve(refined.parameters[run], one.kind, False, closed, one))
     return result
 
 
@@ -234,9 +233,8 @@ def _border(
     mask = looked.reach.reshape(len(axes[0]), len(axes[1]))
     result = []
     for start, end in _outlines(np.where(mask, 1.0, -1.0)):
-        inside = mask[start[:, 0], start[:, 1], None]
-        a, b = np.where(inside, start, end), np.where(inside, end, start)
-        ends = reach_ends(family, _at(axes, a), _at(axes, b))
+        flat = np.stack([k[:, 0] * mask.shape[1] + k[:, 1] for k in (start, end)], axis=1)
+        ends = reach_ends(family, *ordered_ends(looked, flat))
         found = end_kinds(family, ends)
         for run in _runs([k.value for k in found]):
             points = ends.parameters[run]
@@ -295,14 +293,14 @@ def _apart(
     """Single poses within the plane that lie on no curve and were not found before."""
     low, high = (np.array([f(a) for a in axes]) for f in (np.min, np.max))
     spacing = (high - low) / [len(a) - 1 for a in axes]
-    known = [c.points for c in curves] + [
-        np.array([list(p.parameters.values())]) for p in points
-    ]
+    known = [c.points for c in curves] + [np.array([list(p.parameters.values())]) for p in points]
     result: list[Singularity] = []
     for one in found:
         here = np.array(list(one.parameters.values()))
         inside = np.all((here >= low) & (here <= high))
-        if inside and all(np.abs((k - here) / spacing).max(axis=1).min() > 1.0 for k in known if len(k)):
+        if inside and all(
+            np.abs((k - here) / spacing).max(axis=1).min() > 1.0 for k in known if len(k)
+        ):
             result.append(one)
             known.append(here[None])
     return result
