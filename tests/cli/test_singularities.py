@@ -58,7 +58,8 @@ def test_curves_over_a_plane(strutwork: Program, tmp_path: Path) -> None:
     assert (curve["kind"], curve["type"], curve["closed"]) == ("actuator", 2, False)
     assert found["poses"] == found["reached"] == 121
     assert found["edges_missed"] == 0
-    rows = list(csv.DictReader(Path(found["data"][0]).open(encoding="utf-8")))
+    with Path(found["data"][0]).open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
     assert len(rows) == curve["points"] >= 11
     # the machine is its own mirror image: rx at ry and −ry
     place = {round(float(r["ry, deg"]), 9): float(r["rx, deg"]) for r in rows}
