@@ -98,9 +98,7 @@ def test_a_model_file_ends_in_a_stretched_leg(strutwork: Program) -> None:
         (("--line", "z=5..9m",), "no pose of the 101 can be taken"),
     ],
 )  # fmt: skip
-def test_wrong_lines_and_planes(
-    strutwork: Program, arguments: tuple[str, ...], said: str
-) -> None:
+def test_wrong_lines_and_planes(strutwork: Program, arguments: tuple[str, ...], said: str) -> None:
     run = strutwork("singularities", "hexel-hexapod", *arguments)
     assert run.status == 1
     assert said in run.err
