@@ -12,7 +12,6 @@ from strutwork.kinematics.leg_chains import leg_paths
 from strutwork.kinematics.rows import characteristic_length
 
 Array = NDArray[Any]
-Ints = NDArray[np.int64]
 
 #: Least singular value of a leg's rates at home, as a share of the largest, from which Newton's
 #: method can start.
@@ -21,64 +20,55 @@ REGULAR = 1e-6
 MOST_LEGS = 40
 
 
+#: Of a leg: range of its joints; how many coordinates are solved for, all or those before the
+#: ball at its end; whether it is passed from the tool's body on, and whether a ball ends it.
+LEG = np.dtype([(name, np.int64) for name in ("start", "stop", "unknowns", "from_tool", "ball")])
+
+#: Of a joint that is passed: 1 where that is from its first node to its second, else −1; its
+#: index; the moving body beyond it, −1 for the ground; free translations; number of free
+#: rotations and, of one or two, their axes, 0 to 2; coordinate of each free direction, else −1.
+#: At home: its axes in those of the joint before, and the place of its near node there, from
+#: that joint's far node, m; its far node, m, and its axes.
+STEP = np.dtype(
+    [
+        ("sign", float),
+        ("joint", np.int64),
+        ("body", np.int64),
+        ("slides", np.int64, (3,)),
+        ("turns", np.int64),
+        ("first", np.int64),
+        ("second", np.int64),
+        ("column", np.int64, (6,)),
+        ("onward", float, (3, 3)),
+        ("offset", float, (3,)),
+        ("far", float, (3,)),
+        ("frame", float, (3, 3)),
+    ],
+    align=True,
+)
+
+
 class LegSystem(NamedTuple):
-    """Legs in the order in which each is passed, one entry a joint that is passed, s in all.
+    """Legs, and their joints in the order in which each leg is passed.
 
     A leg is passed from the ground to the tool's body, or from there to the ground where only
     its joint at the ground turns in all ways: a ball at the end needs to meet its place alone.
 
     Parameters
     ----------
-    start : (l + 1,)
-        Range of each leg's joints.
-    unknowns : (l,)
-        Coordinates that are solved for: all, or those before the ball at the end.
-    from_tool, ball : (l,)
-        1 where the leg is passed from the tool's body; 1 where a ball ends it.
-    joint : (s,)
-    sign : (s,)
-        1 where the joint is passed from its first node to its second, else −1.
-    body : (s,)
-        Moving body beyond the joint, −1 for the ground.
-    slides : (s, 3)
-        1 for a free translation.
-    turns : (s,)
-        Free rotations.
-    first, second : (s,)
-        Axis, 0 to 2, of the first and of the second of one or two free rotations.
-    column : (s, 6)
-        Coordinate of each free direction, else −1.
-    onward : (s, 3, 3)
-        From the joint passed before, or from the leg's beginning, to this joint's axes, at home.
-    offset : (s, 3)
-        From that joint's far node to this one's near node, in that joint's axes, m.
-    far : (s, 3)
-        Far node at home, m.
-    frame : (s, 3, 3)
-        Joint axes at home.
+    legs : (l,) of `LEG`
+    steps : (s,) of `STEP`
+        The joints of all legs, leg by leg.
     reference : (b, 3)
         Reference points of the bodies at home, m.
     platform : int
+        The tool's body.
     length : float
         By which angles are made comparable, m.
     """
 
-    start: Ints
-    unknowns: Ints
-    from_tool: Ints
-    ball: Ints
-    joint: Ints
-    sign: Array
-    body: Ints
-    slides: Ints
-    turns: Ints
-    first: Ints
-    second: Ints
-    column: Ints
-    onward: Array
-    offset: Array
-    far: Array
-    frame: Array
+    legs: Array
+    steps: Array
     reference: Array
     platform: int
     length: float
@@ -100,32 +90,18 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
     passed = [_Leg(joints, free, path) for path in paths]
     if any(leg.freedoms > 6 for leg in passed):
         return None
-    column = np.full(free.shape, -1, dtype=np.int64)
-    column[free] = np.arange(int(free.sum()))
-    steps = [step for leg in passed for step in leg.steps]
-    index = np.array([j for j, _ in steps], dtype=np.int64)
-    turning = free[index, 3:]
-    axes = [_axes(turns) for turns in turning]
+    stop = np.cumsum([len(leg.steps) for leg in passed])
+    legs = np.zeros(len(passed), LEG)
+    legs["start"], legs["stop"] = [0, *stop[:-1]], stop
+    for k, leg in enumerate(passed):
+        legs[k]["unknowns"] = leg.freedoms - 3 * leg.ball
+        legs[k]["from_tool"], legs[k]["ball"] = leg.from_tool, leg.ball
     system = LegSystem(
-        start=np.cumsum([0, *(len(leg.steps) for leg in passed)], dtype=np.int64),
-        unknowns=np.array([leg.freedoms - 3 * leg.ball for leg in passed], dtype=np.int64),
-        from_tool=np.array([leg.from_tool for leg in passed], dtype=np.int64),
-        ball=np.array([leg.ball for leg in passed], dtype=np.int64),
-        joint=index,
-        sign=np.array([sign for _, sign in steps], dtype=float),
-        body=np.array([b for leg in passed for b in leg.bodies], dtype=np.int64),
-        slides=free[index, :3].astype(np.int64),
-        turns=turning.sum(axis=1).astype(np.int64),
-        first=np.array([e for e, _ in axes], dtype=np.int64),
-        second=np.array([f for _, f in axes], dtype=np.int64),
-        column=column[index],
-        onward=np.concatenate([leg.onward for leg in passed]),
-        offset=np.concatenate([leg.offset for leg in passed]),
-        far=np.concatenate([leg.far for leg in passed]),
-        frame=np.ascontiguousarray(joints.home.frames[index], dtype=float),
-        reference=np.ascontiguousarray(joints.start(1).position[0], dtype=float),
-        platform=linkage.tool_body,
-        length=characteristic_length(joints.home),
+        legs,
+        np.concatenate([leg.packed(joints, free) for leg in passed]),
+        np.ascontiguousarray(joints.start(1).position[0], dtype=float),
+        linkage.tool_body,
+        characteristic_length(joints.home),
     )
     return system if _regular(system) else None
 
@@ -140,18 +116,30 @@ class _Leg:
         self.from_tool = int(balls[0] and not balls[-1])
         self.ball = int(balls[0] or balls[-1])
         self.steps = [(j, -s) for j, s in reversed(path)] if self.from_tool else path
-        nodes = joints.nodes
-        owner = linkage.body_of_node
-        far = [int(nodes[j, 1 if s > 0 else 0]) for j, s in self.steps]
-        near = [int(nodes[j, 0 if s > 0 else 1]) for j, s in self.steps]
-        self.bodies = [int(owner[n]) for n in far]
-        self.far = np.asarray(home.positions[far], dtype=float)
-        axes = np.concatenate([np.eye(3)[None], home.frames[[j for j, _ in self.steps]]])
+
+    def packed(self, joints: JointMotion, free: Array) -> Array:
+        """The leg's joints, (s,) of `STEP`."""
+        home, owner = joints.home, joints.linkage.body_of_node
+        column = np.full(free.shape, -1, dtype=np.int64)
+        column[free] = np.arange(int(free.sum()))
+        far = [int(joints.nodes[j, 1 if sign > 0 else 0]) for j, sign in self.steps]
+        near = [int(joints.nodes[j, 0 if sign > 0 else 1]) for j, sign in self.steps]
+        index = [j for j, _ in self.steps]
+        axes = np.concatenate([np.eye(3)[None], home.frames[index]])
         places = np.concatenate([np.zeros((1, 3)), home.positions[far]])
         before = np.swapaxes(axes[:-1], -1, -2)
-        self.onward = before @ axes[1:]
+        turning = [_axes(free[j, 3:]) for j in index]
+        steps = np.zeros(len(index), STEP)
+        steps["sign"] = [sign for _, sign in self.steps]
+        steps["joint"], steps["body"] = index, owner[far]
+        steps["slides"], steps["turns"] = free[index, :3], free[index, 3:].sum(axis=1)
+        steps["first"], steps["second"] = zip(*turning, strict=True)
+        steps["column"] = column[index]
+        steps["onward"] = before @ axes[1:]
         apart = home.positions[near] - places[:-1]
-        self.offset = (before @ apart[..., None])[..., 0]
+        steps["offset"] = (before @ apart[..., None])[..., 0]
+        steps["far"], steps["frame"] = home.positions[far], home.frames[index]
+        return steps
 
 
 def _axes(turns: Array) -> tuple[int, int]:
@@ -168,7 +156,7 @@ def _regular(system: LegSystem) -> bool:
     """Whether the rates of each leg at home are independent."""
     from strutwork.kinematics.leg_newton import home_rates  # noqa: PLC0415 - numba is slow to import
 
-    for leg in range(len(system.unknowns)):
+    for leg in range(len(system.legs)):
         values = np.linalg.svd(home_rates(system, leg), compute_uv=False)
         if values.size and values[-1] < REGULAR * values[0]:
             return False

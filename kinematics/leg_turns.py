@@ -8,19 +8,20 @@ from strutwork.jit import jit
 
 
 @jit()
-def turn_about(axes, i, e, angle):  # type: ignore[no-untyped-def]
-    """Turn the frame `axes[i]` about its own axis e."""
-    f, g = (e + 1) % 3, (e + 2) % 3
+def turn_about(axes, e, angle):  # type: ignore[no-untyped-def]
+    """Turn a frame about its own axis e."""
+    f = e + 1 if e < 2 else 0
+    g = f + 1 if f < 2 else 0
     c, s = np.cos(angle), np.sin(angle)
     for r in range(3):
-        x, y = axes[i, r, f], axes[i, r, g]
-        axes[i, r, f] = c * x + s * y
-        axes[i, r, g] = c * y - s * x
+        x, y = axes[r, f], axes[r, g]
+        axes[r, f] = c * x + s * y
+        axes[r, g] = c * y - s * x
 
 
 @jit()
-def turn_by_vector(matrix, i, x, y, z, work):  # type: ignore[no-untyped-def]
-    """Turn the rotation `matrix[i]` from the left about a vector by its length (Rodrigues)."""
+def turn_by_vector(matrix, x, y, z):  # type: ignore[no-untyped-def]
+    """Turn a rotation from the left about a vector by its length (Rodrigues)."""
     square = x * x + y * y + z * z
     if square < 1e-8:
         s, c = 1.0 - square / 6.0, 0.5 - square / 24.0
@@ -28,18 +29,14 @@ def turn_by_vector(matrix, i, x, y, z, work):  # type: ignore[no-untyped-def]
         t = np.sqrt(square)
         s, half = np.sin(t) / t, np.sin(0.5 * t)
         c = 2.0 * half * half / square
-    a, b, d = matrix[i, 0, 0], matrix[i, 0, 1], matrix[i, 0, 2]
+    rest = 1.0 - c * square
     for k in range(3):
-        a, b, d = matrix[i, 0, k], matrix[i, 1, k], matrix[i, 2, k]
+        a, b, d = matrix[0, k], matrix[1, k], matrix[2, k]
         along = c * (x * a + y * b + z * d)
-        # R v = v + s (w × v) + c (w (w·v) − |w|² v)
-        rest = 1.0 - c * square
-        work[0, k] = rest * a + s * (y * d - z * b) + along * x
-        work[1, k] = rest * b + s * (z * a - x * d) + along * y
-        work[2, k] = rest * d + s * (x * b - y * a) + along * z
-    for r in range(3):
-        for k in range(3):
-            matrix[i, r, k] = work[r, k]
+        # R v = (1 − c |w|²) v + s (w × v) + c (w·v) w
+        matrix[0, k] = rest * a + s * (y * d - z * b) + along * x
+        matrix[1, k] = rest * b + s * (z * a - x * d) + along * y
+        matrix[2, k] = rest * d + s * (x * b - y * a) + along * z
 
 
 @jit()

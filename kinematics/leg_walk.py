@@ -11,12 +11,23 @@ from strutwork.kinematics.given import Given
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.leg_system import LegSystem
 from strutwork.kinematics.turns import rotation_vector
-from strutwork.kinematics.walk import CLOSED, ELSE, FARTHEST, MOST, ROUNDING, SHORTEST, SHRINK
+from strutwork.kinematics.walk import (
+    CLOSED,
+    CORRECTIONS,
+    ELSE,
+    FARTHEST,
+    MOST,
+    ROUNDING,
+    SHORTEST,
+    SHRINK,
+)
 
 Array = NDArray[Any]
 
 #: Correction after which a closed leg is believed: the next is its square.
 BELIEVED = 1e-6
+#: The same for points on the way, and the gap that they may keep.
+ROUGHLY, ROUGH = 1e-2, 1e-6
 
 ENDS = (
     "out of reach: on the way the leg of {} comes to the end of its working mode",
@@ -57,10 +68,10 @@ class LegWalk:
         assert given.start is not None  # noqa: S101
         work = workspace(system)
         start = np.ascontiguousarray(given.start.position, dtype=float)
-        signs = np.zeros(len(system.unknowns))
-        home_signs(system, signs, start, work)
-        turn = given.tool.rotation[poses] @ self.rotation.T
-        kept = tuple(np.zeros_like(state) for state in work[:3])
+        signs = np.zeros(len(system.legs))
+        home_signs(system, signs, work[0], work[2])
+        turn = np.ascontiguousarray(given.tool.rotation[poses] @ self.rotation.T)
+        place = np.ascontiguousarray(given.tool.position[poses], dtype=float)
         count = len(poses)
         position = np.empty((count, len(system.reference), 3))
         rotation = np.empty((count, len(system.reference), 3, 3))
@@ -70,15 +81,15 @@ class LegWalk:
         walk_legs(
             system,
             start,
-            np.ascontiguousarray(given.tool.position[poses], dtype=float),
-            np.ascontiguousarray(rotation_vector(turn)),
-            np.ascontiguousarray(turn),
+            (place, np.ascontiguousarray(rotation_vector(turn)), turn),
             signs,
-            (SHRINK, FARTHEST, CLOSED, ROUNDING, BELIEVED, ELSE * CLOSED),
-            SHORTEST,
-            MOST,
+            (
+                (SHRINK, FARTHEST, CLOSED, ROUNDING, BELIEVED, ELSE * CLOSED, CORRECTIONS),
+                (SHRINK, FARTHEST, ROUGH, ROUNDING, ROUGHLY, ELSE * CLOSED, CORRECTIONS),
+                SHORTEST,
+                MOST,
+            ),
             work,
-            kept,
             (position, rotation, coordinates, share, gap, steps, ended, which),
         )
         self.bodies.position[poses], self.bodies.rotation[poses] = position, rotation
@@ -89,8 +100,8 @@ class LegWalk:
 
     def _end(self, at: NDArray[np.intp], kind: int, leg: int) -> None:
         system = self.system
-        steps = system.joint[system.start[leg] : system.start[leg + 1]]
-        names = [self.joints.linkage.joints[j].name for j in steps]
+        steps = system.steps[system.legs["start"][leg] : system.legs["stop"][leg]]
+        names = [self.joints.linkage.joints[j].name for j in steps["joint"]]
         reason = ENDS[kind - 1].format(
             " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
         )
