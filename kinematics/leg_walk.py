@@ -98,6 +98,10 @@ class LegWalk:
         for kind, leg in sorted(set(zip(ended[ended > 0], which[ended > 0], strict=True))):
             self._end(poses[(ended == kind) & (which == leg)], int(kind), int(leg))
 
+    def placed(self) -> tuple[Array, Array]:
+        """Node positions and joint frames, (p, n, 3) and (p, j, 3, 3)."""
+        return self.joints.place_compiled(self.bodies)
+
     def _end(self, at: NDArray[np.intp], kind: int, leg: int) -> None:
         system = self.system
         steps = system.steps[system.legs["start"][leg] : system.legs["stop"][leg]]

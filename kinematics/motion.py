@@ -226,7 +226,7 @@ class Motion:
     def _moved(self, walk: Walk | LegWalk, wanted: Given) -> Moved:
         batch = wanted.batch
         bodies: BodyPoses = walk.bodies
-        positions, frames, _ = self.joints.place(bodies)
+        positions, frames = walk.placed()
         values = walk.coordinates + self.home_values
         placement = Placement(
             positions.reshape(*batch, *positions.shape[1:]),
