@@ -86,7 +86,9 @@ class JointMotion:
             [[index[n] for n in j.between] for j in self.linkage.joints], dtype=np.intp
         ).reshape(-1, 2)
         sliding = self.sliding
-        used = np.bincount(found.ravel(), minlength=len(self.linkage.nodes))
+        others = np.ones(len(found), dtype=bool)
+        others[self._clamps(found)] = False
+        used = np.bincount(found[others].ravel(), minlength=len(self.linkage.nodes))
         for j in np.flatnonzero(sliding):
             joint, node = self.linkage.joints[j], self.linkage.nodes[found[j, 0]]
             if used[found[j, 0]] > 1:
@@ -96,6 +98,16 @@ class JointMotion:
                     "Give each sliding joint a node of its own on the body along which it slides.",
                 )
         return found
+
+    def _clamps(self, nodes: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Joints that clamp a sliding node to a ground node of its own: it may be anywhere."""
+        owner = self.linkage.body_of_node
+        slides = np.zeros(len(owner), dtype=bool)
+        slides[nodes[self.sliding, 0]] = True
+        used = np.bincount(nodes.ravel(), minlength=len(owner))
+        ground = nodes[:, 0]
+        clamp = self.held.all(axis=1) & slides[nodes[:, 1]]
+        return np.flatnonzero(clamp & (owner[ground] < 0) & (used[ground] == 1))
 
     @cached_property
     def sliding(self) -> Mask:
@@ -144,6 +156,8 @@ class JointMotion:
         gaps = positions[:, b_] - positions[:, a]
         moved = np.flatnonzero(self.sliding)
         positions[:, a[moved]] = positions[:, b_[moved]]
+        clamps = self._clamps(self.nodes)
+        positions[:, a[clamps]] = positions[:, b_[clamps]]
         return positions, frames, gaps
 
     def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from strutwork.errors import ModelError
@@ -33,7 +34,8 @@ def load(name: str | Path) -> Model:
     if is_machine(text):
         found = named_machine(text)
         return machine_model(found.machine, found.title)
-    if Path(text).suffix != ".toml" and not Path(text).exists():
+    path = Path(text)
+    if path.suffix != ".toml" and path.name == text and not os.path.lexists(path):
         raise ModelError(
             text,
             "is no machine of the catalogue and no model file.",

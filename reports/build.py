@@ -122,7 +122,7 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_chapters
 
-        make = partial(model_chapters, Path(target))
+        make = partial(model_chapters, Path(target), progress)
     else:
         raise ModelError(
             f"report {target}",

@@ -41,12 +41,15 @@ class Fact:
     unit : str
     detail : str
         Second line, smaller.
+    link : str
+        Key of the chapter that says more; empty for none.
     """
 
     label: str
     value: str
     unit: str = ""
     detail: str = ""
+    link: str = ""
 
 
 @dataclass(frozen=True)

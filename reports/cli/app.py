@@ -26,6 +26,7 @@ from strutwork.reports.cli.choices import (
 )
 from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
 from strutwork.reports.cli.move_command import move
+from strutwork.reports.cli.new_command import new
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
@@ -369,6 +370,7 @@ def scale(
 
 
 app.command()(move)
+app.command()(new)
 
 
 @app.command()

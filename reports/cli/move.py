@@ -14,12 +14,12 @@ from strutwork.machines.limits import check_limits
 from strutwork.machines.moving import Moving, moving
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, print_table
+from strutwork.reports.cli.subject import where
 from strutwork.reports.motion_table import (
     Coordinate,
     moved_columns,
     moved_csv,
     read_targets,
-    targets_of_words,
 )
 
 
@@ -35,13 +35,8 @@ def run(
     """Move, and print where everything stands."""
     if targets is not None and (pose or joint):
         raise ModelError("move", "is given a file of targets and others.", "Give one or the other.")
-    tool, joints = targets_of_words(pose, "--pose"), targets_of_words(joint, "--joint")
-    for owner, direction in tool:
-        if owner:
-            raise ModelError(
-                "--pose", f"names the joint {owner}:{direction}.", "Use --joint for it."
-            )
-    wanted: dict[Coordinate, Any] = {**tool, **joints}
+    at = where(pose, joint)
+    wanted: dict[Coordinate, Any] = {**{("", d): v for d, v in at.task.items()}, **at.joints}
     if targets is not None:
         wanted |= read_targets(Path(targets))
     subject = moving(name)

@@ -35,7 +35,7 @@ def work(file, json):
 
 import strutwork.reports.cli.check
 strutwork.reports.cli.check.run = work
-sys.argv = ["strutwork", "check", "model.toml"]
+sys.argv = ["strutwork", "check", "mit-ss1"]
 program.main()
 """
 

@@ -1,0 +1,80 @@
+"""How far the joints move over the workspace."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from strutwork.reports.content import Block, Chapter, Column, Note, Table, Text
+from strutwork.reports.numbers import significant
+from strutwork.reports.subject import Subject
+from strutwork.reports.survey_words import grid_text
+
+KEY = "motion"
+TITLE = "How far do its joints move?"
+
+
+def missing(subject: Subject) -> str:
+    """Why there is nothing to say; empty where there is."""
+    return subject.unmoved
+
+
+def write(subject: Subject) -> Chapter:
+    """Range of every joint coordinate over the workspace beside its limits."""
+    found, model = subject.stiffness_survey, subject.model
+    names = model.motion.joints.names
+    values = found["joint_coordinate"].to_numpy().reshape(-1, len(names))
+    home = model.motion.home_values
+    driven = set(model.structure.linkage.driven)
+    limits = {(limit.joint, limit.coordinate): limit for limit in model.limits}
+    rows = []
+    for k, (joint, direction) in enumerate(names):
+        turns = direction.startswith("r")
+        factor, unit = (degrees(1.0), "deg") if turns else (1e3, "mm")
+        span = factor * values[:, k]
+        limit = limits.get((joint, direction))
+        rows.append(
+            [
+                f"{joint}:{direction}",
+                "drive" if (joint, direction) in driven else "passive",
+                unit,
+                *(
+                    significant(round(float(v), 6), 4)
+                    for v in (factor * home[k], np.nanmin(span), np.nanmax(span))
+                ),
+                "none" if limit is None else _span(factor * limit.low, factor * limit.high),
+            ]
+        )
+    rows.sort(key=lambda row: row[1])
+    columns = (
+        Column("joint coordinate", "", False),
+        Column("", "", False),
+        Column("unit", "", False),
+        Column("home"),
+        Column("least"),
+        Column("largest"),
+        Column("limits", "", False),
+    )
+    blocks: list[Block] = [
+        Text(
+            f"Over the reachable ones of {grid_text(subject.grid)}, by the joints alone: no "
+            "formula of the machine is needed. Turns are counted on along the way from home; a "
+            "spherical joint's three are the components of its rotation vector."
+        ),
+        Table("Joint coordinates", columns, rows, "stiffness-survey.nc"),
+    ]
+    free = found.attrs["poses"] - found.attrs["poses_kept"]
+    if free:
+        blocks.append(
+            Note(
+                f"{free} of {found.attrs['poses']} poses do not count; the chapter on stiffness "
+                "over the workspace says why. Those outside a joint's limits alone are in the "
+                "ranges above."
+            )
+        )
+    return Chapter(KEY, TITLE, tuple(blocks))
+
+
+def _span(low: float, high: float) -> str:
+    return f"{significant(low, 4)} to {significant(high, 4)}"

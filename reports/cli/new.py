@@ -1,0 +1,32 @@
+"""`strutwork new`: a commented model file to start from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from strutwork.errors import ModelError
+from strutwork.files import write_text
+from strutwork.machines.model_templates import template
+from strutwork.names import visible
+from strutwork.reports.cli.output import console, print_json
+
+
+def run(name: str, like: str, *, json: bool) -> None:
+    """Write NAME.toml, and say what to do with it."""
+    path = Path(name if name.endswith(".toml") else f"{name}.toml")
+    text = template(like, path.stem)
+    if path.exists():
+        raise ModelError(str(path), "exists.", "Give another name, or move the file away.")
+    write_text(path, text)
+    if json:
+        print_json({"data": [str(path)]})
+        return
+    out = console()
+    out.print(f"Written: {visible(str(path))}", markup=False, soft_wrap=True)
+    for what, command in (
+        ("look at it", "check"),
+        ("move it", "move"),
+        ("all about it", "report"),
+    ):
+        line = f"  strutwork {command} {visible(str(path))}"
+        out.print(f"{line:40} {what}", markup=False, soft_wrap=True)

@@ -1,0 +1,189 @@
+"""The report of any machine: the chapters that apply, in a reader's order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from strutwork.machines.model import Model
+from strutwork.names import visible
+from strutwork.reports.chapters import (
+    motion,
+    workspace_assembly,
+    workspace_stiffness,
+    workspace_vibration,
+)
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.cover import cover_facts
+from strutwork.reports.chapters.model import check_chapter, structure_chapter, summary_chapter
+from strutwork.reports.chapters.model_loads import forces_chapter, loads_chapter
+from strutwork.reports.chapters.model_tool import budget_chapter, tool_chapter
+from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
+from strutwork.reports.chapters.vibration import vibration_chapter
+from strutwork.reports.content import Chapter, Facts, Points, Text
+from strutwork.reports.subject import Subject, Teller
+
+NO_TOOL = "it has no tool: add [tool] with tcp"
+
+
+@dataclass(frozen=True)
+class Offered:
+    """A chapter, and when it applies.
+
+    Parameters
+    ----------
+    key, title : str
+    missing : callable
+        Why a subject has no such chapter; empty where it has.
+    write : callable
+    """
+
+    key: str
+    title: str
+    missing: Callable[[Subject], str]
+    write: Callable[[Subject], Chapter]
+
+
+def _always(_: Subject) -> str:
+    return ""
+
+
+def _needs_cases(subject: Subject) -> str:
+    return "" if subject.model.cases else "there is no load case: add [[loads]] or gravity"
+
+
+def _needs_tool(subject: Subject) -> str:
+    return "" if subject.model.tool is not None else NO_TOOL
+
+
+def _needs_stiffness(subject: Subject) -> str:
+    if subject.model.tool is None:
+        return NO_TOOL
+    solution = subject.solution
+    moves = solution is None or solution.compliance is None
+    return "the tool moves freely" if moves else ""
+
+
+def _needs_tolerances(subject: Subject) -> str:
+    return "" if subject.model.tolerances else "no tolerances are given: add [[tolerances]]"
+
+
+def _needs_vibration(subject: Subject) -> str:
+    return (
+        "" if subject.vibrates else "vibration needs mass and damping: add densities and [damping]"
+    )
+
+
+def _solved(write: Callable[[Any], Chapter]) -> Callable[[Subject], Chapter]:
+    return lambda subject: write(subject.solution)
+
+
+def _module(chapter: Any) -> Offered:
+    return Offered(chapter.KEY, chapter.TITLE, chapter.missing, chapter.write)
+
+
+#: What a report can say, in a reader's order; the cover stands before.
+CHAPTERS: tuple[Offered, ...] = (
+    Offered("structure", "What is it made of?", _always, lambda s: structure_chapter(s.model)),
+    Offered(
+        "check",
+        "Can it move, and is anything held twice?",
+        _always,
+        lambda s: check_chapter(s.check),
+    ),
+    _module(motion),
+    Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
+    Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),
+    _module(workspace_stiffness),
+    Offered("loads", "How does it bend under its loads?", _needs_cases, _solved(loads_chapter)),
+    Offered("forces", "What do its joints and beams carry?", _needs_cases, _solved(forces_chapter)),
+    Offered(
+        "vibration",
+        "How does it vibrate at home?",
+        _needs_vibration,
+        lambda s: vibration_chapter(s.vibration),
+    ),
+    _module(workspace_vibration),
+    Offered(
+        "tolerances",
+        "Which forces do manufacturing errors lock in?",
+        _needs_tolerances,
+        lambda s: tolerance_chapter(s.model, s.tolerances),
+    ),
+    _module(workspace_assembly),
+)
+
+
+def chapters_of(
+    subject: Subject, offered: Sequence[Offered] = CHAPTERS
+) -> tuple[tuple[Chapter, ...], tuple[tuple[str, str], ...]]:
+    """Chapters that apply, the cover first, and for the others title and reason.
+
+    Raises
+    ------
+    StrutworkError
+        The structure moves freely under its loads, or another answer cannot be found.
+    """
+    written: list[Chapter] = []
+    left: list[tuple[str, str]] = []
+    for one in offered:
+        reason = one.missing(subject)
+        if reason:
+            left.append((one.title, reason))
+        else:
+            written.append(replace(one.write(subject), key=one.key, title=one.title))
+    return (_cover(subject), *written), tuple(left)
+
+
+def report_of(
+    model: Model, name: str, stem: str, subtitle: str, progress: Teller | None = None
+) -> tuple[str, str, tuple[Chapter, ...]]:
+    """Title, subtitle and chapters of a machine's report.
+
+    Parameters
+    ----------
+    model : Model
+    name : str
+        As the report was asked for.
+    stem : str
+        For a title, where the model has none.
+    subtitle : str
+    progress : callable, optional
+
+    Raises
+    ------
+    StrutworkError
+        The model is wrong, or moves freely under its loads.
+    """
+    subject = Subject(model, name, stem, progress)
+    chapters, left = chapters_of(subject)
+    if left:
+        lines = tuple(f"{title} {reason[0].upper()}{reason[1:]}." for title, reason in left)
+        absent = Chapter(
+            "absent", "What is not here", (Text("Questions that have no answer:"), Points(lines))
+        )
+        chapters = (*chapters, absent)
+    shown = visible(name)
+    settings = {"model": shown}
+    if subject.solution is not None:
+        settings["solver"] = subject.solution.statics.method
+    closing = closing_chapter(shown, settings, _content(subject), chapters)
+    return subject.title, subtitle, (*chapters, closing)
+
+
+def _cover(subject: Subject) -> Chapter:
+    plain = summary_chapter(subject.model, subject.check, subject.solution)
+    text, facts = plain.blocks[0], plain.blocks[1:]
+    answers = cover_facts(subject)
+    return replace(plain, blocks=(text, *([Facts(answers)] if answers else []), *facts))
+
+
+def _content(subject: Subject) -> dict[str, Any]:
+    """The tables' numbers, SI."""
+    content: dict[str, Any] = {"title": subject.model.title}
+    if subject.model.tolerances:
+        content["tolerances"] = subject.tolerances.to_dict()
+    if subject.vibrates:
+        content["vibration"] = subject.vibration.to_dict()
+    return content

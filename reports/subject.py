@@ -1,0 +1,149 @@
+"""What a report is about: a machine, and its answers, each found when a chapter first asks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import xarray as xr
+
+from strutwork.errors import ModelError, StrutworkError
+from strutwork.fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.model import Model
+from strutwork.names import visible
+from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
+from strutwork.reports.model_check import ModelCheck, check_model
+from strutwork.reports.model_damping import model_damping
+from strutwork.reports.model_solution import ModelSolution, solve_model
+from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
+from strutwork.studies.answers import Assembly, Stiffness, Vibration
+from strutwork.studies.progress import Progress, silent
+from strutwork.studies.survey import survey
+
+Teller = Callable[[str], Progress]
+
+#: Frequencies that the vibration over the workspace lists.
+LISTED = 3
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A machine and its lazily found results.
+
+    Parameters
+    ----------
+    model : Model
+    name : str
+        As the report was asked for.
+    stem : str
+        For a title, where the model has none.
+    progress : callable, optional
+        Given the name of a part of the work, returns what is told how far it is.
+    """
+
+    model: Model
+    name: str
+    stem: str
+    progress: Teller | None = None
+
+    def __repr__(self) -> str:
+        return f"<Subject {self.name}: {self.model!r}>"
+
+    @property
+    def title(self) -> str:
+        """Of the page."""
+        return visible(self.model.title or self.stem, lines=True)
+
+    @cached_property
+    def check(self) -> ModelCheck:
+        """Mobility, redundancy, mass."""
+        return check_model(self.model)
+
+    @cached_property
+    def solution(self) -> ModelSolution | None:
+        """Load cases and the tool at home; None where there is neither."""
+        asked = self.model.cases or self.model.tool is not None
+        return solve_model(self.model) if asked else None
+
+    @cached_property
+    def tolerances(self) -> ModelTolerances:
+        """Assembly forces at home."""
+        return study_model_tolerances(self.model)
+
+    @property
+    def vibrates(self) -> bool:
+        """Whether it has mass and damping."""
+        return self.model.damping is not None and has_mass(self.model)
+
+    @cached_property
+    def vibration(self) -> VibrationStudy:
+        """Modes and responses at home."""
+        return study_model_vibration(self.model, "vibration")
+
+    @property
+    def grid(self) -> TaskGrid:
+        """Its workspace.
+
+        Raises
+        ------
+        ModelError
+            None is given.
+        """
+        if self.model.workspace is None:
+            raise ModelError("workspace", "is not given.", "Add a table [workspace].")
+        return self.model.workspace
+
+    @cached_property
+    def unmoved(self) -> str:
+        """Why there is nothing over a workspace; empty where there is."""
+        if self.model.tool is None:
+            return "it has no tool: add [tool] with tcp"
+        if self.model.workspace is None:
+            return "the file names no poses to look at: add [workspace] with ranges of the tool"
+        try:
+            _ = self.stiffness_survey
+        except StrutworkError as error:
+            return visible(str(error).replace("\n", " ")).rstrip(".")
+        return ""
+
+    @cached_property
+    def stiffness_survey(self) -> xr.Dataset:
+        """Static stiffness over the workspace."""
+        return survey(
+            self.model,
+            self.grid,
+            [Stiffness()],
+            progress=self._told("stiffness over the workspace"),
+        )
+
+    @property
+    def batch_damping(self) -> Damping | None:
+        """Damping that a survey takes; None where dashpots act or none is given."""
+        found = model_damping(self.model) if self.model.damping is not None else None
+        return found if isinstance(found, ModalRatio | LossFactor | Rayleigh) else None
+
+    @cached_property
+    def vibration_survey(self) -> xr.Dataset:
+        """Frequencies and least dynamic stiffness over the workspace, without preload."""
+        damping = self.batch_damping
+        if damping is None:
+            raise ModelError("damping", "is that of single joints.", "Give [damping].")
+        answer = Vibration(self.model.require_tool(), damping, self.vibration.band, LISTED)
+        return survey(
+            self.model, self.grid, [answer], progress=self._told("vibration over the workspace")
+        )
+
+    @cached_property
+    def assembly_survey(self) -> xr.Dataset:
+        """Worst case of assembly forces over the workspace."""
+        return survey(
+            self.model,
+            self.grid,
+            [Assembly.of(self.model)],
+            progress=self._told("assembly forces over the workspace"),
+        )
+
+    def _told(self, part: str) -> Progress:
+        return silent if self.progress is None else self.progress(part)

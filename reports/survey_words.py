@@ -1,0 +1,88 @@
+"""Poses of a survey in words, and its extremes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.reports.numbers import MINUS
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """Where a quantity of a survey is largest or least.
+
+    Parameters
+    ----------
+    value : float
+    index : tuple of int
+        Into the grid.
+    task : dict of direction to float
+        m and rad.
+    """
+
+    value: float
+    index: tuple[int, ...]
+    task: dict[str, float]
+
+    @property
+    def where(self) -> str:
+        """`x 20, y −10 mm, rz 5°`."""
+        return pose_text(self.task)
+
+
+def axes_of(found: xr.Dataset) -> dict[str, Array]:
+    """Values along each direction of a survey's grid."""
+    dims = found["status"].dims
+    return {str(d): found[d].to_numpy() for d in DIRECTIONS if d in dims}
+
+
+def least(found: xr.Dataset, values: Array) -> Extreme:
+    """The least of an array over the grid; NaN where no pose counts."""
+    return _extreme(found, values, int(np.nanargmin(values)))
+
+
+def largest(found: xr.Dataset, values: Array) -> Extreme:
+    """The largest of an array over the grid."""
+    return _extreme(found, values, int(np.nanargmax(values)))
+
+
+def _extreme(found: xr.Dataset, values: Array, flat: int) -> Extreme:
+    index = tuple(int(i) for i in np.unravel_index(flat, values.shape))
+    axes = axes_of(found)
+    task = {d: float(v[i]) for (d, v), i in zip(axes.items(), index, strict=True)}
+    return Extreme(float(values[index]), index, task)
+
+
+def pose_text(task: dict[str, float]) -> str:
+    """Task coordinates in mm and degrees, in words."""
+    words = []
+    for name, value in task.items():
+        turns = name.startswith("r")
+        words.append(f"{name} {_number(name, value)}{'°' if turns else ' mm'}")
+    return ", ".join(words)
+
+
+def grid_text(grid: TaskGrid) -> str:
+    """Ranges of a grid in words."""
+    words = []
+    for name, values in grid.axes.items():
+        turns = name.startswith("r")
+        low, high = (_number(name, float(v)) for v in (values[0], values[-1]))
+        words.append(f"{name} from {low} to {high} {'°' if turns else 'mm'} in {len(values)}")
+    return f"{len(grid)} poses: {', '.join(words)}"
+
+
+def _number(name: str, value: float) -> str:
+    """A coordinate in mm or degrees, as somebody would write it."""
+    shown = round(degrees(value) if name.startswith("r") else 1e3 * value, 3)
+    return f"{shown + 0.0:g}".replace("-", MINUS)

@@ -1,0 +1,70 @@
+"""A survey as CSV: one line a pose."""
+
+from __future__ import annotations
+
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from strutwork.csv_rows import RowWriter
+from strutwork.files import write_whole
+from strutwork.kinematics import DIRECTIONS
+from strutwork.studies.filters import PoseStatus
+
+
+def write_survey(path: Path, found: xr.Dataset) -> Path:
+    """Write a survey, one row a pose, units in the header.
+
+    Flags and reasons stand in words; numbers that are missing are empty.
+
+    Raises
+    ------
+    OutputError
+        The file cannot be written.
+    """
+    dims = [str(d) for d in found["status"].dims]
+    grids = np.meshgrid(*(found[d].to_numpy() for d in dims), indexing="ij")
+    columns: dict[str, list[Any]] = {
+        f"{d}, {'rad' if d.startswith('r') else 'm'}": g.ravel().tolist()
+        for d, g in zip(dims, grids, strict=True)
+    }
+    words = {int(s): s.word for s in PoseStatus}
+    columns["status"] = [words[int(s)] for s in found["status"].to_numpy().ravel()]
+    texts = [str(t) for t in found["reason_text"].to_numpy()]
+    columns["reason"] = [texts[int(i)] for i in found["reason"].to_numpy().ravel()]
+    for name, variable in found.data_vars.items():
+        if name in ("status", "reason"):
+            continue
+        extra = [str(d) for d in variable.dims if d not in dims]
+        labels = [[str(v) for v in found[d].to_numpy()] for d in extra]
+        values = variable.to_numpy().reshape(len(columns["status"]), -1)
+        for k, parts in enumerate(product(*labels)):
+            head = " ".join([str(name), *parts])
+            columns[f"{head}, {_unit(str(variable.attrs.get('units', '')), parts)}"] = [
+                "" if np.isnan(v) else repr(float(v)) for v in values[:, k]
+            ]
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+            writer = RowWriter(file)
+            writer.writerow(list(columns))
+            writer.writerows(zip(*columns.values(), strict=True))
+
+    return write_whole(Path(path), write)
+
+
+def _unit(units: str, labels: tuple[str, ...]) -> str:
+    """The unit of one column of a variable whose columns have two."""
+    if units.startswith("N/m for x y z"):
+        return "N m/rad" if labels[-1].startswith("r") else "N/m"
+    if units == "m or rad":
+        return "rad" if labels[-1].rpartition(":")[2] in DIRECTIONS[3:] else "m"
+    if units == "N, N m, m or rad":
+        last = labels[-1]
+        if last.startswith("tool "):
+            return "rad" if "rotation" in last else "m"
+        return "N" if last.endswith("force") else "N m"
+    return units
