@@ -16,6 +16,9 @@ from strutwork.reports.numbers import MINUS
 
 Array = NDArray[Any]
 
+#: Values of a survey that differ by this share are the same.
+TIE = 1e-9
+
 
 @dataclass(frozen=True)
 class Extreme:
@@ -48,15 +51,18 @@ def axes_of(found: xr.Dataset) -> dict[str, Array]:
 
 def least(found: xr.Dataset, values: Array) -> Extreme:
     """The least of an array over the grid; NaN where no pose counts."""
-    return _extreme(found, values, int(np.nanargmin(values)))
+    return _extreme(found, values, float(np.nanmin(values)))
 
 
 def largest(found: xr.Dataset, values: Array) -> Extreme:
     """The largest of an array over the grid."""
-    return _extreme(found, values, int(np.nanargmax(values)))
+    return _extreme(found, values, float(np.nanmax(values)))
 
 
-def _extreme(found: xr.Dataset, values: Array, flat: int) -> Extreme:
+def _extreme(found: xr.Dataset, values: Array, value: float) -> Extreme:
+    # of poses that differ by rounding, as a symmetric machine's, the first
+    near = np.abs(values - value) <= TIE * abs(value)
+    flat = int(np.argmax(near))
     index = tuple(int(i) for i in np.unravel_index(flat, values.shape))
     axes = axes_of(found)
     task = {d: float(v[i]) for (d, v), i in zip(axes.items(), index, strict=True)}

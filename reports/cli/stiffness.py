@@ -8,7 +8,6 @@ from typing import Any
 
 import xarray as xr
 
-from strutwork.errors import ModelError
 from strutwork.machines import GridMachine, Machine, NamedMachine, named_machine, roll_angles
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table
@@ -39,12 +38,6 @@ def run(
     json: bool,
 ) -> None:
     """Map the stiffness and print its summary."""
-    if Path(machine).suffix == ".toml":
-        raise ModelError(
-            machine,
-            "is a model file, which has one configuration: there is nothing to map.",
-            "Use `strutwork solve`, or name a machine of `strutwork machines`.",
-        )
     found = named_machine(machine)
     made = found.machine
     with shown() as started:

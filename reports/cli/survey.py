@@ -1,0 +1,156 @@
+"""`strutwork map` over a grid of poses: any machine, asked anything."""
+
+from __future__ import annotations
+
+import json as json_text
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from strutwork.errors import ModelError
+from strutwork.fea import Port
+from strutwork.fea.damping import LossFactor, ModalRatio, Rayleigh
+from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.load import load, machine_model
+from strutwork.machines.model import Model
+from strutwork.machines.variants import is_machine, named_machine, require_mass
+from strutwork.names import visible
+from strutwork.reports.cli.output import console, print_json, table
+from strutwork.reports.cli.progress import shown
+from strutwork.reports.covering_band import covering_band
+from strutwork.reports.grid_words import grid_of_words
+from strutwork.reports.model_damping import model_damping
+from strutwork.reports.survey_words import grid_text, largest, least
+from strutwork.studies.answers import Answer, Stiffness, Vibration
+from strutwork.studies.dataset_files import write_netcdf
+from strutwork.studies.dynamic import ONE_PERCENT
+from strutwork.studies.survey import survey
+from strutwork.studies.survey_files import write_survey
+
+
+def run(
+    target: str,
+    over: list[str] | None,
+    out: str | None,
+    *,
+    vibration: bool,
+    workers: int | None,
+    json: bool,
+) -> None:
+    """Survey a machine over a grid and print the extremes."""
+    model = _model(target, vibration=vibration)
+    grid = grid_of_words(over) if over else model.workspace
+    if grid is None:
+        raise ModelError(
+            target,
+            "says no poses to map.",
+            "Give --over x=-100mm..100mm:5,y=…, or add a table [workspace] to the file.",
+        )
+    answer: Answer = _vibration(model) if vibration else Stiffness()
+    what = "vibration" if vibration else "stiffness"
+    with shown() as started:
+        progress = started(f"{what} of {visible(target)}")
+        found = survey(model, grid, [answer], workers=workers, progress=progress)
+    result = _result(target, model, found, vibration=vibration)
+    if out is not None:
+        stem = f"{Path(target).stem.replace(':', '-')}-{what}-survey"
+        written = [
+            write_netcdf(Path(out) / f"{stem}.nc", found),
+            write_survey(Path(out) / f"{stem}.csv", found),
+        ]
+        result["data"] = [str(path) for path in written]
+    if json:
+        print_json(result)
+        return
+    _print(result, grid_text(grid))
+
+
+def _model(target: str, *, vibration: bool) -> Model:
+    if vibration and is_machine(target):
+        found = require_mass(named_machine(target))
+        return machine_model(found.machine, found.title)
+    return load(target)
+
+
+def _vibration(model: Model) -> Vibration:
+    damping = ONE_PERCENT if model.damping is None else model_damping(model)
+    if not isinstance(damping, ModalRatio | LossFactor | Rayleigh):
+        raise ModelError(
+            "damping",
+            "is that of single joints, which a map does not take.",
+            "Use frf at a pose, or give [damping] of the whole and leave dashpots out.",
+        )
+    tool = model.require_tool()
+    band, _ = covering_band(model.placed, [Port(tool, axis) for axis in "xyz"])
+    if band is None:
+        raise ModelError("structure", "has no elastic mode.", "Give it mass and elastic parts.")
+    return Vibration(tool, damping, band)
+
+
+def _result(target: str, model: Model, found: xr.Dataset, *, vibration: bool) -> dict[str, Any]:
+    entries: dict[str, Any] = {}
+    if vibration:
+        entries["natural_frequency_1"] = _extremes(found, found["natural_frequency"].sel(mode=1))
+        for axis in "xyz":
+            values = found["least_dynamic_stiffness"].sel(axis=axis)
+            entries[f"least_dynamic_stiffness_{axis}"] = _extremes(found, values)
+    else:
+        for meaning in ("free", "blocked"):
+            for axis in DIRECTIONS:
+                values = found[f"stiffness_{meaning}"].sel(direction=axis)
+                entries[f"stiffness_{meaning}_{axis}"] = _extremes(found, values)
+    return {
+        "target": target,
+        "model": model.title,
+        "poses": int(found.attrs["poses"]),
+        "poses_kept": int(found.attrs["poses_kept"]),
+        "dropped_by_reason": json_text.loads(found.attrs["dropped_by_reason"]),
+        "extremes": entries,
+        "data": [],
+    }
+
+
+def _extremes(found: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:
+    """Least and largest with their poses; None where all are infinite."""
+    values = variable.to_numpy()
+    values = np.where(np.isfinite(values), values, np.nan)
+    if not np.isfinite(values).any():
+        return None
+    low, high = least(found, values), largest(found, values)
+    return {
+        "least": {"value": low.value, "at": low.task, "words": low.where},
+        "largest": {"value": high.value, "at": high.task, "words": high.where},
+    }
+
+
+def _print(result: dict[str, Any], grid: str) -> None:
+    out = console()
+    out.print(visible(result["model"] or result["target"]), markup=False, style="bold")
+    out.print(f"{grid}; {result['poses_kept']} of {result['poses']} count", markup=False)
+    for reason, count in result["dropped_by_reason"].items():
+        out.print(f"  {count}: {visible(reason)}", markup=False, soft_wrap=True)
+    rows: list[tuple[object, ...]] = []
+    for name, entry in result["extremes"].items():
+        words = name.replace("_", " ")
+        scale, unit = (1.0, "Hz") if "frequency" in name else (1e-6, "N/µm")
+        if name.rpartition("_")[2].startswith("r"):
+            scale, unit = 1e-3, "kN·m/rad"
+        if entry is None:
+            rows.append((words, unit, "infinite", "", "infinite", ""))
+            continue
+        low, high = entry["least"], entry["largest"]
+        rows.append(
+            (
+                words,
+                unit,
+                low["value"] * scale,
+                low["words"],
+                high["value"] * scale,
+                high["words"],
+            )
+        )
+    out.print(table("Extremes", ["", "unit", "least", "at", "largest", "at"], rows, names=2))
+    for path in result["data"]:
+        out.print(visible(path), markup=False, soft_wrap=True)
