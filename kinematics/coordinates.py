@@ -112,7 +112,7 @@ def _with(coordinates: Coordinates, name: Name) -> Coordinates:
 def freedoms(motion: Motion) -> int:
     """Freedoms of the bodies at home, those of bodies that only spin counted."""
     held, _ = home_rows(motion, Coordinates())
-    return held.shape[1] - len(independent_rows(held, len(held))[0])
+    return int(held.shape[1]) - len(independent_rows(held, len(held))[0])
 
 
 def _require_known(motion: Motion, coordinates: Coordinates) -> None:
