@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -216,6 +216,19 @@ class Motion:
             if Walk(self.joints, self.rotation, wanted, lenient=True).independent:
                 found[direction] = float(home[k])
         return found
+
+    def require_task(self, directions: Sequence[str]) -> None:
+        """Check that the tool can move from home in some directions, one by one.
+
+        Raises
+        ------
+        ModelError
+            Names a direction in which the joints hold it.
+        """
+        for direction in directions:
+            task = {direction: 0.0}
+            wanted = given(self.joints, self.home_pose, self.home_values, None, task, None)
+            Walk(self.joints, self.rotation, wanted)
 
     def place(self, poses: Poses) -> Placement:
         """Inverse kinematics of poses of the tool; those that cannot be taken are marked."""

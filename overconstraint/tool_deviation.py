@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, NumericalError
-from strutwork.overconstraint.responses import Responses
+from strutwork.overconstraint.sources import MisfitSources
 from strutwork.overconstraint.worst_case import WorstCase
 
 Array = NDArray[Any]
@@ -94,8 +94,7 @@ def tool_deviation(worst: WorstCase, tolerance: float = 1e-4) -> ToolDeviation:
     NumericalError
         The bound did not come down to the value.
     """
-    responses = worst.responses
-    sources, found = responses.sources, responses.influence
+    sources, found = worst.responses.sources, worst.responses.influence
     if found.linkage.tool is None:
         raise ModelError("tool", "the linkage has none.", "Name a node as the tool.")
     pick = [found.columns.index(c) for c in sources.columns]
@@ -105,17 +104,9 @@ def tool_deviation(worst: WorstCase, tolerance: float = 1e-4) -> ToolDeviation:
     gain = (rows @ sources.map).reshape(count, 3, sources.parameters)
     mean = (rows @ sources.mean[..., None]).reshape(count, 3)
     ends = np.broadcast_to(np.concatenate([np.eye(3), -np.eye(3)]), (count, 6, 3))
-    along = _reach(responses, gain, mean, ends).reshape(count, 2, 3).max(axis=1)
-    direction, bound = _largest(responses, gain, mean, tolerance)
-    z, place = _point(responses, gain, mean, direction)
+    along = _reach(sources, gain, mean, ends).reshape(count, 2, 3).max(axis=1)
+    z, place, bound = farthest(sources, gain, mean, tolerance)
     largest = np.linalg.norm(place, axis=-1)
-    bound = np.maximum(bound, largest)
-    if np.any(bound > largest * (1 + tolerance) * (1 + 1e-9)):
-        raise NumericalError(
-            "tool deviation",
-            "its bound exceeds its value by more than the tolerance.",
-            "Ask for a larger tolerance.",
-        )
     z = z.reshape(*batch, sources.parameters)
     return ToolDeviation(
         along.reshape(*batch, 3),
@@ -127,20 +118,62 @@ def tool_deviation(worst: WorstCase, tolerance: float = 1e-4) -> ToolDeviation:
     )
 
 
-def _reach(responses: Responses, gain: Array, mean: Array, directions: Array) -> Array:
+def farthest(
+    sources: MisfitSources, gain: Array, mean: Array, tolerance: float = 1e-4
+) -> tuple[Array, Array, Array]:
+    """The farthest that a vector mean + gain z gets from zero.
+
+    Parameters
+    ----------
+    sources : MisfitSources
+        Whose zones z ranges over.
+    gain : (p, 3, k)
+    mean : (p, 3)
+    tolerance : float
+        Largest gap between bound and value, as a share of the value.
+
+    Returns
+    -------
+    z : (p, k)
+    place : (p, 3)
+        The vector there.
+    bound : (p,)
+        Of its length: no z exceeds it.
+
+    Raises
+    ------
+    NumericalError
+        The bound did not come down to the value.
+    """
+    direction, bound = _largest(sources, gain, mean, tolerance)
+    z, place = _point(sources, gain, mean, direction)
+    largest = np.linalg.norm(place, axis=-1)
+    bound = np.maximum(bound, largest)
+    if np.any(bound > largest * (1 + tolerance) * (1 + 1e-9)):
+        raise NumericalError(
+            "tool deviation",
+            "its bound exceeds its value by more than the tolerance.",
+            "Ask for a larger tolerance.",
+        )
+    return z, place, bound
+
+
+def _reach(sources: MisfitSources, gain: Array, mean: Array, directions: Array) -> Array:
     """Values of f at directions (p, a, 3), (p, a)."""
-    supports = responses.sources.supports(directions @ gain).sum(axis=-1)
+    supports = sources.supports(directions @ gain).sum(axis=-1)
     return np.asarray((directions @ mean[..., None])[..., 0] + supports)
 
 
-def _point(responses: Responses, gain: Array, mean: Array, direction: Array) -> tuple[Array, Array]:
+def _point(
+    sources: MisfitSources, gain: Array, mean: Array, direction: Array
+) -> tuple[Array, Array]:
     """The z that is farthest along directions (p, 3), and where it brings the tool."""
-    z = responses.sources.extreme((direction[:, None] @ gain)[:, 0])
+    z = sources.extreme((direction[:, None] @ gain)[:, 0])
     return z, mean + (gain @ z[..., None])[..., 0]
 
 
 def _largest(
-    responses: Responses, gain: Array, mean: Array, tolerance: float
+    sources: MisfitSources, gain: Array, mean: Array, tolerance: float
 ) -> tuple[Array, Array]:
     """Branch and bound over triangles of the sphere: direction (p, 3) and bound (p,)."""
     count = len(gain)
@@ -153,12 +186,12 @@ def _largest(
         part = max(1, PART // (3 * max(gain.shape[-1], 1)))
         f = np.concatenate(
             [
-                _reach(responses, gain[which], mean[which], triangles[start : start + part])
+                _reach(sources, gain[which], mean[which], triangles[start : start + part])
                 for start in range(0, len(owner), part)
                 for which in [owner[start : start + part]]
             ]
         )
-        best, direction = _improve((responses, gain, mean), (owner, f, triangles), best, direction)
+        best, direction = _improve((sources, gain, mean), (owner, f, triangles), best, direction)
         upper = _corner(f, triangles)
         done = upper <= best[owner] * (1 + tolerance)
         np.maximum.at(closed, owner[done], upper[done])
@@ -175,13 +208,13 @@ def _largest(
 
 
 def _improve(
-    model: tuple[Responses, Array, Array],
+    model: tuple[MisfitSources, Array, Array],
     seen: tuple[NDArray[np.intp], Array, Array],
     best: Array,
     direction: Array,
 ) -> tuple[Array, Array]:
     """Best direction so far of every pose, climbed from: each step turns to the point reached."""
-    responses, gain, mean = model
+    sources, gain, mean = model
     owner, f, triangles = seen
     value = f.max(axis=1)
     order = np.argsort(value)
@@ -195,12 +228,12 @@ def _improve(
     direction = direction.copy()
     direction[better] = triangles[start, f[start].argmax(axis=1)]
     for _ in range(20):
-        _, place = _point(responses, gain, mean, direction)
+        _, place = _point(sources, gain, mean, direction)
         size = np.linalg.norm(place, axis=-1)
         direction = np.where(
             (size > 0)[:, None], place / np.where(size > 0, size, 1.0)[:, None], direction
         )
-    reached = np.linalg.norm(_point(responses, gain, mean, direction)[1], axis=-1)
+    reached = np.linalg.norm(_point(sources, gain, mean, direction)[1], axis=-1)
     return np.maximum(best, reached), direction
 
 

@@ -60,6 +60,8 @@ def _unit(units: str, labels: tuple[str, ...]) -> str:
     """The unit of one column of a variable whose columns have two."""
     if units.startswith("N/m for x y z"):
         return "N m/rad" if labels[-1].startswith("r") else "N/m"
+    if units == "m for x y z; rad for rx ry rz":
+        return "rad" if labels[-1].startswith("r") else "m"
     if units == "m or rad":
         return "rad" if labels[-1].rpartition(":")[2] in DIRECTIONS[3:] else "m"
     if units == "N, N m, m or rad":

@@ -1,0 +1,163 @@
+"""Volumetric accuracy: how far a machine's errors may carry its tool, pose by pose."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.model import Model
+from strutwork.memory import available_memory
+from strutwork.msa import PlacedStructure
+from strutwork.outcome import Outcome, solve_poses
+from strutwork.overconstraint import Tolerance
+from strutwork.overconstraint.accuracy import Accuracy, accuracy
+from strutwork.overconstraint.joint_errors import JointError
+from strutwork.studies.answers import Column
+
+Array = NDArray[Any]
+
+#: Poses solved at once.
+STACK = 64
+
+#: Longest map that is begun, s.
+LONGEST = 6 * 3600.0
+
+UNIT = "m for x y z; rad for rx ry rz"
+
+
+def drive_errors(
+    model: Model, length: float | None = None, angle: float | None = None
+) -> tuple[JointError, ...]:
+    """Errors of a machine's drives, to either side.
+
+    Parameters
+    ----------
+    model : Model
+    length, angle : float, optional
+        Of every drive that slides, m, and that turns, rad. Default: half of the resolution of
+        those that state one.
+    """
+    known = {(d.joint, d.direction): d.resolution for d in model.drives}
+    found = []
+    for joint, direction in model.structure.linkage.driven:
+        given = angle if direction.startswith("r") else length
+        step = known.get((joint, direction))
+        size = given if given is not None else None if step is None else step / 2
+        if size is not None:
+            found.append(JointError("drive error", joint, direction, size))
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class VolumetricAccuracy:
+    """Displacement of the tool by tolerances, drive errors and play.
+
+    Parameters
+    ----------
+    tolerances : tuple of Tolerance
+    errors : tuple of JointError
+    """
+
+    tolerances: tuple[Tolerance, ...]
+    errors: tuple[JointError, ...] = ()
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """At worst, as a root of the sum of squares, its deviation, and who contributes."""
+        return (
+            Column("worst_case", UNIT, "largest displacement to either side", ("direction",)),
+            Column(
+                "root_sum_square",
+                UNIT,
+                "root of the sum of the squares of what each source does at worst",
+                ("direction",),
+            ),
+            Column(
+                "standard_deviation",
+                UNIT,
+                "standard deviation by the distributions of the sources",
+                ("direction",),
+            ),
+            Column("largest_displacement", "m", "largest in any direction of space"),
+            Column(
+                "contribution", "m", "what a source adds to the largest displacement", ("source",)
+            ),
+        )
+
+    @property
+    def coordinates(self) -> Mapping[str, tuple[Any, ...]]:
+        """Directions of the tool, and the sources by their names."""
+        names = (*(t.name for t in self.tolerances), *(e.name for e in self.errors))
+        return {"direction": DIRECTIONS, "source": names}
+
+    def at(self, placed: PlacedStructure) -> Accuracy:
+        """Of a batch or one pose.
+
+        Raises
+        ------
+        StrutworkError
+            As `accuracy`.
+        """
+        return accuracy(placed, self.tolerances, self.errors)
+
+    def __call__(self, placed: PlacedStructure) -> tuple[dict[str, Array], Outcome]:
+        """Of a flat batch."""
+        widths = {d: len(v) for d, v in self.coordinates.items()}
+        poses = placed.batch[0]
+        arrays = {
+            c.name: np.full((poses, *(widths[d] for d in c.dims)), np.nan) for c in self.columns
+        }
+
+        def some(index: NDArray[np.intp]) -> None:
+            for part in np.array_split(index, max(1, -(-len(index) // STACK))):
+                found = self.at(placed[part])
+                place, parts = found.largest()
+                values = {
+                    "worst_case": found.worst,
+                    "root_sum_square": found.root_sum_square,
+                    "standard_deviation": found.deviation,
+                    "largest_displacement": np.linalg.norm(place, axis=-1),
+                    "contribution": parts,
+                }
+                for name, value in values.items():
+                    arrays[name][part] = value
+
+        return arrays, solve_poses(some, poses)
+
+
+def require_feasible(model: Model, answer: VolumetricAccuracy, grid: TaskGrid) -> None:
+    """Refuse a grid that would take too long or too much memory, foreseen from one pose.
+
+    Raises
+    ------
+    ModelError
+        Says how long and how much.
+    """
+    numbers = 3 * len(DIRECTIONS) + 1 + len(answer.coordinates["source"])
+    # the arrays, the dataset of them and the text of the file
+    need = 8.0 * 4 * len(grid) * (numbers + len(model.motion.joints.names))
+    start = perf_counter()
+    answer(model.structure.at(model.placement[None]))
+    seconds = (perf_counter() - start) * len(grid) / STACK
+    if need <= 0.5 * available_memory() and seconds <= LONGEST:
+        return
+    raise ModelError(
+        "grid",
+        f"of {len(grid):,} poses would take about {need / 1e9:.2g} GB and "
+        f"{seconds / 3600:.2g} hours.",
+        "Take fewer points.",
+    )
+
+
+def top_sources(names: Sequence[str], parts: Array, count: int = 8) -> list[tuple[str, float]]:
+    """Sources that contribute most, with what they contribute, largest first."""
+    order = np.argsort(-np.abs(parts), kind="stable")[:count]
+    return [(names[int(k)], float(parts[int(k)])) for k in order if parts[int(k)] != 0.0]
