@@ -28,6 +28,7 @@ from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
 from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
+from strutwork.reports.cli.reversals_command import reversals
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
@@ -319,6 +320,7 @@ def scale(
 app.command()(accuracy)
 app.command()(move)
 app.command()(new)
+app.command()(reversals)
 
 
 @app.command()
