@@ -4,7 +4,7 @@ Run it where the package is installed: `python examples/07_scale_mit_ss1.py`.
 """
 
 from strutwork.kinematics import DIRECTIONS
-from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.papers.son_2002.size import mit_ss1_scale
 from strutwork.studies.removal_rate import removal_exponents
 from strutwork.studies.scale import LAWS
 from strutwork.studies.similarity import JointScaling

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -16,6 +16,7 @@ from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.mechanism import Poses
 from strutwork.kinematics.placement import Placement, check_coincidence
+from strutwork.kinematics.rows import characteristic_length
 from strutwork.kinematics.turns import rotation_vector
 from strutwork.kinematics.walk import Walk
 
@@ -44,6 +45,8 @@ class Moved:
         length.
     steps : (...) of int
         Steps made.
+    bodies : BodyPoses
+        Of the moving bodies, (..., b, 3) and (..., b, 3, 3).
     """
 
     placement: Placement
@@ -51,6 +54,7 @@ class Moved:
     share: Array
     error: Array
     steps: NDArray[np.intp]
+    bodies: BodyPoses
 
     def __repr__(self) -> str:
         found = self.placement.reachable
@@ -101,6 +105,11 @@ class Motion:
     def joints(self) -> JointMotion:
         """Finite motion of the joints."""
         return JointMotion(self.linkage, self.home)
+
+    @cached_property
+    def length(self) -> float:
+        """The machine's size, m, at which turns are compared with shifts."""
+        return characteristic_length(self.home)
 
     @cached_property
     def home_values(self) -> Array:
@@ -208,6 +217,19 @@ class Motion:
                 found[direction] = float(home[k])
         return found
 
+    def require_task(self, directions: Sequence[str]) -> None:
+        """Check that the tool can move from home in some directions, one by one.
+
+        Raises
+        ------
+        ModelError
+            Names a direction in which the joints hold it.
+        """
+        for direction in directions:
+            task = {direction: 0.0}
+            wanted = given(self.joints, self.home_pose, self.home_values, None, task, None)
+            Walk(self.joints, self.rotation, wanted)
+
     def place(self, poses: Poses) -> Placement:
         """Inverse kinematics of poses of the tool; those that cannot be taken are marked."""
         return self.move(tool=poses).placement
@@ -232,6 +254,10 @@ class Motion:
             walk.share.reshape(batch),
             walk.error.reshape(batch),
             walk.steps.reshape(batch),
+            BodyPoses(
+                bodies.position.reshape(*batch, *bodies.position.shape[1:]),
+                bodies.rotation.reshape(*batch, *bodies.rotation.shape[1:]),
+            ),
         )
 
     def _turns(self, bodies: BodyPoses) -> Array:

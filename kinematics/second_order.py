@@ -51,7 +51,7 @@ def lost_twists(
         a = standing[:, :, i] / columns
         for j in any_motion:
             b = null[:, :, j] / columns
-            mixed = (_drift(passive, a + b) - _drift(passive, a - b)) / 4.0
+            mixed = (drift(passive, a + b) - drift(passive, a - b)) / 4.0
             # in units of the machine: motions are made of columns of unit size
             scale = columns[:, -1]
             result.append(-np.einsum("pij,pj->pi", solve, mixed) * scale[:, None])
@@ -60,8 +60,8 @@ def lost_twists(
     return np.stack(result, axis=-1)
 
 
-def _drift(passive: ConstraintRows, twists: Array) -> Array:
-    """Ȧ(q) q of every row for twists (p, n) of the bodies, (p, r).
+def drift(passive: ConstraintRows, twists: Array) -> Array:
+    """Ȧ(q) q of every row for twists (p, n) of the bodies about their references, (p, r).
 
     A row's axis is carried by its joint's first body; that of a universal joint, z × x, has z
     in the first body and x in the second.

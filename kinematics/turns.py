@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import factorial
 from typing import Any
 
 import numpy as np
@@ -45,3 +46,37 @@ def vector_rates(vector: Array) -> Array:
     exact = 1.0 / safe**2 - (1.0 + np.cos(safe)) / (2.0 * safe * np.sin(safe))
     share = np.where(small, 1.0 / 12.0 + t**2 / 720.0, exact)
     return np.asarray(np.eye(3) - 0.5 * k + share * (k @ k))
+
+
+def velocity_rates(vector: Array, rate: Array) -> Array:
+    """Time derivative of the matrix from a rotation vector's rate to ω, (..., 3, 3).
+
+    That matrix is the left Jacobian of SO(3), 1 + b [v]× + c [v]×², b = (1 − cos t)/t²,
+    c = (t − sin t)/t³, t = |v| (Solà et al. 2018, eq. 145).
+    """
+    t = np.linalg.norm(vector, axis=-1)
+    small = t < 1.0
+    power, safe = np.where(small, t, 0.0) ** 2, np.where(small, 1.0, t)
+    sine, cosine = np.sin(safe), np.cos(safe)
+    b, c = (1.0 - cosine) / safe**2, (safe - sine) / safe**3
+    slope_b = (safe * sine - 2.0 * (1.0 - cosine)) / safe**4
+    slope_c = (3.0 * sine - 2.0 * safe - safe * cosine) / safe**5
+    # below 1 rad by series, whose ninth term is below rounding, where the quotients cancel
+    near = np.zeros((4, *t.shape))
+    for i in range(9):
+        sign, even = (-1.0) ** i, float(factorial(2 * i + 2))
+        odd = even * (2 * i + 3)
+        near[0] += sign * power**i / even
+        near[1] += sign * power**i / odd
+        if i:
+            near[2] += sign * 2 * i * power ** (i - 1) / even
+            near[3] += sign * 2 * i * power ** (i - 1) / odd
+    b, c, slope_b, slope_c = (
+        np.where(small, series, closed)[..., None, None]
+        for series, closed in zip(near, (b, c, slope_b, slope_c), strict=True)
+    )
+    along = np.sum(vector * rate, axis=-1)[..., None, None]
+    k, change = cross_matrix(vector), cross_matrix(rate)
+    return np.asarray(
+        along * (slope_b * k + slope_c * (k @ k)) + b * change + c * (change @ k + k @ change)
+    )

@@ -1,4 +1,4 @@
-"""Machines of the literature: dimensions, kinematics, structures and published values."""
+"""Machines of the literature: dimensions, kinematics and structures."""
 
 from strutwork.machines.alizade_3prps import Alizade3PRPS
 from strutwork.machines.azulay_dynamic import (
@@ -14,12 +14,11 @@ from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit, check_limits, joint_limits
+from strutwork.machines.literature import Paper
 from strutwork.machines.mit_ss1 import MitSS1
-from strutwork.machines.mit_ss1_assembly import StrutAssembly, strut_width
 from strutwork.machines.pose_grid import GridMachine, PoseGrid
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
-from strutwork.machines.published import Paper, PublishedTable, PublishedValue
 from strutwork.machines.three_legs import ThreeLegs
 from strutwork.machines.variants import (
     NamedMachine,
@@ -50,9 +49,6 @@ __all__ = [
     "PoseGrid",
     "Proposed3PPRS",
     "Prototype3PPPRS",
-    "PublishedTable",
-    "PublishedValue",
-    "StrutAssembly",
     "ThreeLegs",
     "Variant",
     "VibratingLegs",
@@ -67,6 +63,5 @@ __all__ = [
     "named_machine",
     "require_mass",
     "roll_angles",
-    "strut_width",
     "variants",
 ]

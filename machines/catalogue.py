@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import radians
 from types import MappingProxyType
 from typing import Protocol
 
@@ -14,12 +15,10 @@ from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit
+from strutwork.machines.literature import AZULAY_2014, SON_2002, Paper
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
-from strutwork.machines.published import Paper
-from strutwork.machines.published_azulay import AZULAY_2014
-from strutwork.machines.published_son import SON_2002
 from strutwork.msa.structure import Structure
 
 
@@ -50,6 +49,20 @@ class CatalogueEntry:
         Where its dimensions come from.
     factory : callable
         Makes the machine with the paper's dimensions; takes other dimensions by name.
+    report : str
+        What writes its report: given its name and what tells the progress, returns title,
+        subtitle and chapters.
+    tolerances : str
+        What makes its `strutwork.studies.TolerancedMachine`; empty where nobody has stated
+        tolerances.
+    scale : str
+        What `strutwork scale` runs; empty where no study of its size exists.
+
+    around_home : mapping of direction to (float, int)
+        What its maps and report look over, where nothing else is asked: so far to either side of
+        home, m or rad, in so many points. Our choice, not its paper's.
+
+    The three before are references to `papers`, see `strutwork.machines.paper_reference.resolve`.
     """
 
     name: str
@@ -57,7 +70,17 @@ class CatalogueEntry:
     topology: str
     paper: Paper
     factory: Callable[..., Machine]
+    report: str
+    tolerances: str = ""
+    scale: str = ""
+    around_home: Mapping[str, tuple[float, int]] = field(default_factory=dict)
 
+
+#: What compares a machine with the four of one paper.
+_COMPARED = "strutwork.papers.azulay_2014.machine_page:machine_chapters"
+
+#: Upright poses about home: within the ring on which these machines are singular.
+_UPRIGHT: Mapping[str, tuple[float, int]] = {"x": (0.02, 5), "y": (0.02, 5), "z": (0.01, 3)}
 
 _ENTRIES = (
     CatalogueEntry(
@@ -66,6 +89,8 @@ _ENTRIES = (
         "[P circular] [P radial] R S",
         AZULAY_2014,
         Proposed3PPRS,
+        _COMPARED,
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
         "eclipse-3pprs",
@@ -73,21 +98,55 @@ _ENTRIES = (
         "[P circular] [P vertical] R S",
         AZULAY_2014,
         Eclipse3PPRS,
+        _COMPARED,
+        around_home=_UPRIGHT,
     ),
     CatalogueEntry(
-        "alizade-3prps", "Alizade", "[P circular] R [P along the link] S", AZULAY_2014, Alizade3PRPS
+        "alizade-3prps",
+        "Alizade",
+        "[P circular] R [P along the link] S",
+        AZULAY_2014,
+        Alizade3PRPS,
+        _COMPARED,
+        around_home=_UPRIGHT,
     ),
-    CatalogueEntry("glozman-3prrs", "Glozman", "[P circular] [R] R S", AZULAY_2014, Glozman3PRRS),
+    CatalogueEntry(
+        "glozman-3prrs",
+        "Glozman",
+        "[P circular] [R] R S",
+        AZULAY_2014,
+        Glozman3PRRS,
+        _COMPARED,
+        around_home=_UPRIGHT,
+    ),
     CatalogueEntry(
         "prototype-3ppprs",
         "Prototype 3xPPPRS, redundant and reconfigurable",
         "[P curvilinear] [P tangential] [P radial] R S",
         AZULAY_2014,
         Prototype3PPPRS,
+        "strutwork.papers.azulay_2014.prototype_page:prototype_chapters",
+        around_home=_UPRIGHT,
     ),
-    CatalogueEntry("mit-ss1", "MIT-SS-1", "planar, [P vertical] R R", SON_2002, MitSS1),
     CatalogueEntry(
-        "hexel-hexapod", "Hexel hexapod", "U [P along the leg] S", SON_2002, HexelHexapod
+        "mit-ss1",
+        "MIT-SS-1",
+        "planar, [P vertical] R R",
+        SON_2002,
+        MitSS1,
+        "strutwork.papers.son_2002.mit_ss1_page:mit_ss1_chapters",
+        "strutwork.papers.son_2002.toleranced:mit_ss1",
+        "strutwork.papers.son_2002.scale_command:run",
+        {"x": (0.1, 9), "ry": (radians(20.0), 9)},
+    ),
+    CatalogueEntry(
+        "hexel-hexapod",
+        "Hexel hexapod",
+        "U [P along the leg] S",
+        SON_2002,
+        HexelHexapod,
+        "strutwork.papers.son_2002.hexapod_page:hexapod_chapters",
+        around_home={"x": (0.15, 7), "y": (0.15, 7), "z": (0.1, 3)},
     ),
 )
 

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from pathlib import Path
 
+import numpy as np
+
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.catalogue import CATALOGUE, Machine
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
@@ -33,7 +38,7 @@ def load(name: str | Path) -> Model:
     text = str(name)
     if is_machine(text):
         found = named_machine(text)
-        return machine_model(found.machine, found.title)
+        return machine_model(found.machine, found.title, found.entry.around_home)
     path = Path(text)
     if path.suffix != ".toml" and path.name == text and not os.path.lexists(path):
         raise ModelError(
@@ -44,15 +49,24 @@ def load(name: str | Path) -> Model:
     return read_model(text)
 
 
-def machine_model(machine: Machine, title: str) -> Model:
+def machine_model(
+    machine: Machine, title: str, around_home: Mapping[str, tuple[float, int]] | None = None
+) -> Model:
     """A machine that is written in Python, at home; its own formulas place it.
 
     Parameters
     ----------
     machine : Machine
     title : str
+    around_home : mapping of direction to (float, int), optional
+        Its workspace: so far to either side of home, m or rad, in so many points.
     """
     home = machine.home()
+    middle = dict(zip(DIRECTIONS, [*home.position, 0.0, 0.0, 0.0], strict=True))
+    axes = {
+        d: middle[d] + np.linspace(-half, half, points)
+        for d, (half, points) in (around_home or {}).items()
+    }
     linkage = machine.linkage
     return Model(
         title=title,
@@ -63,6 +77,7 @@ def machine_model(machine: Machine, title: str) -> Model:
         joints=tuple(joint.name for joint in linkage.joints),
         supports={},
         limits=machine.limits,
+        workspace=TaskGrid(axes) if axes else None,
         rotation=home.rotation,
         closed_form=machine.place,
     )

@@ -52,7 +52,7 @@ class GraniteFrame:
     plate, base : float
         Thickness of the plate and of the base, m. The thesis prints neither; these bring the
         granite alone near its frequencies. With the machine on it, and calibrated, see
-        `strutwork.machines.mit_ss1_calibrated`.
+        `strutwork.papers.son_2002.calibrated`.
     rails : (3,) of float
         Where the rails stand along x, m.
     rail_foot : (low, high)

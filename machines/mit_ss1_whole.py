@@ -55,7 +55,7 @@ class MitSS1Whole:
     frame : GraniteFrame
     mount_stiffness : (horizontal, vertical)
         Of one mount, N/m. Near the rigid-body frequencies of Fig. 57 with the granite alone; for
-        the whole see `strutwork.machines.mit_ss1_calibrated`.
+        the whole see `strutwork.papers.son_2002.calibrated`.
     offset : float
         From the plate's front to the plane in which the machine moves, m. Our choice: the near
         bearings stand 60 mm clear of the granite.

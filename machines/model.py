@@ -137,9 +137,19 @@ class Model:
         Raises
         ------
         ModelError
-            Its joints do not close.
+            Its joints do not close, or one slides along a solid.
         """
-        return Motion(self.structure.linkage, self.placement, self.rotation)
+        motion = Motion(self.structure.linkage, self.placement, self.rotation)
+        tied = {node: solid.name for solid in self.solids for node in solid.nodes}
+        for joint, slides in zip(self.structure.linkage.joints, motion.joints.sliding, strict=True):
+            if slides and joint.between[0] in tied:
+                raise ModelError(
+                    f"joint {joint.name}",
+                    f'slides on node "{joint.between[0]}", which is tied to the solid '
+                    f"{tied[joint.between[0]]}: its patch cannot follow.",
+                    "Put a rigid body between: one node tied to the solid, another that slides.",
+                )
+        return motion
 
     @cached_property
     def placed(self) -> PlacedStructure:

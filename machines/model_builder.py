@@ -122,6 +122,8 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         model.case(model.preload)
     # coincidence of joint nodes, lengths and orientations of beams: now, not at the first solve
     _ = model.placed
+    if task:
+        model.motion.require_task(task)
     _warn_of_unjoined(model)
     return model
 

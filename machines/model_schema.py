@@ -37,20 +37,21 @@ from strutwork.machines.model_fields import (
     SecondMoment,
     Size,
     Slope,
-    Speed,
     Stiff,
     StiffTurn,
     Table,
-    TurningSpeed,
     Vector,
+)
+from strutwork.machines.model_motion_schema import (
+    DriveTable,
+    LimitsTable,
+    TaskTable,
+    WorkspaceTable,
 )
 from strutwork.machines.model_solid_schema import SolidTable
 
 #: A beam may be divided into this many elements at most.
 MAX_ELEMENTS = 1000
-
-#: Points along one direction of a workspace at most.
-MAX_POINTS = 10_000
 
 
 def _empty_is_absent(value: object) -> object:
@@ -193,17 +194,6 @@ class MassTable(Table):
     inertia: Annotated[InertiaRows | None, BeforeValidator(_diagonal_as_rows)] = None
 
 
-class LimitsTable(Table):
-    """Range of joint coordinates by direction."""
-
-    x: tuple[Length, Length] | None = None
-    y: tuple[Length, Length] | None = None
-    z: tuple[Length, Length] | None = None
-    rx: tuple[Angle, Angle] | None = None
-    ry: tuple[Angle, Angle] | None = None
-    rz: tuple[Angle, Angle] | None = None
-
-
 class JointTable(Table):
     """A joint between two nodes."""
 
@@ -324,53 +314,6 @@ class ToolTable(Table):
     """The tool centre point."""
 
     tcp: Name
-
-
-class TaskTable(Table):
-    """What the tool is to do: directions in which it moves."""
-
-    directions: tuple[Direction, ...]
-
-
-class LengthSpan(Table):
-    """Places along an axis."""
-
-    from_: Annotated[Length, Field(alias="from")]
-    to: Length
-    points: Annotated[int, Field(strict=True, ge=2, le=MAX_POINTS)] = 5
-
-
-class AngleSpan(Table):
-    """Turns about an axis."""
-
-    from_: Annotated[Angle, Field(alias="from")]
-    to: Angle
-    points: Annotated[int, Field(strict=True, ge=2, le=MAX_POINTS)] = 5
-
-
-class WorkspaceTable(Table):
-    """Poses that maps and reports look at: each value with each."""
-
-    x: LengthSpan | None = None
-    y: LengthSpan | None = None
-    z: LengthSpan | None = None
-    rx: AngleSpan | None = None
-    ry: AngleSpan | None = None
-    rz: AngleSpan | None = None
-
-
-class DriveTable(Table):
-    """What drives can do."""
-
-    joint: Name | None = None
-    joints: tuple[Name, ...] | None = None
-    direction: Direction
-    speed: Speed | None = None
-    turning_speed: TurningSpeed | None = None
-    force: ForceLimit | None = None
-    torque: MomentLimit | None = None
-    resolution: Size | None = None
-    angular_resolution: Slope | None = None
 
 
 class RayleighTable(Table):

@@ -105,25 +105,33 @@ class SolidElement:
         """Mass in global axes, (..., 6 k, 6 k)."""
         return self._turned(self._mass, at)
 
-    def motion(self, nodes: Array) -> Array:
+    def points_at(self, placed: PlacedStructure) -> Array:
+        """`points` where the solid's body stands in a placement of one pose, (p, 3), m."""
+        first = placed.structure.mesh_index[self.nodes[0]]
+        turn = np.asarray(placed.turn_of(self.nodes[0]))
+        arms = self.points - self.positions[0]
+        return np.asarray(placed.positions[first] + arms @ turn.T)
+
+    def motion(self, nodes: Array, placed: PlacedStructure) -> Array:
         """Displacements of the surface's points, global axes.
 
         Parameters
         ----------
         nodes : (..., k, 6)
             Displacements and rotations of `self.nodes`, global axes.
+        placed : PlacedStructure
+            One pose.
 
         Returns
         -------
         displacements : (..., p, 3)
             m.
         """
-        local = (np.asarray(nodes).reshape(*nodes.shape[:-2], -1, 3) @ self.rotation).reshape(
+        axes = np.asarray(placed.turn_of(self.nodes[0])) @ self.rotation
+        local = (np.asarray(nodes).reshape(*nodes.shape[:-2], -1, 3) @ axes).reshape(
             *nodes.shape[:-2], -1
         )
-        return np.asarray(
-            np.einsum("pcn,...n->...pc", self._surface_shapes, local) @ self.rotation.T
-        )
+        return np.asarray(np.einsum("pcn,...n->...pc", self._surface_shapes, local) @ axes.T)
 
     @cached_property
     def outline(self) -> NDArray[np.int64]:

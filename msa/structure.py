@@ -14,9 +14,13 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import GROUND, Body, Linkage, Placement, check_coincidence
 from strutwork.msa.beam import Beam, beam_axes, local_stiffness, to_global
 from strutwork.msa.element import Element
+from strutwork.msa.held import check_held
 from strutwork.msa.proportions import warn_of_proportions
+from strutwork.msa.rigid_map import rigid_map, turned_back
 from strutwork.msa.springs import PointMass, Spring
 from strutwork.msa.stiffening import Stiffening
+
+__all__ = ["PlacedStructure", "Structure", "rigid_map", "turned_back"]
 
 Array = NDArray[Any]
 
@@ -82,34 +86,7 @@ class Structure:
                     f"part {name}", "is defined twice.", "Give beams and springs unique names."
                 )
             seen.add(name)
-        self._check_held()
-
-    def _check_held(self) -> None:
-        """A flexible body must be one piece, else the rigidified linkage is another machine."""
-        vertex = self.vertex_of_node[: len(self.linkage.nodes)]
-        piece = list(range(self.vertex_count))
-
-        def root(v: int) -> int:
-            while piece[v] != v:
-                v = piece[v]
-            return v
-
-        known = self.linkage.node_index
-        for nodes in self._flexible_parts:
-            tied = [int(vertex[known[n]]) for n in nodes]
-            tied = [v for v in tied if v >= 0]
-            for other in tied[1:]:
-                piece[root(other)] = root(tied[0])
-        for b, body in enumerate(self.linkage.body_names):
-            members = np.flatnonzero(self.linkage.body_of_node == b)
-            roots = {root(int(vertex[m])) for m in members}
-            if len(roots) > 1:
-                loose = [self.linkage.nodes[m] for m in members]
-                raise ModelError(
-                    f"body {body}",
-                    f"its nodes {', '.join(loose)} are not held together by its beams.",
-                    "Add the missing beam or rigid group.",
-                )
+        check_held(self)
 
     def __repr__(self) -> str:
         return (
@@ -118,14 +95,15 @@ class Structure:
         )
 
     @property
-    def _flexible_parts(self) -> list[tuple[str, ...]]:
+    def flexible_parts(self) -> list[tuple[str, ...]]:
+        """Nodes of every beam and element."""
         return [*(b.nodes for b in self.beams), *(e.nodes for e in self.elements)]
 
     @cached_property
     def flexible_bodies(self) -> frozenset[int]:
         """Indices of bodies that hold a beam or an element; -1 stands for ground."""
         owner, index = self.linkage.body_of_node, self.linkage.node_index
-        return frozenset(int(owner[index[nodes[0]]]) for nodes in self._flexible_parts)
+        return frozenset(int(owner[index[nodes[0]]]) for nodes in self.flexible_parts)
 
     @cached_property
     def mesh_nodes(self) -> tuple[str, ...]:
@@ -280,9 +258,9 @@ class PlacedStructure:
         beams = self.structure.beams
         shift = np.array([b.offsets for b in beams]).reshape(-1, 2, 3)
         turns = self.beam_turns
-        if turns is None or not np.any(shift):
-            return shift
-        return np.asarray(shift @ np.swapaxes(turns, -1, -2))
+        if turns is not None and np.any(shift):
+            shift = np.asarray(shift @ np.swapaxes(turns, -1, -2))
+        return shift
 
     @cached_property
     def beam_turns(self) -> Array | None:
@@ -328,11 +306,10 @@ class PlacedStructure:
                 up[..., i, :] = self.frame(beam.orientation, f"beam {beam.name}")[..., :, 2]
             elif beam.orientation is not None:
                 up[..., i, :] = beam.orientation
-        names = [b.name for b in s.beams]
-        turns = self.beam_turns
+        names, turns = [b.name for b in s.beams], self.beam_turns
         if turns is None:
             return beam_axes(start, end, up, names)
-        # in the axes of its body, in which vectors and the default are what the beam says
+        # in its body's axes, in which vectors and the default are what the beam says
         turns = np.broadcast_to(turns, (*start.shape[:-1], 3, 3))
         named = [i for i, beam in enumerate(s.beams) if isinstance(beam.orientation, str)]
         up[..., named, :] = turned_back(turns[..., named, :, :], up[..., named, :])
@@ -421,19 +398,3 @@ class PlacedStructure:
                     "direction: it would resist a rigid rotation of both.",
                     "Put its nodes at one place or along its direction, or use a joint.",
                 )
-
-
-def turned_back(rotation: Array, vector: Array) -> Array:
-    """Rᵀ v, (..., 3, 3) and (..., 3)."""
-    return np.asarray(np.einsum("...ji,...j->...i", rotation, vector))
-
-
-def rigid_map(arm: Array) -> Array:
-    """Twist at the end of a rigid arm from the twist at its start, (..., 3) to (..., 6, 6)."""
-    result = np.zeros((*arm.shape[:-1], 6, 6), dtype=np.result_type(arm, float))
-    result[..., range(6), range(6)] = 1.0
-    x, y, z = arm[..., 0], arm[..., 1], arm[..., 2]
-    result[..., 0, 4], result[..., 0, 5] = z, -y
-    result[..., 1, 3], result[..., 1, 5] = -z, x
-    result[..., 2, 3], result[..., 2, 4] = y, -x
-    return result

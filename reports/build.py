@@ -9,23 +9,12 @@ from pathlib import Path
 
 from strutwork import __version__
 from strutwork.errors import ModelError
+from strutwork.machines.model import Model
 from strutwork.reports.content import Chapter, Page
 from strutwork.reports.data_files import DataFile
-from strutwork.reports.machine_study import Teller
 from strutwork.reports.page import render
 from strutwork.reports.report_folder import PAGE, require_ours, write_set
-
-#: The comparison of the four machines of the paper.
-COMPARISON = "azulay-2014"
-
-#: A planar machine: its report is about the forces that its assembly locks in.
-PLANAR = "mit-ss1"
-
-#: A hexapod beside that machine.
-HEXAPOD = "hexel-hexapod"
-
-#: A machine of which nothing is printed to stand beside.
-PROTOTYPE = "prototype-3ppprs"
+from strutwork.studies.progress import Teller
 
 
 @dataclass(frozen=True)
@@ -47,18 +36,26 @@ class WrittenReport:
         return f"<WrittenReport: {self.report} and {len(self.data)} data files>"
 
 
-def write_report(target: str, folder: Path, progress: Teller | None = None) -> WrittenReport:
+def write_report(
+    target: str,
+    folder: Path,
+    progress: Teller | None = None,
+    put: Callable[[Model], Model] | None = None,
+) -> WrittenReport:
     """Compute and write a report.
 
     Parameters
     ----------
     target : str
-        A machine of the catalogue, "azulay-2014" for the comparison of its four machines, or
-        the path of a model file.
+        A machine of the catalogue, the key of a paper that has a page of its own, or the path of
+        a model file.
     folder : Path
         Made when missing. An earlier report in it is replaced, all of it; other files stay.
     progress : callable, optional
         Given the name of a part of the work, returns what is told how far it is.
+    put : callable, optional
+        Puts the machine at another pose than home. What compares it with a document, at that
+        document's own poses, is left out then.
 
     Returns
     -------
@@ -76,7 +73,7 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
     folder = Path(folder)
     # before minutes of work, and not after them
     require_ours(folder, (PAGE,))
-    page, files = _contents(target, progress)
+    page, files = _contents(target, progress, put)
     text = render(page)
     write_set(
         folder,
@@ -88,27 +85,21 @@ def write_report(target: str, folder: Path, progress: Teller | None = None) -> W
     return WrittenReport(folder / PAGE, tuple(folder / file.name for file in files))
 
 
-def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFile, ...]]:
+def _contents(
+    target: str, progress: Teller | None, put: Callable[[Model], Model] | None
+) -> tuple[Page, tuple[DataFile, ...]]:
     from strutwork.machines.catalogue import CATALOGUE
+    from strutwork.machines.paper_reference import resolve
     from strutwork.machines.variants import MARK, is_machine
 
     make: Callable[[], tuple[str, str, tuple[Chapter, ...]]]
-    if target == COMPARISON:
-        from strutwork.reports.comparison_report import comparison_chapters
-
-        make = partial(comparison_chapters, progress)
-    elif target == PROTOTYPE:
-        from strutwork.reports.prototype_report import prototype_chapters
-
-        make = partial(prototype_chapters, progress)
-    elif target == PLANAR:
-        from strutwork.reports.mit_ss1_report import mit_ss1_chapters
-
-        make = partial(mit_ss1_chapters, progress)
-    elif target == HEXAPOD:
-        from strutwork.reports.hexapod_report import hexapod_chapters
-
-        make = partial(hexapod_chapters, progress)
+    pages = {e.paper.key: e.paper.page for e in CATALOGUE.values() if e.paper.page}
+    if target in pages:
+        if put is not None:
+            raise ModelError(
+                target, "is a comparison, which has no pose of its own.", "Name a machine."
+            )
+        make = partial(resolve(pages[target]), progress)
     elif is_machine(target) and MARK in target:
         raise ModelError(
             f"report {target}",
@@ -116,21 +107,36 @@ def _contents(target: str, progress: Teller | None) -> tuple[Page, tuple[DataFil
             f"Leave the variant out: {target.partition(MARK)[0]}.",
         )
     elif target in CATALOGUE:
-        from strutwork.reports.machine_report import machine_chapters
-
-        make = partial(machine_chapters, target, progress)
+        make = partial(_machine_chapters, target, progress, put)
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_chapters
 
-        make = partial(model_chapters, Path(target), progress)
+        make = partial(model_chapters, Path(target), progress, put)
     else:
         raise ModelError(
             f"report {target}",
             "is no machine of the catalogue and no model file.",
-            f"Machines: {', '.join(CATALOGUE)}; comparison: {COMPARISON}; or the path of a TOML "
-            "file.",
+            f"Machines: {', '.join(CATALOGUE)}; comparison: {', '.join(pages)}; or the path of a "
+            "TOML file.",
         )
     title, subtitle, chapters = make()
     footer = f"Made by Strutwork {__version__}. This page needs no network."
     files = tuple(f for chapter in chapters for f in chapter.files)
     return Page(title, subtitle, chapters, footer), files
+
+
+def _machine_chapters(
+    name: str, progress: Teller | None, put: Callable[[Model], Model] | None
+) -> tuple[str, str, tuple[Chapter, ...]]:
+    """What every machine has, then what its document adds: of one name, the document's."""
+    from strutwork.machines.catalogue import CATALOGUE
+    from strutwork.machines.load import load
+    from strutwork.machines.paper_reference import resolve
+    from strutwork.reports.composed import chapters_beside, report_of
+
+    model = load(name)
+    if put is not None:
+        model = put(model)
+        return report_of(model, name, name, CATALOGUE[name].topology, progress)
+    title, subtitle, own = resolve(CATALOGUE[name].report)(name, progress)
+    return title, subtitle, chapters_beside(own, model, name, progress)

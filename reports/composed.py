@@ -9,7 +9,9 @@ from typing import Any
 from strutwork.machines.model import Model
 from strutwork.names import visible
 from strutwork.reports.chapters import (
+    accuracy,
     motion,
+    singularities,
     workspace_assembly,
     workspace_stiffness,
     workspace_vibration,
@@ -23,6 +25,13 @@ from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
 from strutwork.reports.chapters.vibration import vibration_chapter
 from strutwork.reports.content import Chapter, Facts, Points, Text
 from strutwork.reports.subject import Subject, Teller
+
+#: Cover of a machine that a document describes.
+COVER = "cover"
+COVER_TEXT = (
+    "The machine as it stands at home, each answer with the chapter that says more. What its "
+    "document prints stands beside ours further down."
+)
 
 NO_TOOL = "it has no tool: add [tool] with tcp"
 
@@ -93,6 +102,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: check_chapter(s.check),
     ),
     _module(motion),
+    _module(singularities),
     Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
     Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),
     _module(workspace_stiffness),
@@ -112,6 +122,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: tolerance_chapter(s.model, s.tolerances),
     ),
     _module(workspace_assembly),
+    _module(accuracy),
 )
 
 
@@ -134,6 +145,33 @@ def chapters_of(
         else:
             written.append(replace(one.write(subject), key=one.key, title=one.title))
     return (_cover(subject), *written), tuple(left)
+
+
+def chapters_beside(
+    own: tuple[Chapter, ...], model: Model, name: str, progress: Teller | None = None
+) -> tuple[Chapter, ...]:
+    """Chapters that every machine has, put into a report that a document's machine has of its own.
+
+    The cover answers first, then come those of the document, and before its closing chapter all
+    others that it has not of its own: by their keys and the names of their files.
+
+    Raises
+    ------
+    StrutworkError
+        As `report_of`.
+    """
+    subject = Subject(model, name, name, progress)
+    keys = {chapter.key for chapter in own}
+    files = {file.name for chapter in own for file in chapter.files}
+    offered = [one for one in CHAPTERS if one.key not in keys]
+    (cover, *written), _ = chapters_of(subject, offered)
+    kept = [c for c in written if not files & {file.name for file in c.files}]
+    known = keys | {chapter.key for chapter in kept}
+    facts = tuple(replace(f, link=f.link if f.link in known else "") for f in cover_facts(subject))
+    *before, closing = own
+    answers = Chapter(COVER, "What it does", (Text(COVER_TEXT), Facts(facts)))
+    del cover
+    return (answers, *before, *kept, closing)
 
 
 def report_of(

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
+from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
 from strutwork.names import visible
 from strutwork.reports.composed import report_of
@@ -12,7 +14,9 @@ from strutwork.reports.subject import Teller
 
 
 def model_chapters(
-    path: Path, progress: Teller | None = None
+    path: Path,
+    progress: Teller | None = None,
+    put: Callable[[Model], Model] | None = None,
 ) -> tuple[str, str, tuple[Chapter, ...]]:
     """Title, subtitle and chapters of a model file's report.
 
@@ -23,4 +27,5 @@ def model_chapters(
     """
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
-    return report_of(read_model(path), file, visible(path.stem), subtitle, progress)
+    model = read_model(path) if put is None else put(read_model(path))
+    return report_of(model, file, visible(path.stem), subtitle, progress)

@@ -94,6 +94,32 @@ def read_targets(path: Path) -> dict[Coordinate, Array]:
         that are no finite numbers.
     """
     part = f"targets {path.name}"
+    head, rows = read_rows(path, part)
+    found: dict[Coordinate, Array] = {}
+    for column, name in enumerate(head):
+        match = _COLUMN.fullmatch(name)
+        if match is None or match["name"].rpartition(":")[2] not in DIRECTIONS:
+            continue
+        key = coordinate(match["name"], part)
+        factor = _SI[match["unit"]] if match["unit"] else 1.0
+        found[key] = factor * column_numbers(rows, column, name, part)
+    if not found:
+        raise ModelError(
+            part,
+            "has no column that names a coordinate.",
+            "Name columns as in: x, mm; rz, deg; or ram1:z, mm.",
+        )
+    return found
+
+
+def read_rows(path: Path, part: str) -> tuple[list[str], list[list[str]]]:
+    """Head and rows of a CSV file, empty lines left out.
+
+    Raises
+    ------
+    ModelError
+        A file that cannot be read or is too large, or without a row beside its head.
+    """
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise ModelError(part, "is larger than 200 MB.", "Part it.")
@@ -103,30 +129,26 @@ def read_targets(path: Path) -> dict[Coordinate, Array]:
     rows = [row for row in csv.reader(StringIO(text)) if row]
     if len(rows) < 2:
         raise ModelError(part, "has no row of numbers.", "Give a head and a row a target.")
-    head = [csv_name(cell.strip()) for cell in rows[0]]
-    found: dict[Coordinate, Array] = {}
-    for column, name in enumerate(head):
-        match = _COLUMN.fullmatch(name)
-        if match is None or match["name"].rpartition(":")[2] not in DIRECTIONS:
-            continue
-        key = coordinate(match["name"], part)
-        values = []
-        for number, row in enumerate(rows[1:], 2):
-            try:
-                values.append(float(row[column]))
-            except (IndexError, ValueError):
-                raise ModelError(
-                    part, f"has no number in line {number} under {name}.", "Correct it."
-                ) from None
-        factor = _SI[match["unit"]] if match["unit"] else 1.0
-        found[key] = factor * np.array(values)
-    if not found:
-        raise ModelError(
-            part,
-            "has no column that names a coordinate.",
-            "Name columns as in: x, mm; rz, deg; or ram1:z, mm.",
-        )
-    return found
+    return [csv_name(cell.strip()) for cell in rows[0]], rows[1:]
+
+
+def column_numbers(rows: Sequence[Sequence[str]], column: int, name: str, part: str) -> Array:
+    """Numbers of a column.
+
+    Raises
+    ------
+    ModelError
+        A cell that is no number; names its line.
+    """
+    values = []
+    for number, row in enumerate(rows, 2):
+        try:
+            values.append(float(row[column]))
+        except (IndexError, ValueError):
+            raise ModelError(
+                part, f"has no number in line {number} under {name}.", "Correct it."
+            ) from None
+    return np.array(values)
 
 
 def moved_columns(subject: Moving, moved: Moved) -> dict[str, Array]:

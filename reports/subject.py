@@ -6,18 +6,23 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
 import xarray as xr
 
 from strutwork.errors import ModelError, StrutworkError
 from strutwork.fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.singularity_curves import SingularPlane, singularities_in_plane
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
+from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
 from strutwork.names import visible
 from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
 from strutwork.reports.model_check import ModelCheck, check_model
 from strutwork.reports.model_damping import model_damping
 from strutwork.reports.model_solution import ModelSolution, solve_model
 from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
+from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.survey import survey
@@ -26,6 +31,9 @@ Teller = Callable[[str], Progress]
 
 #: Frequencies that the vibration over the workspace lists.
 LISTED = 3
+
+#: Poses along either direction of the plane in which singular poses are looked for.
+SINGULAR_STEPS = 21
 
 
 @dataclass(frozen=True)
@@ -143,6 +151,51 @@ class Subject:
             self.grid,
             [Assembly.of(self.model)],
             progress=self._told("assembly forces over the workspace"),
+        )
+
+    @cached_property
+    def accuracy_answer(self) -> VolumetricAccuracy:
+        """What displaces its tool: tolerances, and half the resolution of its drives."""
+        return VolumetricAccuracy(self.model.tolerances, drive_errors(self.model))
+
+    @cached_property
+    def accuracy_survey(self) -> xr.Dataset:
+        """Displacement of the tool over the workspace."""
+        return survey(
+            self.model,
+            self.grid,
+            [self.accuracy_answer],
+            progress=self._told("accuracy over the workspace"),
+        )
+
+    @cached_property
+    def unsingular(self) -> str:
+        """Why singularities are not looked for; empty where they are."""
+        try:
+            _ = self.singular_distance, self.singular_plane
+        except StrutworkError as error:
+            return visible(str(error).replace("\n", " ")).rstrip(".")
+        return ""
+
+    @cached_property
+    def singular_distance(self) -> PoseDistance:
+        """Distance from singularities at home."""
+        return pose_distance(self.model)
+
+    @cached_property
+    def singular_plane(self) -> SingularPlane | None:
+        """Singular poses over the first two directions of the workspace; None without them."""
+        axes = [] if self.model.workspace is None else list(self.model.workspace.axes.items())
+        wide = [(d, v) for d, v in axes if len(v) > 1][:2]
+        if len(wide) < 2:
+            return None
+        names = tuple(d for d, _ in wide)
+        family = section_family(self.model, names)
+        home = self.model.motion.task_of(self.model.motion.home_pose)
+        middle = [float(home[DIRECTIONS.index(d)]) for d in names]
+        first, second = (np.linspace(float(v[0]), float(v[-1]), SINGULAR_STEPS) for _, v in wide)
+        return singularities_in_plane(
+            family, (first, second), middle, self._told("singularities in a plane")
         )
 
     def _told(self, part: str) -> Progress:

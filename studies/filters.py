@@ -5,12 +5,21 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from math import isfinite
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import characteristic_length
-from strutwork.machines import Limit, Machine, Prototype3PPPRS, ThreeLegs
+from strutwork.machines import Limit, Machine, ThreeLegs
+
+
+@runtime_checkable
+class RedundantMachine(Protocol):
+    """A machine with more drives than freedoms, some of which can be locked."""
+
+    def locked(self) -> Machine:
+        """With those drives locked that its inverse kinematics does not move."""
 
 
 class PoseStatus(IntEnum):
@@ -85,11 +94,6 @@ class Filters:
         return tool_radius(machine) if self.length is None else self.length
 
 
-#: What comes closest to the tables of Azulay et al. 2014: of the joint ranges only the revolute
-#: joints' (5° to 70°). With the others the published means are out of reach.
-AS_IN_AZULAY = Filters(joint_kinds=("revolute",))
-
-
 def tool_radius(machine: Machine) -> float:
     """Root mean square distance of the joints on the tool's body from the tool, m.
 
@@ -122,4 +126,4 @@ def moving_machine(machine: Machine) -> Machine:
     """
     if isinstance(machine, ThreeLegs) and machine.platform_joint == "clamped":
         machine = replace(machine, platform_joint="spherical")
-    return machine.locked() if isinstance(machine, Prototype3PPPRS) else machine
+    return machine.locked() if isinstance(machine, RedundantMachine) else machine

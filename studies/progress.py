@@ -28,6 +28,10 @@ class Progress(Protocol):
         """Take note; called from one thread, `done` never falls."""
 
 
+#: Given the name of a part of the work, returns what is told how far it is.
+Teller = Callable[[str], Progress]
+
+
 def silent(done: int, total: int, /) -> None:
     """Say nothing."""
 

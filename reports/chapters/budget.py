@@ -5,11 +5,8 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from strutwork.reports.content import Block, Chapter, Figure, Row, Text
 from strutwork.reports.data_files import DataFile, csv_file
-from strutwork.reports.figures.charts import stacked_shares
 from strutwork.reports.figures.theme import PALETTE
-from strutwork.reports.machine_study import MODEL_NAMES, MachineStudy
 
 #: The same part has the same colour in every machine.
 PART_COLOURS = {
@@ -21,38 +18,6 @@ PART_COLOURS = {
     "slide drive": PALETTE[3],
     "shoulder drive": PALETTE[3],
 }
-
-
-def budget_chapter(study: MachineStudy) -> Chapter:
-    """Stacked bars for each joint model; the three legs' equal parts are added up."""
-    figures = []
-    for model, label in MODEL_NAMES.items():
-        categories, shares = by_kind(study.budgets[model])
-        figures.append(
-            Figure(
-                f"budget-{model}",
-                f"{label[0].upper()}{label[1:]}: share of each kind of part, all three legs, in "
-                "the deflection along the force.",
-                stacked_shares(categories, shares, "share of the deflection", PART_COLOURS),
-                "Stacked bars of the shares of links and drives in the tool's deflection along x, "
-                f"y and z at the best, median and worst pose, {label}.",
-                f"budget-{model}.csv",
-                height=480,
-            )
-        )
-    blocks: list[Block] = [
-        Text(
-            "Which part gives way under a force at the tool: the share of each part's strain "
-            "energy, which is its share in the deflection along the force. The poses are those "
-            "with the largest, the median and the smallest stiffness along that axis; the tool's "
-            "other directions are free to follow the force."
-        ),
-        Row(tuple(figures), 420),
-    ]
-    files = tuple(
-        budget_file(study.budgets[m], f"budget-{m}.csv", n) for m, n in MODEL_NAMES.items()
-    )
-    return Chapter("budget", "Compliance budget", tuple(blocks), files)
 
 
 def by_kind(budget: xr.Dataset) -> tuple[list[str], dict[str, list[float]]]:

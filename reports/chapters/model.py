@@ -69,7 +69,10 @@ def structure_chapter(model: Model) -> Chapter:
                 "nodes": list(s.tied),
                 "inside": list(s.monitors),
                 "materials": list(s.materials),
-                "surface": {"points": s.points.tolist(), "triangles": s.triangles.tolist()},
+                "surface": {
+                    "points": s.points_at(model.placed).tolist(),
+                    "triangles": s.triangles.tolist(),
+                },
             }
             for s in model.solids
         },

@@ -4,42 +4,24 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from strutwork.reports.chapters.machine import AXES, tilt
-from strutwork.reports.content import Block, Chapter, Column, Figure, Row, Table, Text
+from strutwork.reports.content import Column, Figure, Table
 from strutwork.reports.data_files import DataFile
-from strutwork.reports.figures.charts import distributions
 from strutwork.reports.figures.maps import hemisphere_map
-from strutwork.reports.machine_study import MODEL_NAMES, MachineStudy
 from strutwork.reports.numbers import count, micro, share, significant
 from strutwork.studies import QUANTILES, PoseStatus, PoseValue, Summary, write_csv, write_netcdf
+
+AXES = ("x", "y", "z")
 
 VIEW = (
     "Seen from above, one cell for each check point: the middle of a disc is the pole, its rim the "
     "equator of the hemisphere, where the platform stands upright. Each disc has its own scale; "
     "▽ marks the worst point, ▲ the best."
 )
-
-
-def map_chapter(study: MachineStudy) -> Chapter:
-    """A disc for each axis and joint model."""
-    blocks: list[Block] = [Text(VIEW)]
-    files: list[DataFile] = []
-    for model, label in MODEL_NAMES.items():
-        name = f"stiffness-map-{model}"
-        blocks.append(
-            Row(
-                tuple(
-                    map_figure(study.maps[model], axis, f"map-{model}-{axis}", label, f"{name}.csv")
-                    for axis in AXES
-                )
-            )
-        )
-        files += map_files(study.maps[model], name, f"stiffness map, {label}")
-    return Chapter("maps", "Stiffness over the hemisphere", tuple(blocks), tuple(files))
 
 
 def map_figure(
@@ -94,42 +76,6 @@ def axis_values(dataset: xr.Dataset, axis: str) -> np.ndarray[tuple[int], np.dty
     return np.where(dataset["status"].to_numpy() == PoseStatus.GOOD, values, np.nan)
 
 
-def distribution_chapter(study: MachineStudy) -> Chapter:
-    """Boxes and statistics of both joint models, and both meanings of stiffness."""
-    every = np.concatenate([axis_values(d, a) for d in study.maps.values() for a in AXES])
-    top = float(every[np.isfinite(every)].max(initial=0.0)) or 1.0
-    figures = []
-    for model, label in MODEL_NAMES.items():
-        values = {f"K{a * 2}": axis_values(study.maps[model], a) for a in AXES}
-        spec = distributions(
-            {k: v[np.isfinite(v)] for k, v in values.items()}, "stiffness (N/µm)", top=1.05 * top
-        )
-        figures.append(
-            Figure(
-                f"distribution-{model}",
-                f"{label[0].upper()}{label[1:]}: every check point; box at the quartiles, "
-                "line at the median, dashed at the mean, whiskers to 1.5 times the box's height.",
-                spec,
-                f"Boxes of Kxx, Kyy and Kzz over the check points, {label}.",
-                f"stiffness-map-{model}.csv",
-                height=380,
-            )
-        )
-    blocks: list[Block] = [
-        Text("(C⁻¹)_ii, other directions blocked; every check point counts once."),
-        Row(tuple(figures), 340),
-        statistics_table(
-            "Other directions blocked, (C⁻¹)_ii",
-            {label: study.summaries[m] for m, label in MODEL_NAMES.items()},
-        ),
-        statistics_table(
-            "Other directions free to follow, 1/C_ii: the softer meaning, at the same poses",
-            {label: study.free[m] for m, label in MODEL_NAMES.items()},
-        ),
-    ]
-    return Chapter("distributions", "Distributions", tuple(blocks))
-
-
 def statistics_table(title: str, summaries: Mapping[str, Summary]) -> Table:
     """Mean, variance, quantiles and extremes for each axis."""
     columns = [Column("axis", "", False), Column("model", "", False), Column("mean", "N/µm")]
@@ -154,31 +100,6 @@ def statistics_table(title: str, summaries: Mapping[str, Summary]) -> Table:
                 ]
             )
     return Table(title, columns, rows, "report.json")
-
-
-def poses_chapter(study: MachineStudy) -> Chapter:
-    """The extreme poses of each axis, and what was dropped."""
-    rows = [
-        row
-        for model, label in MODEL_NAMES.items()
-        for row in pose_rows(label, study.maps[model], study.summaries[model])
-    ]
-    table = Table("Worst and best poses", pose_columns("model"), rows, "report.json")
-    dropped = dropped_table({label: study.maps[m] for m, label in MODEL_NAMES.items()}, "model")
-    return Chapter(
-        "poses",
-        "Worst poses and dropped poses",
-        (
-            table,
-            Text(
-                "At every check point each roll is a candidate; those out of reach, out of the "
-                "joint ranges kept or near a singularity are dropped. A point is lost only when no "
-                "candidate is left."
-            ),
-            dropped,
-            ranges_table(study),
-        ),
-    )
 
 
 def pose_columns(first: str) -> list[Column]:
@@ -225,9 +146,9 @@ def dropped_table(maps: Mapping[str, xr.Dataset], first: str) -> Table:
     rows = []
     for label, dataset in maps.items():
         total = int(dataset.attrs["candidates"])
-        rows.append([label, "kept", *_of(int(dataset.attrs["candidates_kept"]), total)])
+        rows.append([label, "kept", *of_total(int(dataset.attrs["candidates_kept"]), total)])
         for reason, number in json.loads(dataset.attrs["dropped_by_reason"]).items():
-            rows.append([label, f"dropped: {reason}", *_of(int(number), total)])
+            rows.append([label, f"dropped: {reason}", *of_total(int(number), total)])
         lost = dataset.sizes["point"] - int(dataset.attrs["points_kept"])
         if lost:
             rows.append([label, f"{count(lost, 'check point')} without any candidate left", "", ""])
@@ -240,29 +161,11 @@ def dropped_table(maps: Mapping[str, xr.Dataset], first: str) -> Table:
     return Table("Candidate poses, by what became of them", columns, rows, "report.json")
 
 
-def ranges_table(study: MachineStudy) -> Table:
-    """How many candidates each kind of joint range would drop, kept or not."""
-    rows = []
-    for model, label in MODEL_NAMES.items():
-        dataset = study.maps[model]
-        total = int(dataset.attrs["candidates"])
-        kept = json.loads(dataset.attrs["joint_ranges_kept"])
-        for kind, number in zip(
-            dataset["joint_kind"].to_numpy(),
-            dataset["outside_range"].to_numpy().sum(axis=0),
-            strict=True,
-        ):
-            word = "kept" if kept == "all" or kind in kept else "not kept"
-            rows.append([label, f"{kind} joints", word, *_of(int(number), total)])
-    columns = (
-        Column("model", "", False),
-        Column("ranges of the", "", False),
-        Column("", "", False),
-        Column("candidates outside"),
-        Column("share"),
-    )
-    return Table("Candidates outside the joint ranges of Table 3", columns, rows, "report.json")
-
-
-def _of(number: int, total: int) -> list[str]:
+def of_total(number: int, total: int) -> list[str]:
+    """A number and its share, as two cells."""
     return [str(number), share(number / total)]
+
+
+def tilt(normal: Any) -> float:
+    """Angle of a unit vector from the vertical, deg."""
+    return float(np.degrees(np.arccos(np.clip(normal[2], -1.0, 1.0))))

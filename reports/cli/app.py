@@ -29,9 +29,12 @@ from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
 from strutwork.reports.cli.reversals_command import reversals
+from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
+from strutwork.reports.cli.trajectory_command import trajectory
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
+from strutwork.reports.cli.workspace_command import workspace
 
 app = typer.Typer(
     name="strutwork",
@@ -245,6 +248,8 @@ def compare(
 @app.command()
 def tolerance(
     target: Target,
+    pose: Pose = None,
+    joint: JointAt = None,
     limit: Annotated[
         list[str] | None,
         typer.Option(
@@ -280,6 +285,7 @@ def tolerance(
     if quantile is not None and allocation is None:
         raise typer.BadParameter("--quantile belongs to --allocate.")
     from strutwork.reports.cli import tolerance as work
+    from strutwork.reports.cli.subject import where
     from strutwork.studies.tolerance_study import StudyOptions
 
     options = StudyOptions(
@@ -289,12 +295,14 @@ def tolerance(
         objective=None if allocation is None else allocation.value,
         quantile=quantile,
     )
-    work.run(target, limit or (), options, out, json=json)
+    work.run(target, limit or (), options, out, at=where(pose, joint), json=json)
 
 
 @app.command()
 def scale(
-    machine: Annotated[str, typer.Argument(metavar="MACHINE", help="mit-ss1.")],
+    machine: Annotated[
+        str, typer.Argument(metavar="MACHINE", help="A machine whose size is studied.")
+    ],
     low: Annotated[float, typer.Option("--from", help="Shortest struts, m.")] = 0.1,
     high: Annotated[float, typer.Option("--to", help="Longest struts, m.")] = 3.0,
     lengths: Annotated[int, typer.Option(min=2, max=10_000, help="Lengths, evenly spaced.")] = 30,
@@ -314,21 +322,27 @@ def scale(
     """Show what the size of a machine does to locked-in forces, stiffness and frequencies."""
     from strutwork.reports.cli import scale as work
 
-    work.run(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
+    study = work.study_of(machine)
+    study(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
 
 
 app.command()(accuracy)
 app.command()(move)
+app.command()(workspace)
 app.command()(new)
 app.command()(reversals)
+app.command()(singularities)
+app.command()(trajectory)
 
 
 @app.command()
 def report(
     target: Annotated[
         str,
-        typer.Argument(metavar="TARGET", help="A machine, a comparison (azulay-2014) or a FILE."),
+        typer.Argument(metavar="TARGET", help="A machine, a paper's key or a FILE."),
     ],
+    pose: Pose = None,
+    joint: JointAt = None,
     out: Annotated[
         str | None,
         typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
@@ -341,10 +355,11 @@ def report(
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
     from strutwork.reports.cli import report as work
+    from strutwork.reports.cli.subject import where
 
     if verify:
         if out is not None:
             raise typer.BadParameter("--verify writes nothing: leave --out out.")
         work.verify(target, json)
         return
-    work.run(target, out, json)
+    work.run(target, out, json, where(pose, joint))

@@ -8,14 +8,15 @@ from strutwork.names import visible
 from strutwork.reports.build import write_report
 from strutwork.reports.cli.output import console, print_json
 from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.manifest import verify_report
 
 
-def run(target: str, out: str | None, json: bool) -> None:
+def run(target: str, out: str | None, json: bool, at: Where = HOME) -> None:
     """Write the report and say where it lies."""
     folder = Path(out) if out is not None else Path("out") / Path(target).stem
     with shown("steps") as started:
-        written = write_report(target, folder, started)
+        written = write_report(target, folder, started, None if at.home else at.put)
     if json:
         print_json({"report": str(written.report), "data": [str(p) for p in written.data]})
         return

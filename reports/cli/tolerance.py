@@ -11,16 +11,17 @@ from rich.console import Console
 from rich.table import Table
 
 from strutwork.machines.catalogue import CATALOGUE
-from strutwork.machines.model_file import read_model
+from strutwork.machines.load import load
 from strutwork.names import visible
 from strutwork.overconstraint import joint_quantities
 from strutwork.reports.cli.output import console, print_json, show, table
 from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.cli.tolerance_limits import parsed_limits
 from strutwork.studies.dataset_files import write_netcdf
 from strutwork.studies.tolerance_result import ToleranceStudy, write_table
 from strutwork.studies.tolerance_study import StudyOptions, tolerance_study
-from strutwork.studies.toleranced_machines import toleranced_machine
+from strutwork.studies.toleranced_machine import toleranced_machine
 
 #: Quantiles that the tables show.
 SHOWN = ("0.95", "0.99")
@@ -30,10 +31,16 @@ UNITS = {"N": (1.0, "N"), "N*m": (1.0, "N·m"), "m": (1e6, "µm"), "rad": (1e6, 
 
 
 def run(
-    target: str, limits: Sequence[str], options: StudyOptions, out: str | None, *, json: bool
+    target: str,
+    limits: Sequence[str],
+    options: StudyOptions,
+    out: str | None,
+    *,
+    json: bool,
+    at: Where = HOME,
 ) -> None:
     """Study the tolerances of a model file or a machine and print what they do."""
-    study, notes = _study(target, limits, options)
+    study, notes = _study(target, limits, options, at)
     result = {"target": target, **study.to_dict(), "notes": list(notes), "data": []}
     if out is not None:
         name = f"{Path(target).stem}-tolerances"
@@ -49,10 +56,10 @@ def run(
 
 
 def _study(
-    target: str, given: Sequence[str], options: StudyOptions
+    target: str, given: Sequence[str], options: StudyOptions, at: Where
 ) -> tuple[ToleranceStudy, tuple[str, ...]]:
     with shown("assemblies") as started:
-        if target in CATALOGUE:
+        if target in CATALOGUE and at.home:
             machine = toleranced_machine(target)
             made = tolerance_study(
                 machine.placed,
@@ -65,7 +72,9 @@ def _study(
                 progress=started,
             )
             return made, machine.notes
-        model = read_model(target)
+        model = at.put(load(target))
+        if target in CATALOGUE:
+            model = replace(model, tolerances=toleranced_machine(target).tolerances)
         quantities = joint_quantities(model.structure.linkage)
         made = tolerance_study(
             model.placed,

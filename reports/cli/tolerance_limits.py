@@ -52,7 +52,7 @@ def parsed_limits(
                 f"Write [JOINT:]KIND=VALUE, KIND one of {', '.join(WORDS)}.",
             )
         kind, dimension = WORDS[word]
-        number = quantity(_number(value), dimension, f'limit "{text}"')
+        number = quantity(bare(value), dimension, f'limit "{text}"')
         if number <= 0:
             raise ModelError(f'limit "{text}"', "is not positive.", "Give a force above zero.")
         joints = [
@@ -70,7 +70,7 @@ def parsed_limits(
     return found
 
 
-def _number(text: str) -> float | str:
+def bare(text: str) -> float | str:
     """A bare number is in SI."""
     try:
         return float(text)

@@ -47,10 +47,13 @@ def model_view(model: Model) -> dict[str, Any]:
     if structure.beams:
         traces.append(mesh(_beams(model, size), "beam", "#8fa1b3"))
     if model.solids:
-        shapes = [Shape(s.points, s.triangles, _named(s)) for s in model.solids]
+        places = [s.points_at(model.placed) for s in model.solids]
+        shapes = [
+            Shape(p, s.triangles, _named(s)) for s, p in zip(model.solids, places, strict=True)
+        ]
         # glass, so that nodes and joints behind it stay in sight
         traces.append(mesh(shapes, "solid", "#b9b2a6", opacity=0.45, flatshading=True))
-        edges = [tuple(s.points[pair]) for s in model.solids for pair in s.outline]
+        edges = _edges(model)
         traces.append(segments(edges, "edge of a solid", "#7d766b", 2, showlegend=False))
     spokes = _spokes(model, at)
     if spokes:
@@ -96,7 +99,7 @@ def deformed_view(
     at = dict(zip(model.structure.linkage.nodes, model.placement.positions, strict=True))
     start, end = model.placed.beam_ends
     resting = [*zip(start, end, strict=True), *_spokes(model, at)]
-    resting += [tuple(s.points[pair]) for s in model.solids for pair in s.outline]
+    resting += _edges(model)
     scale = {
         "color": rounded(np.nan_to_num(moved) * 1e6, 5),
         "colorscale": "Viridis",
@@ -148,9 +151,10 @@ def deformed_shape(
         moves += [move, gap]
     index = structure.linkage.node_index
     for solid in model.solids:
-        motion = solid.motion(u[[index[n] for n in solid.nodes]])
+        motion = solid.motion(u[[index[n] for n in solid.nodes]], model.placed)
+        points = solid.points_at(model.placed)
         for pair in solid.outline:
-            lines += [solid.points[pair] + factor * motion[pair], gap]
+            lines += [points[pair] + factor * motion[pair], gap]
             moves += [motion[pair], gap]
     for group in _rigid_groups(model):
         rows = [index[n] for n in group]
@@ -191,6 +195,15 @@ def _beams(model: Model, size: float) -> list[Shape]:
             sizes = (float(length[i]), widths[0], widths[1])
             shapes.append(box((start[i] + end[i]) / 2, axes[i].T, sizes, label))
     return shapes
+
+
+def _edges(model: Model) -> list[tuple[Array, Array]]:
+    """Edges of the solids where these stand."""
+    found: list[tuple[Array, Array]] = []
+    for solid in model.solids:
+        points = solid.points_at(model.placed)
+        found += [(points[a], points[b]) for a, b in solid.outline]
+    return found
 
 
 def _named(solid: SolidElement) -> str:

@@ -65,9 +65,10 @@ def mode_lines(study: VibrationStudy) -> tuple[Array, Array]:
         moves += [cubic + axial[..., None] * t, gaps]
     index = structure.mesh_index
     for solid in (e for e in structure.elements if isinstance(e, SolidElement)):
-        motion_of = solid.motion(shapes[:, [index[n] for n in solid.nodes]])
+        motion_of = solid.motion(shapes[:, [index[n] for n in solid.nodes]], study.placed)
+        points = solid.points_at(study.placed)
         for pair in solid.outline:
-            where += [solid.points[pair], gap]
+            where += [points[pair], gap]
             moves += [motion_of[:, pair], gaps]
     for a, b in study.lines:
         where += [at[[index[a], index[b]]], gap]

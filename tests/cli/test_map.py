@@ -7,14 +7,8 @@ import pytest
 
 from strutwork.machines import Proposed3PPRS, get, roll_angles
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
-from strutwork.studies import (
-    AS_IN_AZULAY,
-    hemisphere,
-    on_plane,
-    plane_map,
-    read_netcdf,
-    stiffness_map,
-)
+from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
+from strutwork.studies import hemisphere, on_plane, plane_map, read_netcdf, stiffness_map
 from tests.cli.conftest import Program
 
 FEW = ("--lattice", "1", "--rolls", "2", "--workers", "1", "--ranges", "revolute")
@@ -75,7 +69,7 @@ def test_apparent_joint_model_is_another(strutwork: Program) -> None:
 
 @pytest.mark.parametrize(
     ("machine", "expected"),
-    [("hexapod", "not in the catalogue"), ("model.toml", "does not exist")],
+    [("hexapod", "no machine of the catalogue"), ("model.toml", "does not exist")],
 )
 def test_no_machine_of_the_catalogue(machine: str, expected: str, strutwork: Program) -> None:
     run = strutwork("map", machine, "--json")

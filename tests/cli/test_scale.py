@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from strutwork.papers.son_2002.size import mit_ss1_scale
 from strutwork.studies.dataset_files import read_netcdf
-from strutwork.studies.mit_ss1_scale import mit_ss1_scale
 from tests.cli.conftest import Program
 
 FEW = ("--from", "0.5", "--to", "1.5", "--lengths", "2")

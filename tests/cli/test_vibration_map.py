@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from strutwork.machines import dynamic_machine, roll_angles
-from strutwork.studies import AS_IN_AZULAY, dynamic_map, hemisphere, read_netcdf
+from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
+from strutwork.studies import dynamic_map, hemisphere, read_netcdf
 from tests.cli.conftest import Program
 
 FEW = ("--lattice", "1", "--rolls", "2", "--workers", "1", "--ranges", "revolute", "--vibration")

@@ -13,9 +13,9 @@ import pytest
 import xarray as xr
 
 from strutwork.errors import MechanismError, ModelError, NumericalError
+from strutwork.papers.published_rows import COLUMNS
 from strutwork.reports.build import WrittenReport, write_report
 from strutwork.reports.data_files import csv_file, json_file
-from strutwork.studies.published_table import COLUMNS
 from tests.reports.conftest import text_of
 
 MECHANISM = """

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from strutwork.machines.published_son import MODES, MOUNT_MODES
+from strutwork.papers.published_rows import COLUMNS
+from strutwork.papers.son_2002.published import MODES, MOUNT_MODES
 from strutwork.reports.build import WrittenReport
-from strutwork.studies.published_table import COLUMNS
 from tests.reports.browser import Browser
 from tests.reports.conftest import text_of
 from tests.reports.test_data_files import rows_of, specs

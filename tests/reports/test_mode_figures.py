@@ -10,11 +10,16 @@ import pytest
 
 from strutwork.meshes.block import block
 from strutwork.meshes.boundary import boundary
-from strutwork.reports.chapters.mit_ss1_modes import nearly
-from strutwork.reports.figures.mode_surface import LINE_RADIUS, mode_surface, modes_view, outline
+from strutwork.papers.son_2002.chapters.modes import nearly
+from strutwork.papers.son_2002.figures.mode_surface import (
+    LINE_RADIUS,
+    mode_surface,
+    modes_view,
+    outline,
+)
+from strutwork.papers.son_2002.mode_files import mode_fields, mode_scene
+from strutwork.papers.son_2002.modes import ModePicture
 from strutwork.reports.figures.modes import energy_bars, frequency_dots, singular_values
-from strutwork.reports.mode_files import mode_fields, mode_scene
-from strutwork.studies.mit_ss1_modes import ModePicture
 
 
 @pytest.fixture

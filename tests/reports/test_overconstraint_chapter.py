@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from strutwork.machines.mit_ss1_tolerances import STATIC_RATING
-from strutwork.machines.published_son import TABLE_2
+from strutwork.papers.published_rows import COLUMNS
+from strutwork.papers.son_2002.published import TABLE_2
+from strutwork.papers.son_2002.tolerances import STATIC_RATING
 from strutwork.reports.build import WrittenReport, write_report
 from strutwork.reports.chapters.overconstraint_forces import MOST
-from strutwork.studies.published_table import COLUMNS
 from tests.reports.conftest import text_of
 from tests.reports.test_data_files import rows_of, specs
 

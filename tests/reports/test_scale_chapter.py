@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from strutwork.machines import MitSS1
-from strutwork.reports.chapters.scale import scale_chapter
+from strutwork.papers.son_2002.chapters.size import scale_chapter
 from strutwork.reports.content import Chapter, Figure, Page, Row, Table, Text
 from strutwork.reports.figures.curves import Curve
 from strutwork.reports.figures.scaling import powers

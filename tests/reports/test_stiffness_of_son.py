@@ -7,10 +7,10 @@ import json
 
 import pytest
 
-from strutwork.machines.published_son import MANIPULABILITY, TABLE_6
+from strutwork.papers.published_rows import COLUMNS
+from strutwork.papers.son_2002.manipulability import ROW
+from strutwork.papers.son_2002.published import MANIPULABILITY, TABLE_6
 from strutwork.reports.build import WrittenReport
-from strutwork.studies.hexapod_manipulability import ROW
-from strutwork.studies.published_table import COLUMNS
 from tests.reports.conftest import text_of
 
 

@@ -7,8 +7,8 @@ import pytest
 from strutwork.errors import ModelError
 from strutwork.kinematics import Mechanism
 from strutwork.machines import CATALOGUE, get
-from strutwork.machines import published_son as son
-from strutwork.machines.published_azulay import TABLE_2, TABLE_4, TABLES
+from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_4, TABLES
+from strutwork.papers.son_2002 import published as son
 
 
 def test_every_entry_makes_its_machine() -> None:

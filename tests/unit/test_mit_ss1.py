@@ -12,9 +12,9 @@ from strutwork.kinematics import Poses, check_coincidence, mobility, rotation_y,
 from strutwork.machines import MitSS1, check_limits
 from strutwork.machines import mit_ss1_parts as parts
 from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from strutwork.machines.published_son import DIMENSIONS, MACHINE
 from strutwork.msa import tool_compliance
 from strutwork.msa.mass import mass_properties
+from strutwork.papers.son_2002.published import DIMENSIONS, MACHINE
 
 IN_PLANE = np.ix_([0, 2, 4], [0, 2, 4])
 

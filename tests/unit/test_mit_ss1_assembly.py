@@ -7,10 +7,16 @@ import pytest
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import cross_matrix, mobility
-from strutwork.machines import StrutAssembly, strut_width
-from strutwork.machines.mit_ss1_assembly import CALIBRATED_ON_CASE_I, CASES, TILT, joint
-from strutwork.machines.published_son import TABLE_2, table_2_row
 from strutwork.msa import tool_compliance
+from strutwork.papers.son_2002.published import TABLE_2, table_2_row
+from strutwork.papers.son_2002.strut_assembly import (
+    CALIBRATED_ON_CASE_I,
+    CASES,
+    TILT,
+    StrutAssembly,
+    joint,
+    strut_width,
+)
 
 numerals = pytest.mark.parametrize("numeral", CASES)
 

@@ -9,31 +9,36 @@ import pytest
 
 from strutwork.errors import ModelError, UnreachableError
 from strutwork.kinematics import Poses
-from strutwork.machines import MitSS1, StrutAssembly
-from strutwork.machines.mit_ss1_designs import (
-    DESIGNS,
-    Design,
-    datum,
-    design_tolerances,
-    placed_design,
-)
-from strutwork.machines.mit_ss1_tolerances import (
-    STATIC_RATING,
-    bearing_limits,
-    machine_bearings,
-    mit_ss1_tolerances,
-    table_2_tolerances,
-)
+from strutwork.machines import MitSS1
 from strutwork.overconstraint import tolerance_responses, worst_case
-from strutwork.studies.assembly_map import (
+from strutwork.papers.son_2002.assembly_map import (
     FORCES,
     assembly_map,
     bearing_quantities,
     compare_designs,
     machine_worst_case,
 )
-from strutwork.studies.assembly_scale import assembly_scale
-from strutwork.studies.assembly_table import calibrate_assembly, joint_forces, table_2_worst_case
+from strutwork.papers.son_2002.assembly_scale import assembly_scale
+from strutwork.papers.son_2002.assembly_table import (
+    calibrate_assembly,
+    joint_forces,
+    table_2_worst_case,
+)
+from strutwork.papers.son_2002.designs import (
+    DESIGNS,
+    Design,
+    datum,
+    design_tolerances,
+    placed_design,
+)
+from strutwork.papers.son_2002.strut_assembly import StrutAssembly
+from strutwork.papers.son_2002.tolerances import (
+    STATIC_RATING,
+    bearing_limits,
+    machine_bearings,
+    mit_ss1_tolerances,
+    table_2_tolerances,
+)
 
 
 def test_lengths_of_a_batch_are_those_one_by_one() -> None:

@@ -22,21 +22,25 @@ from strutwork.machines import (
 )
 from strutwork.msa import tool_compliance
 from strutwork.msa.mass import mass_properties
-from strutwork.studies import (
-    azulay_table_5,
+from strutwork.papers.azulay_2014.dynamic import azulay_table_5
+from strutwork.papers.azulay_2014.sensitivity import (
     dynamic_link_lengths,
-    dynamic_stiffness,
-    frequency_responses,
     mass_sensitivity,
     offset_sensitivity,
-    read_netcdf,
+)
+from strutwork.papers.azulay_2014.synthetic_measurement import (
+    prototype_outputs,
     synthetic_measurement,
+)
+from strutwork.papers.tables import write_published
+from strutwork.studies import (
+    dynamic_stiffness,
+    frequency_responses,
+    read_netcdf,
     write_long_csv,
     write_netcdf,
-    write_published,
 )
 from strutwork.studies.dynamic import at_home, grid_minimum, modal_data, tool_ports
-from strutwork.studies.synthetic_measurement import prototype_outputs
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,9 @@ import xarray as xr
 
 from strutwork.errors import ModelError
 from strutwork.machines import Proposed3PPRS
+from strutwork.papers.published_rows import PublishedRow
+from strutwork.papers.tables import write_published
 from strutwork.studies import (
-    PublishedRow,
     hemisphere,
     read_netcdf,
     stiffness_map,
@@ -21,7 +22,6 @@ from strutwork.studies import (
     write_csv,
     write_json,
     write_netcdf,
-    write_published,
 )
 
 COLUMNS = (

@@ -19,15 +19,15 @@ from strutwork.kinematics import rotation_z, tangent_rotation
 from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS
 from strutwork.msa import PlacedStructure, Structure, axis_stiffness_blocked, tool_compliance
 from strutwork.outcome import Outcome, reason_of
+from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
+from strutwork.papers.azulay_2014.link_lengths import link_lengths
 from strutwork.studies import (
-    AS_IN_AZULAY,
     CheckPoints,
     Filters,
     PoseStatus,
     area_weights,
     budget_map,
     hemisphere,
-    link_lengths,
     stiffness_map,
     summary,
     sweep,

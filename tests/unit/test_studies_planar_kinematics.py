@@ -8,13 +8,13 @@ import pytest
 from strutwork.errors import ModelError
 from strutwork.kinematics import drive_values
 from strutwork.machines import MitSS1
-from strutwork.machines.published_son import MACHINE, MANIPULABILITY
-from strutwork.studies.planar_kinematics import (
+from strutwork.papers.son_2002.planar_kinematics import (
     SINGULAR_X,
     parallel_determinant,
     planar_kinematics,
     singular_tilt,
 )
+from strutwork.papers.son_2002.published import MACHINE, MANIPULABILITY
 
 
 def test_condition_number_of_the_workspace() -> None:

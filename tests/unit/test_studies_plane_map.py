@@ -9,8 +9,8 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import rotation_y
 from strutwork.machines import GridMachine, HexelHexapod, MitSS1, PoseGrid, Proposed3PPRS
 from strutwork.msa import axis_stiffness_free, tool_compliance
+from strutwork.papers.son_2002.planar_stiffness import planar_compliance, planar_stiffness_map
 from strutwork.studies import on_plane, plane_map, stiffness_falls
-from strutwork.studies.son_stiffness import planar_compliance, planar_stiffness_map
 
 
 def test_map_holds_every_place_with_every_tilt() -> None:

@@ -10,7 +10,6 @@ import pytest
 
 from strutwork.errors import ModelError
 from strutwork.machines import MitSS1
-from strutwork.machines.mit_ss1_tolerances import machine_bearings, mit_ss1_tolerances
 from strutwork.machines.model_file import read_model
 from strutwork.overconstraint import (
     allocate,
@@ -19,10 +18,11 @@ from strutwork.overconstraint import (
     tool_deviation,
     worst_case,
 )
-from strutwork.studies.assembly_map import nominal_grid
+from strutwork.papers.son_2002.assembly_map import nominal_grid
+from strutwork.papers.son_2002.tolerances import machine_bearings, mit_ss1_tolerances
 from strutwork.studies.tolerance_result import ToleranceStudy, write_table
 from strutwork.studies.tolerance_study import StudyOptions, at_pose, in_a_row, tolerance_study
-from strutwork.studies.toleranced_machines import toleranced_machine
+from strutwork.studies.toleranced_machine import toleranced_machine
 
 RAILS = Path(__file__).parents[2] / "examples" / "06_table_on_two_rails.toml"
 MACHINE = MitSS1()

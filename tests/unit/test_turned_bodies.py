@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from strutwork.errors import ModelError
 from strutwork.fea import modes
 from strutwork.kinematics.motion import Motion
 from strutwork.machines.model_file import parse_model
@@ -180,3 +181,78 @@ def test_a_turned_batch_has_one_answer_a_pose(moved) -> None:
     for k in range(5):
         one = tool_compliance(home.structure.at(many[k]), method="null_space")
         np.testing.assert_allclose(found[k], one, rtol=0, atol=1e-9 * np.abs(one).max())
+
+
+SOLID = """
+[materials.stone]
+youngs_modulus = 5e10
+poissons_ratio = 0.2
+density = 2900
+[nodes]
+G = [0, 0, 0]
+A = [0, 0, 0]
+T = [0.4, 0.1, 0.05]
+[[solids]]
+name = "arm"
+shape = "block"
+size = [0.4, 0.2, 0.1]
+position = [0, 0, 0]
+material = "stone"
+cell = 0.1
+modes = 6
+[[solids.interfaces]]
+node = "A"
+patch = "-x"
+kind = "rigid"
+[[solids.interfaces]]
+node = "T"
+patch = "+x"
+[[joints]]
+name = "spindle"
+type = "revolute"
+between = ["G", "A"]
+axis = [0.333333333333333, 0.666666666666667, 0.666666666666667]
+driven = ["rz"]
+[[supports]]
+node = "G"
+fixed = "all"
+[tool]
+tcp = "T"
+"""
+
+
+def test_a_solid_turns_with_its_body() -> None:
+    """What turns as a whole is the same compliance in axes that turn with it."""
+    home = parse_model(SOLID)
+    placement = home.motion.move(joints={("spindle", "rz"): 0.7}).placement
+    there = replace(home, placement=placement)
+    turn = Rotation.from_rotvec(0.7 * AXIS).as_matrix()
+    whole = np.kron(np.eye(2), turn)
+    here = tool_compliance(home.placed)
+    np.testing.assert_allclose(
+        tool_compliance(there.placed), whole @ here @ whole.T, atol=1e-9 * np.abs(here).max()
+    )
+    (solid,) = home.solids
+    np.testing.assert_allclose(
+        solid.points_at(there.placed), solid.points_at(home.placed) @ turn.T, atol=1e-12
+    )
+    frequencies = [modes(m.placed, 3).frequencies for m in (home, there)]
+    np.testing.assert_allclose(*frequencies, rtol=1e-9)
+    # a rigid motion of its nodes is one of its surface, in the axes of the pose
+    index = there.structure.mesh_index
+    arms = there.placed.positions[[index[n] for n in solid.nodes]]
+    spin = np.array([0.1, -0.2, 0.3])
+    nodes = np.concatenate([np.cross(spin, arms), np.broadcast_to(spin, arms.shape)], axis=1)
+    moved_points = solid.motion(nodes, there.placed)
+    np.testing.assert_allclose(
+        moved_points, np.cross(spin, solid.points_at(there.placed)), atol=1e-9
+    )
+
+
+def test_a_joint_that_slides_on_a_solid_is_refused() -> None:
+    text = SOLID.replace('type = "revolute"', 'type = "prismatic"').replace(
+        'between = ["G", "A"]', 'between = ["A", "G"]'
+    )
+    text = text.replace('driven = ["rz"]', 'driven = ["z"]')
+    with pytest.raises(ModelError, match=r"joint spindle: slides on node .A., which is tied"):
+        _ = parse_model(text).motion

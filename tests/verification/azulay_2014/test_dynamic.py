@@ -16,7 +16,7 @@ Asserted are what symmetry and mechanics force on either, and, of the calibrated
 fitted to: the rankings, and how far each number is from the print. Joint compliance is left out
 and the damping is 1 % viscous in every mode, as the paper says.
 
-Every published number is read from `strutwork.machines.published_azulay`.
+Every published number is read from `strutwork.papers.azulay_2014.published`.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ import pytest
 
 from strutwork.fea import ModalRatio, Port, frequency_response
 from strutwork.machines import DYNAMIC_SETS, DynamicSet, VibratingLegs, dynamic_machine
-from strutwork.machines.published_azulay import TABLE_5
-from strutwork.studies import (
+from strutwork.papers.azulay_2014.comparison import machines
+from strutwork.papers.azulay_2014.dynamic import (
     AzulayDynamics,
     azulay_table_5,
-    closed_form_stiffness,
-    dynamic_stiffness,
     published_dynamic_ranking,
 )
-from strutwork.studies.comparison import machines
+from strutwork.papers.azulay_2014.published import TABLE_5
+from strutwork.papers.azulay_2014.sensitivity import closed_form_stiffness
+from strutwork.studies import dynamic_stiffness
 from strutwork.studies.dynamic import at_home
 
 SETS: tuple[DynamicSet, ...] = tuple(DYNAMIC_SETS)

@@ -15,7 +15,7 @@ that Table 4 is met best (calibrated). Two joint models are computed: true spher
 links clamped in the platform, which is wrong for the machine and comes close to the tables (the
 apparent model). What is asserted of each, and why no more, stands at each test.
 
-Every published number is read from `strutwork.machines.published_azulay`.
+Every published number is read from `strutwork.papers.azulay_2014.published`.
 """
 
 from __future__ import annotations
@@ -26,14 +26,7 @@ import numpy as np
 import pytest
 
 from strutwork.kinematics import Body, Joint, Linkage, Placement
-from strutwork.machines import (
-    Eclipse3PPRS,
-    PublishedTable,
-    ThreeLegs,
-    hemisphere_poses,
-    roll_angles,
-)
-from strutwork.machines.published_azulay import TABLE_2, TABLE_4
+from strutwork.machines import Eclipse3PPRS, ThreeLegs, hemisphere_poses, roll_angles
 from strutwork.machines.three_legs import AISI_1018, TUBE_19_14
 from strutwork.msa import (
     Beam,
@@ -42,16 +35,19 @@ from strutwork.msa import (
     axis_stiffness_free,
     tool_compliance,
 )
-from strutwork.studies import (
+from strutwork.papers.azulay_2014.comparison import (
+    DIRECTIONS,
+    MODELS,
     AzulayComparison,
-    Filters,
+    Model,
     compare_azulay,
+    machines,
     published_ranking,
-    stiffness_map,
-    summary,
     variant,
 )
-from strutwork.studies.comparison import DIRECTIONS, MODELS, Model, machines
+from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_4
+from strutwork.papers.published_table import PublishedTable
+from strutwork.studies import Filters, stiffness_map, summary
 
 PROPOSED = "proposed-3pprs"
 LENGTHS = tuple(f"{PROPOSED} L={length} mm" for length in (196, 216, 236))

@@ -24,13 +24,13 @@ import pytest
 import xarray as xr
 
 from strutwork.machines import HexelHexapod, MitSS1
-from strutwork.machines.published_son import MANIPULABILITY
-from strutwork.studies import plane_map, stiffness_falls
-from strutwork.studies.hexapod_manipulability import (
+from strutwork.papers.son_2002.manipulability import (
     ROW,
     hexapod_manipulability,
     manipulability_rows,
 )
+from strutwork.papers.son_2002.published import MANIPULABILITY
+from strutwork.studies import plane_map, stiffness_falls
 
 
 @cache

@@ -10,7 +10,7 @@
 Dimensions from Appendix B with w1 counted to negative x, whose sign the scan has lost in eq. 40.
 Where the thesis prints a figure only (Fig. 28), the numbers asserted are worked out from eqs 40 to
 45 by hand-written formulas, apart from the machine's joints; where it prints numbers
-(section 6.4) they are read from `strutwork.machines.published_son`.
+(section 6.4) they are read from `strutwork.papers.son_2002.published`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from strutwork.kinematics import drive_values, jacobians, velocity_ellipsoid
 from strutwork.machines import MitSS1, WorkTable
 from strutwork.machines import mit_ss1_parts as parts
 from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
-from strutwork.machines.published_son import DIMENSIONS, MACHINE, MANIPULABILITY
+from strutwork.papers.son_2002.published import DIMENSIONS, MACHINE, MANIPULABILITY
 
 PLANE = [0, 2, 4]
 W1, W2, W3, L1, L2, L3, H1, H2, T, R, P = (value.value for value in DIMENSIONS)

@@ -13,8 +13,8 @@ from math import pi
 import pytest
 
 from strutwork.machines import MitSS1
-from strutwork.machines.published_son import MODES, TABLE_6, table_6_row
-from strutwork.studies.mit_ss1_calibration import MOVING_MASS
+from strutwork.papers.son_2002.calibration import MOVING_MASS
+from strutwork.papers.son_2002.published import MODES, TABLE_6, table_6_row
 
 #: Equivalent stiffness of the tilt along x, N/m, and from the tilting centre to the spindle's
 #: end, m (section 9.2.1).

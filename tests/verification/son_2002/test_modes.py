@@ -24,18 +24,16 @@ from strutwork.fea.modes import modes
 from strutwork.fea.reduce_solid import tied
 from strutwork.fea.superelement import superelement
 from strutwork.kinematics import mobility
-from strutwork.machines.mit_ss1_calibrated import (
+from strutwork.machines.mit_ss1_frame import GraniteFrame
+from strutwork.machines.mit_ss1_whole import MitSS1Whole
+from strutwork.msa.mass import mass_properties
+from strutwork.papers.son_2002.calibrated import (
     CALIBRATED_MEASURED,
     CALIBRATED_MOUNTS,
     CALIBRATED_MOVING,
     calibrated_machine,
 )
-from strutwork.machines.mit_ss1_frame import GraniteFrame
-from strutwork.machines.mit_ss1_whole import MitSS1Whole
-from strutwork.machines.published_son import MODES, MOUNT_MODES
-from strutwork.msa.mass import mass_properties
-from strutwork.studies.calibration_problem import Target
-from strutwork.studies.mit_ss1_calibration import (
+from strutwork.papers.son_2002.calibration import (
     K_X,
     K_Y,
     MASS,
@@ -45,7 +43,7 @@ from strutwork.studies.mit_ss1_calibration import (
     moving_targets,
     stored_calibration,
 )
-from strutwork.studies.mit_ss1_modes import (
+from strutwork.papers.son_2002.modes import (
     BENDING,
     SCREW,
     STRUTS,
@@ -56,7 +54,9 @@ from strutwork.studies.mit_ss1_modes import (
     mode_rows,
     named_modes,
 )
-from strutwork.studies.mit_ss1_tilt import pin_width_for_tilt, posture_frequencies
+from strutwork.papers.son_2002.published import MODES, MOUNT_MODES
+from strutwork.papers.son_2002.tilt import pin_width_for_tilt, posture_frequencies
+from strutwork.studies.calibration_problem import Target
 
 #: Thicknesses and mounts for which the full solid was calculated by another program.
 REFERENCE = GraniteFrame(plate=0.223, base=0.162)

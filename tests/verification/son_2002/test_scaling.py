@@ -18,10 +18,10 @@ import numpy as np
 import pytest
 
 from strutwork.fea import modes
-from strutwork.machines.mit_ss1_calibrated import calibrated_machine
 from strutwork.machines.mit_ss1_whole import MitSS1Whole
 from strutwork.msa import LoadCase, PlacedStructure, axis_stiffness_free, solve, tool_compliance
-from strutwork.studies.mit_ss1_scale import mit_ss1_scale
+from strutwork.papers.son_2002.calibrated import calibrated_machine
+from strutwork.papers.son_2002.size import mit_ss1_scale
 from strutwork.studies.removal_rate import (
     actuator_force,
     cutting_force,

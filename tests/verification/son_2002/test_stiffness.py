@@ -23,17 +23,17 @@ import pytest
 
 from strutwork.kinematics import jacobians
 from strutwork.machines import MitSS1
-from strutwork.machines.published_son import FIGURE_29_TICK
 from strutwork.msa import tool_compliance
-from strutwork.studies.planar_kinematics import strut_rows
-from strutwork.studies.son_stiffness import (
+from strutwork.papers.son_2002.planar_kinematics import strut_rows
+from strutwork.papers.son_2002.planar_stiffness import (
     STRUT_STIFFNESS,
     Formula,
     map_figures,
     planar_compliance,
     planar_stiffness_map,
 )
-from strutwork.studies.stiffness_table import (
+from strutwork.papers.son_2002.published import FIGURE_29_TICK
+from strutwork.papers.son_2002.stiffness_table import (
     PLACES,
     READINGS,
     ColumnFit,

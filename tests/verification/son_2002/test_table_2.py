@@ -7,12 +7,11 @@
   year   = {2002}
 }
 
-Section 6.6 and Table 2, page 85; the printed forces are read from
-`strutwork.machines.published_son`. The structure is reconstructed, since figures 40 and 42 are not
-at hand, and its two stiffnesses are calibrated: agreement with the print is a fit. Cases II and III
-test it where the stiffnesses were fitted to Case I alone, and then only as far as the structure is
-right.
-"""
+Section 6.6 and Table 2, page 85; the printed forces are read from the module
+`strutwork.papers.son_2002.published`. The structure is reconstructed, since figures 40 and 42 are
+not at hand, and its two stiffnesses are calibrated: agreement with the print is a fit. Cases II and
+III test it where the stiffnesses were fitted to Case I alone, and then only as far as the structure
+is right."""
 
 from __future__ import annotations
 
@@ -22,9 +21,6 @@ from itertools import product
 import numpy as np
 import pytest
 
-from strutwork.machines import StrutAssembly
-from strutwork.machines.mit_ss1_assembly import CASES, TILT
-from strutwork.machines.mit_ss1_tolerances import table_2_joints, table_2_tolerances
 from strutwork.overconstraint import (
     RigidAssembly,
     WorstCase,
@@ -34,13 +30,15 @@ from strutwork.overconstraint import (
     tolerance_responses,
     worst_case,
 )
-from strutwork.studies.assembly_table import (
+from strutwork.papers.son_2002.assembly_table import (
     calibrate_assembly,
     joint_forces,
     published_forces,
     table_2_rows,
     table_2_worst_case,
 )
+from strutwork.papers.son_2002.strut_assembly import CASES, TILT, StrutAssembly
+from strutwork.papers.son_2002.tolerances import table_2_joints, table_2_tolerances
 
 KINDS = ("radial force", "axial force")
 

@@ -1,0 +1,312 @@
+"""Singular poses along a line of poses, and how far a pose is from them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from strutwork.errors import ModelError
+from strutwork.kinematics.linkage import Linkage
+from strutwork.kinematics.lost_motion import Kind, Lost, kinds, lost_motion
+from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.pose_family import Looked, PoseFamily, Progress
+from strutwork.kinematics.reach_end import ReachEnds, reach_ends
+from strutwork.kinematics.singularity_search import (
+    Part,
+    Refined,
+    has_minor,
+    least,
+    refine_least,
+    refine_zeros,
+    sign_changes,
+)
+from strutwork.kinematics.tool_drive_space import (
+    Freedoms,
+    ToolDriveSpace,
+    tool_drive_space,
+)
+
+Array = NDArray[Any]
+
+#: Singular poses nearer to each other than this share of the spacing are one.
+SAME = 1e-6
+
+PARTS: tuple[Part, ...] = ("drives", "tool", "passive")
+
+
+@dataclass(frozen=True)
+class Singularity:
+    """One singular pose, or an end of reach.
+
+    Parameters
+    ----------
+    parameters : mapping of name to float
+        m and rad.
+    kind : Kind
+    lost : Lost or None
+        What is lost there; None where nothing is.
+    reason : str
+        At an end of reach, why poses beyond are not reached; else empty.
+    placement : Placement
+        A batch of one.
+    """
+
+    parameters: Mapping[str, float]
+    kind: Kind
+    lost: Lost | None
+    reason: str
+    placement: Placement
+
+    def __repr__(self) -> str:
+        where = ", ".join(f"{k} = {v:.6g}" for k, v in self.parameters.items())
+        return f"<Singularity: {self.kind.value} at {where}>"
+
+
+@dataclass(frozen=True)
+class Distance:
+    """Distance from singularities, by a stated length.
+
+    Parameters
+    ----------
+    length : float
+        L, m: how much translation counts as much as one radian, of the tool and of a drive that
+        turns.
+    parallel : (...)
+        Least singular value of the inverse Jacobian: rates of the drives in that motion of the
+        tool of size one, (v, L ω), which moves them least. 0 at an actuator singularity (type 2).
+    serial : (...)
+        Least singular value of the Jacobian: motion of the tool, of those that rates of size one
+        make, which is least. 0 at an end-effector singularity (type 1).
+    passive : (...)
+        Least singular value of the passive rows, each of size one on (v, L ω) of the bodies. 0 at
+        a singularity of the configuration space.
+    """
+
+    length: float
+    parallel: Array
+    serial: Array
+    passive: Array
+
+
+def singularity_distance(
+    linkage: Linkage,
+    placement: Placement,
+    length: float | None = None,
+    known: Freedoms | None = None,
+) -> Distance:
+    """Distance of poses from singularities.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    placement : Placement
+        Poses that are reached.
+    length : float, optional
+        m; default the machine's `characteristic_length`.
+    known : Freedoms, optional
+        Ranks at poses that are not singular; needed where all of these poses may be singular.
+
+    Raises
+    ------
+    ModelError
+        As `tool_drive_space`.
+    """
+    space = tool_drive_space(linkage, placement, length, known)
+    shape = placement.batch
+    return Distance(
+        space.length,
+        space.parallel_distance().reshape(shape),
+        space.serial_distance().reshape(shape),
+        space.passive.reshape(shape),
+    )
+
+
+def classify(
+    linkage: Linkage,
+    placement: Placement,
+    known: Freedoms,
+    length: float | None = None,
+) -> tuple[list[Kind | None], list[Lost | None]]:
+    """Kinds of poses that are singular to rounding, and what is lost there.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    placement : Placement
+        One batch axis.
+    known : Freedoms
+        Ranks at poses that are not singular, as `tool_drive_space(...).known` of such.
+    length : float, optional
+        m.
+
+    Returns
+    -------
+    kinds : list of Kind or None
+        None for a pose that is not singular.
+    lost : list of Lost or None
+    """
+    space = tool_drive_space(linkage, placement, length, known)
+    found = list(kinds(space))
+    lost = [
+        None
+        if kind is None
+        else lost_motion(linkage, placement[i : i + 1], kind, space.length, known)
+        for i, kind in enumerate(found)
+    ]
+    return found, lost
+
+
+def singularities_on_line(
+    family: PoseFamily, values: ArrayLike, progress: Progress | None = None
+) -> tuple[Singularity, ...]:
+    """Singular poses and ends of reach along a line of poses, in its order.
+
+    Between neighbours a minor of the motions' tool or drive part changes its sign at a simple
+    singularity; others (where it touches zero, or of machines with more drives than freedoms)
+    are least singular values that are zero. Each is refined to rounding and judged there.
+
+    Parameters
+    ----------
+    family : PoseFamily
+        Of one parameter, or of k that go along a straight line.
+    values : (n,) or (n, k)
+        Poses along the line, so near to each other that between two of them there is one
+        singularity of a kind at most.
+    progress : callable, optional
+
+    Raises
+    ------
+    ModelError
+        Less than two values, no pose that is reached, or as `tool_drive_space`.
+    """
+    points = np.asarray(values, dtype=float)
+    points = points[:, None] if points.ndim == 1 else points
+    if len(points) < 2 or not np.all(np.isfinite(points)):
+        raise ModelError(
+            "line", f"has {len(points)} poses.", "Give two or more finite values along it."
+        )
+    looked = family.look(points, progress)
+    family = replace(family, known=looked.space.known)
+    edges = np.stack([np.arange(len(points) - 1), np.arange(1, len(points))], axis=1)
+    found: list[Singularity] = []
+    inner = edges[looked.reach[edges].all(axis=1)]
+    line = _line(family, points[0], points[-1])
+    for part in PARTS:
+        changed = inner[sign_changes(looked, inner, part)]
+        if len(changed):
+            a, b = points[changed].swapaxes(0, 1)
+            found += singular_poses(family, refine_zeros(family, a, b, part))
+        low = local_minima(looked, inner, changed, part)
+        if low.size:
+            share = (low / (len(points) - 1.0))[:, None]
+            refined = refine_least(line, share, np.array([1.0 / (len(points) - 1)]), part)
+            whole = points[0] + refined.parameters * (points[-1] - points[0])
+            found += singular_poses(family, replace(refined, parameters=whole))
+    ends = edges[looked.reach[edges].sum(axis=1) == 1]
+    if len(ends):
+        found += ends_of_reach(family, *ordered_ends(looked, ends))
+    way = points[-1] - points[0]
+
+    def share_of(one: Singularity) -> float:
+        return float(way @ (np.array(list(one.parameters.values())) - points[0]) / (way @ way))
+
+    # a refined pose may have gone beyond the ends
+    found = sorted((one for one in found if -1e-12 <= share_of(one) <= 1 + 1e-12), key=share_of)
+    near = SAME / (len(points) - 1)
+    return tuple(
+        one
+        for k, one in enumerate(found)
+        if not any(
+            o.kind is one.kind and abs(share_of(o) - share_of(one)) <= near for o in found[:k]
+        )
+    )
+
+
+def local_minima(
+    looked: Looked, edges: NDArray[np.intp], changed: NDArray[np.intp], part: Part
+) -> NDArray[np.intp]:
+    """Poses whose least singular value is below that of all neighbours they have, (m,).
+
+    Those beside a change of sign are left out: that has been followed already.
+    """
+    if part == "passive" and looked.space.known.rank == 0:
+        return np.zeros(0, dtype=np.intp)
+    values = looked.spread(least(looked.space, part))
+    lower = looked.reach.copy()
+    for here, there in (edges.T, edges.T[::-1]):
+        # of two neighbours with one value the first stays
+        above = np.where(here < there, values[here] > values[there], values[here] >= values[there])
+        lower[here[above]] = False
+    lower[changed.ravel()] = False
+    return np.flatnonzero(lower)
+
+
+def singular_poses(family: PoseFamily, refined: Refined) -> list[Singularity]:
+    """What refined poses are, and what is lost there."""
+    found = kinds(refined.space)
+    result = []
+    for i, kind in enumerate(found):
+        if kind is not None:
+            placement = refined.placement[i : i + 1]
+            result.append(singular_pose(family, refined.parameters[i], kind, placement))
+    return result
+
+
+def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array]:
+    """Parameters of the end that is reached and of the other, of edges that have one of each."""
+    inside = np.where(looked.reach[edges[:, 0]], edges[:, 0], edges[:, 1])
+    outside = edges.sum(axis=1) - inside
+    return looked.parameters[inside], looked.parameters[outside]
+
+
+def end_kinds(family: PoseFamily, ends: ReachEnds) -> list[Kind]:
+    """Kinds of ends of reach, (e,)."""
+    space = tool_drive_space(family.linkage, ends.placement, family.length, family.known)
+    found = list(kinds(space))
+    section = family.section
+    if section is not None and not ends.turned.all():
+        # what the motion reaches and the family refuses is outside a range
+        free = section.place(ends.beyond).reachable
+    else:
+        free = np.zeros(len(found), dtype=bool)
+    result = []
+    for kind, turned, limited in zip(found, ends.turned, free, strict=True):
+        other = Kind.TURN if turned else Kind.LIMIT if limited else Kind.UNKNOWN
+        result.append(other if kind is None or (limited and not turned) else kind)
+    return result
+
+
+def ends_of_reach(family: PoseFamily, inside: Array, outside: Array) -> list[Singularity]:
+    """Ends of reach between poses, as singularities."""
+    ends = reach_ends(family, inside, outside)
+    return [
+        singular_pose(family, ends.parameters[i], kind, ends.placement[i : i + 1], ends.reasons[i])
+        for i, kind in enumerate(end_kinds(family, ends))
+    ]
+
+
+def singular_pose(
+    family: PoseFamily, parameters: Array, kind: Kind, placement: Placement, reason: str = ""
+) -> Singularity:
+    """One singular pose, with what is lost there."""
+    known = family.known
+    lost = (
+        None
+        if known is None
+        else lost_motion(family.linkage, placement, kind, family.length, known)
+    )
+    named = dict(zip(family.names, map(float, parameters), strict=True))
+    return Singularity(named, kind, lost, reason, placement)
+
+
+def _line(family: PoseFamily, start: Array, end: Array) -> PoseFamily:
+    """The poses between two of a family, by the share of the way."""
+
+    def place(share: Array) -> Placement:
+        return family.place(start + share * (end - start))
+
+    return replace(family, place=place, names=("share",), section=None)

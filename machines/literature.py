@@ -1,0 +1,39 @@
+"""The documents that the machines come from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A document.
+
+    Parameters
+    ----------
+    key : str
+        Short name, used in the names of tables.
+    citation : str
+    page : str
+        What writes a page about the document itself, as `MODULE:FUNCTION` of `papers`, see
+        `strutwork.machines.paper_reference.resolve`; empty where there is none.
+    """
+
+    key: str
+    citation: str
+    page: str = ""
+
+
+AZULAY_2014 = Paper(
+    "azulay-2014",
+    "H. Azulay, M. Mahmoodi, R. Zhao, J. K. Mills, B. Benhabib: Comparative analysis of a new "
+    "3xPPRS parallel kinematic mechanism. Robotics and Computer-Integrated Manufacturing 30 "
+    "(2014).",
+    "strutwork.papers.azulay_2014.comparison_page:comparison_chapters",
+)
+
+SON_2002 = Paper(
+    "son-2002",
+    "S.-K. Son: A hybrid type small 5-axis CNC milling machine. PhD thesis, Massachusetts "
+    "Institute of Technology (2002).",
+)

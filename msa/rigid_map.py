@@ -1,0 +1,26 @@
+"""Motion carried along rigid arms, and vectors turned into the axes of a body."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[Any]
+
+
+def turned_back(rotation: Array, vector: Array) -> Array:
+    """Rᵀ v, (..., 3, 3) and (..., 3)."""
+    return np.asarray(np.einsum("...ji,...j->...i", rotation, vector))
+
+
+def rigid_map(arm: Array) -> Array:
+    """Twist at the end of a rigid arm from the twist at its start, (..., 3) to (..., 6, 6)."""
+    result = np.zeros((*arm.shape[:-1], 6, 6), dtype=np.result_type(arm, float))
+    result[..., range(6), range(6)] = 1.0
+    x, y, z = arm[..., 0], arm[..., 1], arm[..., 2]
+    result[..., 0, 4], result[..., 0, 5] = z, -y
+    result[..., 1, 3], result[..., 1, 5] = -z, x
+    result[..., 2, 3], result[..., 2, 4] = y, -x
+    return result

@@ -1,0 +1,1 @@
+"""Chapters of the pages about the machines of the paper."""

@@ -1,0 +1,148 @@
+"""A machine of the literature: what it is, how it stands, what was assumed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from strutwork.kinematics import Placement
+from strutwork.machines import ThreeLegs
+from strutwork.papers.azulay_2014.chapters.assumptions import (
+    assumptions_table,
+    method_table,
+    models_table,
+)
+from strutwork.papers.azulay_2014.figures.three_legs import drawn_joints, machine_view
+from strutwork.papers.azulay_2014.machine_study import FILTERS, MachineStudy
+from strutwork.papers.azulay_2014.published import TABLE_4
+from strutwork.reports.chapters.stiffness import AXES
+from strutwork.reports.content import Chapter, Fact, Facts, Figure, Note, Text
+from strutwork.reports.data_files import DataFile, json_file
+from strutwork.reports.numbers import micro, percent, significant
+
+DRAWING = (
+    "Drag to turn, scroll to zoom; names show under the pointer. Lengths are in mm and links at "
+    "their true diameter; joint symbols are not to scale. Black arrows show the driven motions."
+)
+
+
+def summary_chapter(study: MachineStudy) -> Chapter:
+    """The machine in a sentence and its headline numbers."""
+    found, fitted = study.summaries["spherical"], study.summaries["apparent"]
+    linkage = study.machines["spherical"].linkage
+    text = (
+        f"{study.entry.title}: three legs on one circular guide carry the platform, each leg, from "
+        f"the guide up, {study.entry.topology} (P prismatic, R revolute, S spherical; driven ones "
+        f"in brackets), {len(linkage.driven)} drives in all. Its static stiffness at the tool was "
+        f"computed at {found.points_kept} of {found.points} check points on a hemisphere, at each "
+        "of them with the roll that makes Kxx largest."
+    )
+    facts = []
+    for axis in AXES:
+        mean = found.axis(axis).statistics.mean
+        published = TABLE_4.value(study.name, f"K{axis * 2} mean")
+        apparent = fitted.axis(axis).statistics.mean
+        facts.append(
+            Fact(
+                f"Mean K{axis * 2}",
+                micro(mean),
+                "N/µm",
+                f"{percent(100 * (mean / 1e6 / published - 1))} against the published "
+                f"{significant(published, 4)}; the model that the paper's numbers suggest: "
+                f"{micro(apparent)}",
+            )
+        )
+    worst = min((found.axis(a) for a in AXES), key=lambda a: a.worst.value)
+    where = ", ".join(f"{1e3 * v:.1f}" for v in worst.worst.position)
+    facts.append(
+        Fact(
+            "Softest of all",
+            micro(worst.worst.value),
+            "N/µm",
+            f"K{worst.direction * 2} at x, y, z = {where} mm",
+        )
+    )
+    return Chapter(
+        "summary",
+        "Summary",
+        (
+            Text(text),
+            Facts(tuple(facts)),
+            Note(
+                "Large numbers: true spherical joints, which is the machine as it is described. "
+                "The paper's own numbers suggest links clamped in the platform; both models stand "
+                "side by side below, each labelled."
+            ),
+        ),
+    )
+
+
+def drawing_chapter(study: MachineStudy) -> Chapter:
+    """The machine in 3-D at home."""
+    machine = study.machines["spherical"]
+    return Chapter(
+        "drawing",
+        "The machine",
+        (Text(DRAWING), machine_figure(machine, study.name, study.entry.title, height=600)),
+        (drawing_file(machine, study.name),),
+    )
+
+
+def machine_figure(machine: ThreeLegs, name: str, title: str, height: int) -> Figure:
+    """A machine at home, rotatable."""
+    return Figure(
+        f"drawing-{name}",
+        f"{title} at home.",
+        machine_view(machine, home_placement(machine)),
+        f"Three-dimensional drawing of {title}: circular guide, three legs, platform, joints by "
+        "type and drives.",
+        f"drawing-{name}.json",
+        height,
+    )
+
+
+def home_placement(machine: ThreeLegs) -> Placement:
+    """The machine at home, a single pose."""
+    return machine.place(machine.home())
+
+
+def drawing_file(machine: ThreeLegs, name: str) -> DataFile:
+    """What the drawing shows: nodes, links and joints, SI."""
+    placement = home_placement(machine)
+    content: dict[str, Any] = {
+        "unit": "m",
+        "guide_radius": machine.base_radius,
+        "nodes": dict(zip(machine.linkage.nodes, placement.positions.tolist(), strict=True)),
+        "beams": {
+            b.name: {"nodes": list(b.nodes), "outline": list(b.section.outline)}
+            for b in machine.structure.beams
+        },
+        "lines": [list(pair) for pair in machine.skeleton()],
+        "joints": {
+            j.name: {
+                "type": j.style,
+                "at": j.at.tolist(),
+                "axes_as_columns": j.frame.tolist(),
+                "driven": bool(j.driven),
+            }
+            for j in drawn_joints(machine, placement)
+        },
+        "tool": machine.linkage.tool,
+    }
+    return json_file(
+        f"drawing-{name}.json", "what the drawing shows: nodes, links, joints", content
+    )
+
+
+def assumptions_chapter(study: MachineStudy) -> Chapter:
+    """Every assumption with its source, and the two joint models."""
+    machine, apparent = study.machines["spherical"], study.machines["apparent"]
+    return Chapter(
+        "assumptions",
+        "Assumptions and their sources",
+        (
+            Text(f"The paper: {study.entry.paper.citation}"),
+            models_table(),
+            assumptions_table(machine, apparent, study.entry.title),
+            method_table(FILTERS),
+        ),
+    )

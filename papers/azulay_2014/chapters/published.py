@@ -1,0 +1,95 @@
+"""Published tables beside our numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from strutwork.papers.azulay_2014.comparison import Model
+from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES
+from strutwork.papers.published_rows import PublishedRow, file_name
+from strutwork.papers.published_table import PublishedTable
+from strutwork.papers.tables import difference, numbers, ours, rows_file, texts
+from strutwork.reports.content import Block, Cell, Points, Table, Text
+from strutwork.reports.data_files import DataFile
+from strutwork.reports.numbers import significant
+
+Rows = Mapping[Model, tuple[PublishedRow, ...]]
+
+READING = (
+    "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
+    "other five directions are held. This is the meaning that agrees with the paper. All rows "
+    "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
+    "were chosen with the means of these tables in view, and the variances follow from that. "
+    "Nothing is rescaled."
+)
+
+
+def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], DataFile]:
+    """A published table beside both joint models, and its file.
+
+    Parameters
+    ----------
+    table : PublishedTable
+    rows : mapping of model to tuple of PublishedRow
+        The same rows in the same order for every model.
+    """
+    columns = (
+        *texts("row", "quantity", "unit"),
+        *numbers("published"),
+        *ours(MODEL_NAMES.values()),
+    )
+    lines: list[list[str | Cell]] = []
+    for row in zip(*(rows[model] for model in MODEL_NAMES), strict=True):
+        first = row[0]
+        line: list[str | Cell] = [
+            first.row,
+            first.quantity,
+            _pretty(first.unit),
+            significant(first.published, 4),
+        ]
+        for entry in row:
+            line += [significant(entry.computed, 4), difference(entry), entry.status]
+        lines.append(line)
+    file = file_name(table.key)
+    notes = dict.fromkeys(
+        f"{', '.join(sorted(about))}: {note}." for note, about in _notes(rows).items()
+    )
+    blocks: list[Block] = [
+        Table(f"{_label(table)} of the paper: {table.title}", columns, lines, file)
+    ]
+    if table.note:
+        blocks.append(Text(table.note))
+    blocks.append(Points(tuple(notes)))
+    return blocks, published_file(table, rows)
+
+
+def published_file(table: PublishedTable, rows: Rows) -> DataFile:
+    """The rows of both models as CSV; the model stands in the row's name."""
+    content = [
+        replace(row, row=f"{row.row}, {name}")
+        for model, name in MODEL_NAMES.items()
+        for row in rows[model]
+    ]
+    what = f"{_label(table)} of the paper beside ours, both joint models"
+    return rows_file(file_name(table.key), what, content)
+
+
+def _label(table: PublishedTable) -> str:
+    return "Table " + table.key.rsplit("-", 1)[-1]
+
+
+def _pretty(unit: str) -> str:
+    return unit.replace("N^2/um^2", "N²/µm²").replace("um", "µm")
+
+
+def _notes(rows: Rows) -> dict[str, list[str]]:
+    """Each remark once, with the rows it is about."""
+    found: dict[str, list[str]] = {}
+    for model in rows:
+        for row in rows[model]:
+            for part in row.note.split("; ")[1:]:
+                about = row.row if "variance" not in part else f"{row.row} {row.quantity}"
+                if about not in found.setdefault(part, []):
+                    found[part].append(about)
+    return found

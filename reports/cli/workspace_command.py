@@ -1,0 +1,123 @@
+"""The options of `strutwork workspace`."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from strutwork.reports.cli.choices import Json, Target
+from strutwork.reports.cli.usage import typed
+
+
+class Inscribed(StrEnum):
+    """Shapes that are sought inside a workspace."""
+
+    BOX = "box"
+    BALL = "ball"
+    CYLINDER = "cylinder"
+
+
+def workspace(
+    target: Target,
+    over: Annotated[
+        list[str] | None,
+        typer.Option(
+            callback=typed,
+            metavar="DIR=LOW..HIGH:N,...",
+            help="One to three directions of the tool, as in --over x=-100mm..100mm:41; N odd. A "
+            "direction with one value is where the tool is put first. By default the file's "
+            "[workspace].",
+        ),
+    ] = None,
+    tilt: Annotated[
+        str | None, typer.Option(metavar="ANGLE", help="Of the tool, the same everywhere.")
+    ] = None,
+    azimuth: Annotated[
+        str, typer.Option(metavar="ANGLE", help="Where --tilt leans to, from the tool's x.")
+    ] = "0 deg",
+    dexterous: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ANGLE", help="All tilts up to this one, all ways round, must be good."
+        ),
+    ] = None,
+    azimuths: Annotated[
+        int, typer.Option(min=3, max=360, help="Ways round that --dexterous looks at.")
+    ] = 12,
+    roll: Annotated[
+        str | None,
+        typer.Option(
+            metavar="LOW..HIGH:N", help="Rolls about the tool's axis, all of which must be good."
+        ),
+    ] = None,
+    spare: Annotated[
+        str | None,
+        typer.Option(
+            callback=typed,
+            metavar="NAME=LOW..HIGH:N",
+            help="A coordinate of which one good value is enough: roll, a direction of the tool, "
+            "or JOINT:DIR.",
+        ),
+    ] = None,
+    radius: Annotated[
+        str | None,
+        typer.Option(metavar="LENGTH", help="Bodies are this thick and must not collide."),
+    ] = None,
+    interference: Annotated[
+        bool,
+        typer.Option("--interference", help="Beams, as thick as their sections, must not collide."),
+    ] = False,
+    conditioning: Annotated[
+        float | None,
+        typer.Option(help="Least 1/condition of the drives, as a share of that at home."),
+    ] = None,
+    largest: Annotated[
+        Inscribed | None, typer.Option(help="Find the largest one inside.")
+    ] = None,
+    proportions: Annotated[
+        str | None,
+        typer.Option(metavar="A:B:C", help="Sizes of --largest along the directions, as 2:1:1."),
+    ] = None,
+    around: Annotated[
+        str | None,
+        typer.Option(
+            callback=typed, metavar="DIR=VALUE,...", help="Centre of --largest; anywhere by default."
+        ),
+    ] = None,
+    out: Annotated[
+        str | None,
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write it there: NetCDF, CSV, and STL and PLY."
+        ),
+    ] = None,
+    json: Json = False,
+) -> None:
+    """Find the poses that a machine can take: how large, how many pieces, bounded by what."""
+    if tilt is not None and dexterous is not None:
+        raise typer.BadParameter("give --tilt or --dexterous, not both.")
+    if radius is not None and interference:
+        raise typer.BadParameter("give --radius or --interference, not both.")
+    if largest is None and (proportions is not None or around is not None):
+        raise typer.BadParameter("--proportions and --around belong to --largest.")
+    from strutwork.reports.cli import workspace as work
+
+    work.run(
+        target,
+        over or (),
+        work.Asked(
+            tilt=tilt,
+            azimuth=azimuth,
+            dexterous=dexterous,
+            azimuths=azimuths,
+            roll=roll,
+            spare=spare,
+            radius=radius,
+            interference=interference,
+            conditioning=conditioning,
+        ),
+        work.Wanted(None if largest is None else largest.value, proportions, around),
+        out,
+        json=json,
+    )
