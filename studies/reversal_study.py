@@ -31,7 +31,7 @@ LINES = 11
 SAMPLE = 64
 
 #: Longest study that is begun, s.
-LONGEST = 6 * 3600.0
+LONGEST = 3600.0
 
 #: Evaluations of a study for each point of its grid: paths, lines, searches.
 WORK = 20.0
