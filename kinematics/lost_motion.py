@@ -172,9 +172,7 @@ def _at_standing_tool(
     return Lost(twist, moving, None, text)
 
 
-def _of_the_joints(
-    linkage: Linkage, placement: Placement, length: float, known: Freedoms
-) -> Lost:
+def _of_the_joints(linkage: Linkage, placement: Placement, length: float, known: Freedoms) -> Lost:
     passive = passive_matrix(linkage, placement, length)[0]
     left, values, right = np.linalg.svd(passive)
     at = int((values > ZERO * values[0]).sum())
@@ -238,7 +236,7 @@ def _unit(rows: Array) -> Array:
 
 
 def _null(rows: Array) -> Array:
-    found = null_space(rows[None], ZERO * np.linalg.norm(rows, 2))[0]
+    found = null_space(rows[None], float(ZERO * np.linalg.norm(rows, 2)))[0]
     return np.asarray(found[:, np.abs(found).max(axis=0) > 0])
 
 
@@ -287,4 +285,4 @@ def _direction(vector: Array) -> str:
     for k, name in enumerate(DIRECTIONS[:3]):
         if abs(vector[k]) > 1.0 - 1e-6:
             return name if vector[k] > 0 else f"-{name}"
-    return "(" + ", ".join(f"{v + 0.0:.3f}" for v in vector) + ")"
+    return "(" + ", ".join(f"{round(float(v), 3) + 0.0:.3f}" for v in vector) + ")"

@@ -35,7 +35,9 @@ class Polytope:
     offsets: Array
 
     def __repr__(self) -> str:
-        return f"<Polytope: {2 * len(self.offsets)} half-spaces in {self.normals.shape[1]} dimensions>"
+        return (
+            f"<Polytope: {2 * len(self.offsets)} half-spaces in {self.normals.shape[1]} dimensions>"
+        )
 
     @classmethod
     def of(cls, zonotope: Zonotope) -> Polytope:

@@ -131,9 +131,7 @@ class PoseFamily:
         """
         motion = section.motion
         chosen = characteristic_length(motion.home) if length is None else length
-        return cls(
-            motion.linkage, place or section.place, section.names, chosen, section=section
-        )
+        return cls(motion.linkage, place or section.place, section.names, chosen, section=section)
 
     def __repr__(self) -> str:
         return f"<PoseFamily: {', '.join(self.names)}; L = {1e3 * self.length:.4g} mm>"

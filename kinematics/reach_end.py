@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,7 +19,7 @@ Mask = NDArray[np.bool_]
 
 #: Halvings of the way between a pose that is reached and one that is not, before the end is
 #: looked for along the way of all bodies, and where it is not found there.
-HALVINGS, ALL = 2, 45
+HALVINGS, ALL = 4, 50
 #: The motion itself tells what is reached no better than this many halvings.
 OWN = 18
 #: The end lies within the last halving's gap, but for this share of it.
@@ -49,54 +50,64 @@ class ReachEnds:
     reasons: tuple[str, ...]
 
 
-def reach_ends(family: PoseFamily, inside: Array, outside: Array) -> ReachEnds:
+def reach_ends(
+    family: PoseFamily, inside: Array, outside: Array, reasons: Sequence[str]
+) -> ReachEnds:
     """Ends of reach between poses that are reached and others.
 
     Parameters
     ----------
     family : PoseFamily
     inside, outside : (e, k)
+    reasons : sequence of str
+        Why those outside are not reached.
     """
-    edge, section = outside - inside, family.section
+    section = family.section
     own = section is not None and family.place == section.place
-    low, high, reasons = _halved(family, inside, outside, HALVINGS)
+    low, high, why = inside.copy(), outside.copy(), np.array(reasons, dtype=object)
     turned = np.zeros(len(low), dtype=bool)
-    found: Placement | None = None
-    exact = low
-    if section is not None:
+    exact = low.copy()
+    placements: list[tuple[NDArray[np.intp], Placement]] = []
+    # what is not reached costs most: first from where the net stands, then from nearer
+    for times in (0, HALVINGS) if section is not None else ():
+        rest = np.flatnonzero(~turned)
+        if not rest.size or section is None:
+            break
+        low[rest], high[rest], why[rest] = _halved(family, low[rest], high[rest], times, why[rest])
         # what a range alone forbids is no end of the way
-        free = np.zeros(len(low), dtype=bool) if own else section.place(high).reachable
-        exact, found, turned = _turned(section, low, high, edge, ~free)
+        ends = np.ones(len(rest), dtype=bool)
+        if not own:
+            ends = ~section.place(high[rest]).reachable
+        found, placed, good = _turned(
+            section, low[rest], high[rest], (outside - inside)[rest], ends
+        )
+        exact[rest] = found
+        turned[rest] = good
+        if placed is not None:
+            placements.append((rest[good], placed))
     rest = np.flatnonzero(~turned)
     if rest.size:
-        more = (OWN if own else ALL) - HALVINGS
-        low[rest], high[rest], last = _halved(family, low[rest], high[rest], more)
-        reasons[rest] = last
+        times = (OWN if own else ALL) - (HALVINGS if section is not None else 0)
+        low[rest], high[rest], why[rest] = _halved(family, low[rest], high[rest], times, why[rest])
     placement = family.place(low)
-    if found is not None:
-        at = np.flatnonzero(turned)
-        low[at] = exact[at]
-        placement = _with(placement, at, found)
-    return ReachEnds(low, placement, turned, high, tuple(reasons))
+    low[turned] = exact[turned]
+    for at, placed in placements:
+        placement = _with(placement, at, placed)
+    return ReachEnds(low, placement, turned, high, tuple(why))
 
 
 def _halved(
-    family: PoseFamily, low: Array, high: Array, times: int
+    family: PoseFamily, low: Array, high: Array, times: int, reasons: NDArray[np.object_]
 ) -> tuple[Array, Array, NDArray[np.object_]]:
     """The same edges, shorter, and why their ends are not reached."""
-    reasons = np.full(len(low), "", dtype=object)
-    for k in range(times):
+    reasons = reasons.copy()
+    for _ in range(times):
         middle = 0.5 * (low + high)
         placed = family.place(middle)
         good = placed.reachable[:, None]
         low, high = np.where(good, middle, low), np.where(good, high, middle)
         for i in np.flatnonzero(~placed.reachable):
             reasons[i] = placed.reason(int(i))
-        if k == times - 1:
-            never = np.flatnonzero(reasons == "")
-            if never.size:
-                beyond = family.place(high[never])
-                reasons[never] = [beyond.reason(i) for i in range(len(never))]
     return low, high, reasons
 
 

@@ -18,7 +18,6 @@ from strutwork.kinematics.reach_end import ReachEnds, reach_ends
 from strutwork.kinematics.singularity_search import (
     Part,
     Refined,
-    has_minor,
     least,
     refine_least,
     refine_zeros,
@@ -26,7 +25,6 @@ from strutwork.kinematics.singularity_search import (
 )
 from strutwork.kinematics.tool_drive_space import (
     Freedoms,
-    ToolDriveSpace,
     tool_drive_space,
 )
 
@@ -34,6 +32,9 @@ Array = NDArray[Any]
 
 #: Singular poses nearer to each other than this share of the spacing are one.
 SAME = 1e-6
+
+#: Share of the way from a pose to the end of reach that is left out before the end.
+BEFORE = 1e-4
 
 PARTS: tuple[Part, ...] = ("drives", "tool", "passive")
 
@@ -200,7 +201,7 @@ def singularities_on_line(
         if len(changed):
             a, b = points[changed].swapaxes(0, 1)
             found += singular_poses(family, refine_zeros(family, a, b, part))
-        low = local_minima(looked, inner, changed, part)
+        low = local_minima(looked, edges, changed, part)
         if low.size:
             share = (low / (len(points) - 1.0))[:, None]
             refined = refine_least(line, share, np.array([1.0 / (len(points) - 1)]), part)
@@ -208,7 +209,10 @@ def singularities_on_line(
             found += singular_poses(family, replace(refined, parameters=whole))
     ends = edges[looked.reach[edges].sum(axis=1) == 1]
     if len(ends):
-        found += ends_of_reach(family, *ordered_ends(looked, ends))
+        inside, outside, reasons = ordered_ends(looked, ends)
+        reached = reach_ends(family, inside, outside, reasons)
+        found += ends_of_reach(family, reached)
+        found += before_the_end(family, inside, reached.parameters)
     way = points[-1] - points[0]
 
     def share_of(one: Singularity) -> float:
@@ -231,17 +235,20 @@ def local_minima(
 ) -> NDArray[np.intp]:
     """Poses whose least singular value is below that of all neighbours they have, (m,).
 
-    Those beside a change of sign are left out: that has been followed already.
+    Those beside a change of sign are left out, since that has been followed already, and those
+    beside the end of reach, towards which values fall.
     """
     if part == "passive" and looked.space.known.rank == 0:
         return np.zeros(0, dtype=np.intp)
     values = looked.spread(least(looked.space, part))
     lower = looked.reach.copy()
-    for here, there in (edges.T, edges.T[::-1]):
+    inner = edges[looked.reach[edges].all(axis=1)]
+    for here, there in (inner.T, inner.T[::-1]):
         # of two neighbours with one value the first stays
         above = np.where(here < there, values[here] > values[there], values[here] >= values[there])
         lower[here[above]] = False
     lower[changed.ravel()] = False
+    lower[edges[~looked.reach[edges].all(axis=1)].ravel()] = False
     return np.flatnonzero(lower)
 
 
@@ -256,11 +263,12 @@ def singular_poses(family: PoseFamily, refined: Refined) -> list[Singularity]:
     return result
 
 
-def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array]:
-    """Parameters of the end that is reached and of the other, of edges that have one of each."""
+def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array, tuple[str, ...]]:
+    """Of edges with one end in reach: parameters there, of the other, and why that is not."""
     inside = np.where(looked.reach[edges[:, 0]], edges[:, 0], edges[:, 1])
     outside = edges.sum(axis=1) - inside
-    return looked.parameters[inside], looked.parameters[outside]
+    reasons = tuple(looked.reasons[k] for k in looked.reason[outside])
+    return looked.parameters[inside], looked.parameters[outside], reasons
 
 
 def end_kinds(family: PoseFamily, ends: ReachEnds) -> list[Kind]:
@@ -280,13 +288,29 @@ def end_kinds(family: PoseFamily, ends: ReachEnds) -> list[Kind]:
     return result
 
 
-def ends_of_reach(family: PoseFamily, inside: Array, outside: Array) -> list[Singularity]:
-    """Ends of reach between poses, as singularities."""
-    ends = reach_ends(family, inside, outside)
+def ends_of_reach(family: PoseFamily, ends: ReachEnds) -> list[Singularity]:
+    """Ends of reach, as singularities."""
     return [
         singular_pose(family, ends.parameters[i], kind, ends.placement[i : i + 1], ends.reasons[i])
         for i, kind in enumerate(end_kinds(family, ends))
     ]
+
+
+def before_the_end(family: PoseFamily, inside: Array, end: Array) -> list[Singularity]:
+    """Singular poses between the last pose that was looked at and the end of reach, (e, k) each."""
+    count = len(inside)
+    # at the end itself the motion cannot be taken any more
+    last = inside + (1.0 - BEFORE) * (end - inside)
+    looked = family.look(np.concatenate([inside, last]))
+    edges = np.stack([np.arange(count), np.arange(count) + count], axis=1)
+    edges = edges[looked.reach[edges].all(axis=1)]
+    found: list[Singularity] = []
+    for part in PARTS:
+        chosen = edges[sign_changes(looked, edges, part)]
+        if len(chosen):
+            a, b = looked.parameters[chosen].swapaxes(0, 1)
+            found += singular_poses(family, refine_zeros(family, a, b, part))
+    return found
 
 
 def singular_pose(

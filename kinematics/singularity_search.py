@@ -200,9 +200,7 @@ def _matrix(family: PoseFamily, placement: Placement, space: ToolDriveSpace, par
     return space.drives if part == "drives" else space.tool
 
 
-def _judged(
-    family: PoseFamily, at: Array, index: Indices, part: Part, arrived: Mask
-) -> Refined:
+def _judged(family: PoseFamily, at: Array, index: Indices, part: Part, arrived: Mask) -> Refined:
     """Those poses at which the value is zero."""
     looked = family.look(at)
     zero = least(looked.space, part) <= ZERO
@@ -213,4 +211,3 @@ def _judged(
     kept &= arrived
     i = looked.index[kept]
     return Refined(at[kept], looked.placement[i], looked.space[i], index[kept])
-

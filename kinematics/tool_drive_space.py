@@ -296,6 +296,4 @@ def _check(linkage: Linkage, length: ArrayLike | None) -> None:
             "Singularities need a moving tool and at least one driven direction.",
         )
     if length is not None and not (np.isfinite(length) and float(np.asarray(length)) > 0.0):
-        raise ModelError(
-            "characteristic length", f"is {length!r}.", "Give a positive length, m."
-        )
+        raise ModelError("characteristic length", f"is {length!r}.", "Give a positive length, m.")

@@ -3,8 +3,8 @@
 A machine that comes to the end of its reach turns back there: along the way of all bodies, which
 goes on smoothly, the coordinates that were asked to grow are at their largest. The end is found
 along that way (Allgower and Georg 2003, section 2.3: predictor and corrector by arc length), where
-it is a simple zero of the tangent, and not in the coordinates, where it is a square root. It may also
-come to a pose through which several ways go, where its rows lose rank.
+it is a simple zero of the tangent, and not in the coordinates, where it is a square root. The way
+may also come to a pose through which several ways go, where its rows lose rank.
 """
 
 from __future__ import annotations
@@ -223,6 +223,7 @@ class TurningWay:
     ) -> tuple[BodyPoses, Array, Mask]:
         """Go by a change (e, n + 1) and back to the way."""
         number = len(self._rows[0])
+        worst = np.full(len(change), np.inf)
         for k in range(CORRECTIONS + 1):
             blocks = change[:, :-1].reshape(len(change), -1, 6)
             bodies = BodyPoses(

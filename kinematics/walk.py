@@ -42,6 +42,8 @@ LOST = "the way was not walked to its end in the steps allowed"
 class Walk:
     """Poses on their way, each at its own share of it."""
 
+    shortest = SHORTEST
+
     def __init__(
         self, joints: JointMotion, rotation: Array, wanted: Given, *, lenient: bool = False
     ) -> None:
@@ -80,6 +82,11 @@ class Walk:
             self._step(at)
         self._end(poses[self.active[poses]], LOST)
 
+    def placed(self) -> tuple[Array, Array]:
+        """Node positions and joint frames, (p, n, 3) and (p, j, 3, 3)."""
+        positions, frames, _ = self.joints.place(self.bodies)
+        return positions, frames
+
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1
         share = np.minimum(self.share[at] + self.stride[at], 1.0)
@@ -95,7 +102,7 @@ class Walk:
         self.active[done[self.share[done] >= 1.0]] = False
         failed = at[~good]
         self.stride[failed] = 0.5 * np.minimum(self.stride[failed], 1.0 - self.share[failed])
-        ended = failed[self.stride[failed] < SHORTEST]
+        ended = failed[self.stride[failed] < self.shortest]
         if ended.size:
             self._give_up(ended)
 

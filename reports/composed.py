@@ -13,6 +13,7 @@ from strutwork.reports.chapters import (
     motion,
     singularities,
     workspace_assembly,
+    workspace_size,
     workspace_stiffness,
     workspace_vibration,
 )
@@ -102,6 +103,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: check_chapter(s.check),
     ),
     _module(motion),
+    _module(workspace_size),
     _module(singularities),
     Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
     Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),

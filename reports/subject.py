@@ -26,11 +26,18 @@ from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.survey import survey
+from strutwork.studies.workspace import Workspace, workspace
+from strutwork.studies.workspace_margin import MachineMargin
 
 Teller = Callable[[str], Progress]
 
 #: Frequencies that the vibration over the workspace lists.
 LISTED = 3
+
+#: The workspace is looked for in so many times the ranges that are stated, with so many points
+#: along each of one, two and three directions.
+SPREAD = 2.0
+SIZED = {1: 81, 2: 31, 3: 13}
 
 #: Poses along either direction of the plane in which singular poses are looked for.
 SINGULAR_STEPS = 21
@@ -197,6 +204,34 @@ class Subject:
         return singularities_in_plane(
             family, (first, second), middle, self._told("singularities in a plane")
         )
+
+    @cached_property
+    def unbounded(self) -> str:
+        """Why its workspace has no size; empty where it has one."""
+        try:
+            _ = self.workspace
+        except StrutworkError as error:
+            return visible(str(error).replace("\n", " ")).rstrip(".")
+        return ""
+
+    @cached_property
+    def workspace(self) -> Workspace:
+        """All poses that it reaches about those of its stated workspace, up to three directions.
+
+        Raises
+        ------
+        ModelError
+            Too large a grid, or no direction to look along.
+        """
+        wide = [(d, v) for d, v in self.grid.axes.items() if len(v) > 1][:3]
+        points = SIZED.get(len(wide), 2)
+        axes = {}
+        for direction, values in wide:
+            middle, half = 0.5 * (values[0] + values[-1]), 0.5 * SPREAD * (values[-1] - values[0])
+            axes[direction] = np.linspace(middle - half, middle + half, points)
+        step = np.array([axis[1] - axis[0] for axis in axes.values()])
+        margin = MachineMargin(self.model, tuple(axes), step)
+        return workspace(margin, axes, progress=self._told("size of the workspace"))
 
     def _told(self, part: str) -> Progress:
         return silent if self.progress is None else self.progress(part)

@@ -38,7 +38,9 @@ class Gliders:
     def __init__(
         self, rails: Array, origins: Array, seats: Array, rod: float, slides: str, turning: str
     ) -> None:
-        self.rails, self.origins, self.seats = (np.asarray(a, float) for a in (rails, origins, seats))
+        self.rails, self.origins, self.seats = (
+            np.asarray(a, float) for a in (rails, origins, seats)
+        )
         self.rod, self.slides, self.turning = rod, slides, turning
 
     @cached_property
@@ -88,10 +90,10 @@ class Gliders:
         )
 
 
-def biglide() -> Gliders:
-    """Rails along x and y through the origin, rods of 1 m."""
+def biglide(turning: str = "revolute") -> Gliders:
+    """Rails along x and y through the origin, rods of 1 m; "spherical" makes rods that spin."""
     rails = np.eye(3)[:2]
-    return Gliders(rails, np.zeros((2, 3)), np.zeros((2, 3)), 1.0, "xy", "revolute")
+    return Gliders(rails, np.zeros((2, 3)), np.zeros((2, 3)), 1.0, "xy", turning)
 
 
 def linear_delta(rod: float, reach: float) -> Gliders:

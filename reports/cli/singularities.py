@@ -7,9 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from rich.console import Console
 
 from strutwork.errors import ModelError
 from strutwork.files import write_text
+from strutwork.kinematics import characteristic_length
 from strutwork.kinematics.pose_family import PoseFamily
 from strutwork.kinematics.singularities import Singularity, singularities_on_line
 from strutwork.kinematics.singularity_curves import SingularPlane, singularities_in_plane
@@ -17,7 +19,7 @@ from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
 from strutwork.names import visible
-from strutwork.reports.cli.output import Screen, console, print_json
+from strutwork.reports.cli.output import console, print_json
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import where
 from strutwork.reports.singularity_words import (
@@ -53,7 +55,8 @@ def run(
     """Look, and print what is found."""
     model = load(target)
     model.require_tool()
-    size = None if length is None else _length(length)
+    # one length for home, pose, line and plane
+    size = characteristic_length(model.placement) if length is None else _length(length)
     here = pose_distance(where(*place).put(model), size)
     axes = line or plane
     found: tuple[Singularity, ...] | SingularPlane | None = None
@@ -142,7 +145,7 @@ def _write(
     return [str(write_text(folder / name, text)) for name, text in texts.items()]
 
 
-def _print_distance(screen: Screen, here: PoseDistance, place: str) -> None:
+def _print_distance(screen: Console, here: PoseDistance, place: str) -> None:
     distance = here.distance
     say(
         screen,
@@ -155,7 +158,7 @@ def _print_distance(screen: Screen, here: PoseDistance, place: str) -> None:
         say(screen, f"  {lost_words(here.lost, here.kind.meaning)}")
 
 
-def _print_line(screen: Screen, found: tuple[Singularity, ...]) -> None:
+def _print_line(screen: Console, found: tuple[Singularity, ...]) -> None:
     ends = [one for one in found if one.reason]
     say(
         screen,
@@ -167,7 +170,7 @@ def _print_line(screen: Screen, found: tuple[Singularity, ...]) -> None:
         say(screen, f"    {lost_words(one.lost, one.reason)}")
 
 
-def _print_plane(screen: Screen, found: SingularPlane) -> None:
+def _print_plane(screen: Console, found: SingularPlane) -> None:
     inner = [curve for curve in found.curves if not curve.border]
     borders = [curve for curve in found.curves if curve.border]
     say(screen, f"{int(found.reach.sum())} of {found.reach.size} poses reached")
@@ -184,7 +187,7 @@ def _print_plane(screen: Screen, found: SingularPlane) -> None:
         say(screen, f"On {found.missed} edges of the grid poses differ too much: take more steps")
 
 
-def _print_curve(screen: Screen, meaning: str, one: Singularity, points: int) -> None:
+def _print_curve(screen: Console, meaning: str, one: Singularity, points: int) -> None:
     say(screen, f"  {kind_words(one.kind)}, {points} points: {meaning}")
     say(screen, f"    nearest to home at {place_words(one.parameters)}")
     said = lost_words(one.lost, one.reason)
@@ -192,6 +195,6 @@ def _print_curve(screen: Screen, meaning: str, one: Singularity, points: int) ->
         say(screen, f"    {said}")
 
 
-def say(screen: Screen, text: str) -> None:
+def say(screen: Console, text: str) -> None:
     """A line that is not cut."""
     screen.print(text, markup=False, soft_wrap=True)

@@ -57,7 +57,7 @@ def singularities(
         typer.Option(
             callback=typed,
             metavar="LENGTH",
-            help="How much translation counts as much as one radian; the machine's size by default.",
+            help="Translation that counts as much as one radian; the machine's size by default.",
         ),
     ] = None,
     ranges: Annotated[

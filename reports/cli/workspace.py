@@ -212,9 +212,7 @@ def _result(
         "measure": found.measure,
         "error": found.error,
         "unit": found.unit,
-        "components": [
-            {"poses": int(n), "home": k + 1 == home} for k, n in enumerate(sizes)
-        ],
+        "components": [{"poses": int(n), "home": k + 1 == home} for k, n in enumerate(sizes)],
         "holes": found.regions.holes,
         "home": {
             "at": dict(zip(directions, found.home.tolist(), strict=True)),

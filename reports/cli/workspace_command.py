@@ -73,9 +73,7 @@ def workspace(
         float | None,
         typer.Option(help="Least 1/condition of the drives, as a share of that at home."),
     ] = None,
-    largest: Annotated[
-        Inscribed | None, typer.Option(help="Find the largest one inside.")
-    ] = None,
+    largest: Annotated[Inscribed | None, typer.Option(help="Find the largest one inside.")] = None,
     proportions: Annotated[
         str | None,
         typer.Option(metavar="A:B:C", help="Sizes of --largest along the directions, as 2:1:1."),
@@ -83,7 +81,9 @@ def workspace(
     around: Annotated[
         str | None,
         typer.Option(
-            callback=typed, metavar="DIR=VALUE,...", help="Centre of --largest; anywhere by default."
+            callback=typed,
+            metavar="DIR=VALUE,...",
+            help="Centre of --largest; anywhere by default.",
         ),
     ] = None,
     out: Annotated[

@@ -1,0 +1,141 @@
+"""How large its workspace is, and what ends it."""
+
+from __future__ import annotations
+
+from math import degrees
+
+import numpy as np
+
+from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
+from strutwork.reports.figures.curves import heat
+from strutwork.reports.figures.shapes import Shape, mesh
+from strutwork.reports.figures.solid import scene
+from strutwork.reports.numbers import MINUS, count, share, significant
+from strutwork.reports.subject import SPREAD, Subject
+from strutwork.reports.survey_words import pose_text
+from strutwork.studies.workspace import Workspace
+
+KEY = "workspace-size"
+TITLE = "How large is its workspace?"
+STEM = "workspace"
+
+#: Reasons that the table names.
+SHOWN = 12
+
+
+def missing(subject: Subject) -> str:
+    """Why there is nothing to say; empty where there is."""
+    return subject.unmoved or subject.unbounded
+
+
+def write(subject: Subject) -> Chapter:
+    """Its size with the error of it, its pieces, and what it ends at."""
+    found = subject.workspace
+    directions = found.grid.directions
+    scale, unit = _shown_unit(found.unit)
+    facts = [
+        Fact(
+            "Size",
+            significant(scale * found.measure),
+            unit,
+            f"± {significant(scale * found.error, 2)}",
+        ),
+        Fact(
+            "Pieces",
+            str(len(found.regions.sizes)),
+            "",
+            f"{count(found.regions.holes, 'hole')}; home is "
+            + (f"in number {found.home_component}" if found.home_component else "in none"),
+        ),
+    ]
+    near = found.nearest
+    if near is not None:
+        place = dict(zip(directions, near.place.tolist(), strict=True))
+        facts.append(
+            Fact(
+                "Ends nearest to home",
+                significant(1e3 * near.distance),
+                "mm",
+                f"away, at {pose_text(place)}: {_minus(near.reason)}",
+            )
+        )
+    blocks: list[Block] = [
+        Text(
+            f"All poses over {', '.join(directions)} that the machine reaches within its joint "
+            f"ranges, the other directions at home, looked for in {SPREAD:g} times the ranges of "
+            "its stated workspace. Borders are refined between the poses of a grid; the error is "
+            "that from a grid half as fine."
+        ),
+        Facts(tuple(facts)),
+    ]
+    figure = _figure(found)
+    if figure is not None:
+        blocks.append(figure)
+    rows = [[_minus(words), share(part)] for words, part in found.shares.items()]
+    columns = (Column("what ends the workspace", "", False), Column("share of the border"))
+    if rows:
+        blocks.append(Table("What it ends at", columns, rows[:SHOWN], f"{STEM}-border.csv"))
+    files: tuple[DataFile, ...] = (
+        netcdf_file(f"{STEM}.nc", "margins of poses over the grid, NetCDF", found.to_dataset()),
+        csv_file(
+            f"{STEM}-border.csv",
+            "what ends the workspace, shares of its border",
+            ["what", "share"],
+            [[words, part] for words, part in found.shares.items()],
+        ),
+    )
+    return Chapter(KEY, TITLE, tuple(blocks), files)
+
+
+def _minus(words: str) -> str:
+    """Numbers in a reason with the sign that the page has."""
+    return words.replace(" -", f" {MINUS}")
+
+
+def _shown_unit(unit: str) -> tuple[float, str]:
+    """Litres, square centimetres and millimetres; as it is where turns are among them."""
+    known = {"m³": (1e3, "litres"), "m²": (1e4, "cm²"), "m": (1e3, "mm"), "rad": (degrees(1), "°")}
+    return known.get(unit, (1.0, unit))
+
+
+def _figure(found: Workspace) -> Figure | None:
+    directions = found.grid.directions
+    if len(directions) == 3 and not any(d.startswith("r") for d in directions):
+        triangles = found.border.facets
+        if not len(triangles):
+            return None
+        shape = Shape(found.border.points, triangles, "border of the workspace")
+        spec = scene([mesh([shape], "border of the workspace", "#56b4e9", opacity=0.6)])
+        return Figure(
+            "workspace-border",
+            "The border of the workspace of the tool centre point, in mm. Drag to turn, scroll to "
+            "zoom.",
+            spec,
+            "Three-dimensional surface of the workspace.",
+            f"{STEM}.nc",
+            520,
+        )
+    if len(directions) != 2:
+        return None
+    x, y = (
+        np.degrees(a) if d.startswith("r") else 1e3 * a
+        for d, a in zip(directions, found.grid.axes, strict=True)
+    )
+    titles = [f"{d} ({'deg' if d.startswith('r') else 'mm'})" for d in directions]
+    values = found.grid.margins.value
+    spec = heat(
+        x,
+        y,
+        np.where(values >= 0, values, np.nan),
+        (titles[0], titles[1], "margin, 1 and more is far"),
+    )
+    return Figure(
+        "workspace-margin",
+        "Margin of the poses: the least slack of reach and joint ranges, 0 at the border. Blank: "
+        "out of the workspace.",
+        spec,
+        f"Map of the margin over {' and '.join(directions)}.",
+        f"{STEM}.nc",
+        440,
+    )
