@@ -109,6 +109,11 @@ class JointMotion:
         clamp = self.held.all(axis=1) & slides[nodes[:, 1]]
         return np.flatnonzero(clamp & (owner[ground] < 0) & (used[ground] == 1))
 
+    def _carry_clamps(self, positions: Array) -> None:
+        """Put the ground nodes of clamps where the nodes slide that they hold."""
+        first, second = self.nodes[self._clamps(self.nodes)].T
+        positions[:, first] = positions[:, second]
+
     @cached_property
     def sliding(self) -> Mask:
         """Joints with a free translation: their first node follows the second, (j,)."""
@@ -156,8 +161,7 @@ class JointMotion:
         gaps = positions[:, b_] - positions[:, a]
         moved = np.flatnonzero(self.sliding)
         positions[:, a[moved]] = positions[:, b_[moved]]
-        clamps = self._clamps(self.nodes)
-        positions[:, a[clamps]] = positions[:, b_[clamps]]
+        self._carry_clamps(positions)
         return positions, frames, gaps
 
     def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:
@@ -179,6 +183,7 @@ class JointMotion:
             positions,
             frames,
         )
+        self._carry_clamps(positions)
         return positions, frames
 
     @cached_property

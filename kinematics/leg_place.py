@@ -12,7 +12,9 @@ def _turned_axis(rotation, frame, k, out):  # type: ignore[no-untyped-def]
     """Axis k of a joint that turns with a body, at home on the ground."""
     for r in range(3):
         out[r, k] = (
-            rotation[r, 0] * frame[0, k] + rotation[r, 1] * frame[1, k] + rotation[r, 2] * frame[2, k]
+            rotation[r, 0] * frame[0, k]
+            + rotation[r, 1] * frame[1, k]
+            + rotation[r, 2] * frame[2, k]
         )
 
 

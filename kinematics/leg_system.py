@@ -87,7 +87,7 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
     if not paths or len(paths) > MOST_LEGS:
         return None
     free = ~joints.held
-    passed = [_Leg(joints, free, path) for path in paths]
+    passed = [_Leg(free, path) for path in paths]
     # a leg that cannot follow every pose of the tool is closed with all others, by `walk.Walk`
     if any(leg.freedoms != 6 for leg in passed):
         return None
@@ -110,8 +110,7 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
 class _Leg:
     """One leg on its way to arrays."""
 
-    def __init__(self, joints: JointMotion, free: Array, path: list[tuple[int, int]]) -> None:
-        linkage, home = joints.linkage, joints.home
+    def __init__(self, free: Array, path: list[tuple[int, int]]) -> None:
         self.freedoms = int(free[[j for j, _ in path]].sum())
         balls = [bool(free[j, 3:].all() and not free[j, :3].any()) for j, _ in path]
         self.from_tool = int(balls[0] and not balls[-1])
