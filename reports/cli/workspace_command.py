@@ -27,7 +27,7 @@ def workspace(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
             help="One to three directions of the tool, as in --over x=-100mm..100mm:41; N odd. A "
-            "direction with one value is where the tool is put first. By default the file's "
+            "direction with one value is where the tool is put first. By default the machine's or the file's "
             "[workspace].",
         ),
     ] = None,
