@@ -160,6 +160,27 @@ class JointMotion:
         positions[:, a[clamps]] = positions[:, b_[clamps]]
         return positions, frames, gaps
 
+    def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:
+        """Node positions and joint frames as of `place`, in compiled code: for many poses."""
+        from strutwork.kinematics.leg_place import place_bodies  # noqa: PLC0415 - numba is slow to import
+
+        owner, home = self.linkage.body_of_node, self.home
+        origin = np.concatenate([self._references, np.zeros((1, 3))])
+        # the ground is −1, the last
+        arms = np.ascontiguousarray(home.positions - origin[owner], dtype=float)
+        locked = np.where(self._turning == 2, np.argmax(self._locks, axis=1), -1)
+        count = len(bodies.position)
+        positions, frames = np.empty((count, *arms.shape)), np.empty((count, *home.frames.shape))
+        place_bodies(
+            np.ascontiguousarray(bodies.position),
+            np.ascontiguousarray(bodies.rotation),
+            (owner, arms),
+            (self.nodes, self.sliding, locked, np.ascontiguousarray(home.frames, dtype=float)),
+            positions,
+            frames,
+        )
+        return positions, frames
+
     @cached_property
     def _locks(self) -> Mask:
         return np.asarray(self.held[:, 3:])

@@ -54,12 +54,16 @@ class LegChains(NamedTuple):
     rotary: Ints
 
 
-def leg_chains(linkage: Linkage) -> LegChains | None:
-    """The legs of a linkage, or None where it does not fall into legs.
+def leg_paths(linkage: Linkage) -> list[list[tuple[int, int]]] | None:
+    """Joints of each leg from the ground on, or None where the linkage does not fall into legs.
 
     It does where taking away ground and tool body leaves bodies in separate rows, each joined
-    to the ground at one end and to the tool's body at the other, whose joints have six free
-    directions or more, so that the leg alone lets the tool move in all ways.
+    to the ground at one end and to the tool's body at the other.
+
+    Returns
+    -------
+    list of list of (joint, sign), or None
+        The sign is 1 where the leg goes through the joint from its first node to its second.
     """
     owner, index = linkage.body_of_node, linkage.node_index
     platform = linkage.tool_body
@@ -88,7 +92,16 @@ def leg_chains(linkage: Linkage) -> LegChains | None:
         legs.append(path)
     if len(seen) + 1 != len(linkage.body_names) or len(joints.get(platform, [])) != len(legs):
         return None
-    return _packed(linkage, legs)
+    return legs
+
+
+def leg_chains(linkage: Linkage) -> LegChains | None:
+    """The legs of a linkage, or None where it has no legs that let the tool move in all ways.
+
+    Those of `leg_paths` do whose joints have six free directions or more.
+    """
+    legs = leg_paths(linkage)
+    return None if legs is None else _packed(linkage, legs)
 
 
 def _packed(linkage: Linkage, legs: list[list[tuple[int, int]]]) -> LegChains | None:

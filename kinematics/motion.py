@@ -13,6 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from strutwork.kinematics.given import Given, given
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
+from strutwork.kinematics.leg_system import LegSystem, leg_system
+from strutwork.kinematics.leg_walk import LegWalk
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.mechanism import Poses
 from strutwork.kinematics.placement import Placement, check_coincidence
@@ -117,6 +119,11 @@ class Motion:
         known = dict(zip(self.home.names, np.ravel(self.home.values), strict=False))
         return np.array([float(known.get(name, 0.0)) for name in self.joints.names])
 
+    @cached_property
+    def legs(self) -> LegSystem | None:
+        """The legs, where the tool's pose fixes each by itself: poses are then found leg by leg."""
+        return leg_system(self.joints)
+
     @property
     def home_pose(self) -> Poses:
         """The tool at home.
@@ -170,7 +177,11 @@ class Motion:
         """
         start = self.home_pose if tool is not None or task else None
         wanted = given(self.joints, start, self.home_values, tool, task, joints)
-        walk = Walk(self.joints, self.rotation, wanted)
+        walk: Walk | LegWalk
+        if tool is not None and not joints and self.legs is not None:
+            walk = LegWalk(self.joints, self.rotation, wanted, self.legs)
+        else:
+            walk = Walk(self.joints, self.rotation, wanted)
         # rows of one piece at a time: those of a million targets would take tens of gigabytes
         for first in range(0, wanted.poses, PIECE):
             walk.go(np.arange(first, min(first + PIECE, wanted.poses)))
@@ -234,10 +245,10 @@ class Motion:
         """Inverse kinematics of poses of the tool; those that cannot be taken are marked."""
         return self.move(tool=poses).placement
 
-    def _moved(self, walk: Walk, wanted: Given) -> Moved:
+    def _moved(self, walk: Walk | LegWalk, wanted: Given) -> Moved:
         batch = wanted.batch
         bodies: BodyPoses = walk.bodies
-        positions, frames, _ = self.joints.place(bodies)
+        positions, frames = walk.placed()
         values = walk.coordinates + self.home_values
         placement = Placement(
             positions.reshape(*batch, *positions.shape[1:]),

@@ -82,6 +82,11 @@ class Walk:
             self._step(at)
         self._end(poses[self.active[poses]], LOST)
 
+    def placed(self) -> tuple[Array, Array]:
+        """Node positions and joint frames, (p, n, 3) and (p, j, 3, 3)."""
+        positions, frames, _ = self.joints.place(self.bodies)
+        return positions, frames
+
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1
         share = np.minimum(self.share[at] + self.stride[at], 1.0)

@@ -58,7 +58,8 @@ def test_curves_over_a_plane(strutwork: Program, tmp_path: Path) -> None:
     assert (curve["kind"], curve["type"], curve["closed"]) == ("actuator", 2, False)
     assert found["poses"] == found["reached"] == 121
     assert found["edges_missed"] == 0
-    rows = list(csv.DictReader(Path(found["data"][0]).open(encoding="utf-8")))
+    with Path(found["data"][0]).open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
     assert len(rows) == curve["points"] >= 11
     # the machine is its own mirror image: rx at ry and −ry
     place = {round(float(r["ry, deg"]), 9): float(r["rx, deg"]) for r in rows}
@@ -97,9 +98,7 @@ def test_a_model_file_ends_in_a_stretched_leg(strutwork: Program) -> None:
         (("--line", "z=5..9m",), "no pose of the 101 can be taken"),
     ],
 )  # fmt: skip
-def test_wrong_lines_and_planes(
-    strutwork: Program, arguments: tuple[str, ...], said: str
-) -> None:
+def test_wrong_lines_and_planes(strutwork: Program, arguments: tuple[str, ...], said: str) -> None:
     run = strutwork("singularities", "hexel-hexapod", *arguments)
     assert run.status == 1
     assert said in run.err
