@@ -39,7 +39,7 @@ def test_a_line_across_a_singular_pose(strutwork: Program, tmp_path: Path) -> No
     assert one["twist"][1] > 0.0
     # the ball's swing ends the line where ranges count
     run = strutwork(*arguments, "--out", tmp_path)
-    assert "1 singular poses along the line, and 1 ends of reach" in run.out
+    assert "1 singular pose along the line, and 1 end of reach" in run.out
     assert "leg3/ball: swing of the spherical joint, 0 to 70 deg is exceeded" in run.out
     table = tmp_path / "proposed-3pprs-singularities.csv"
     rows = list(csv.DictReader(table.open(encoding="utf-8")))
@@ -103,6 +103,12 @@ def test_wrong_lines_and_planes(strutwork: Program, arguments: tuple[str, ...], 
     assert run.status == 1
     assert said in run.err
     assert run.out == ""
+
+
+def test_a_frame_without_drives_has_no_singularities(strutwork: Program) -> None:
+    run = strutwork("singularities", "examples/01_cantilever.toml")
+    assert run.status == 1
+    assert "has no driven direction" in run.err
 
 
 def test_options_that_do_not_go_together(strutwork: Program) -> None:
