@@ -23,6 +23,7 @@ from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words
+from strutwork.stages import stage
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_files import write_workspace
 from strutwork.studies.workspace_margin import (
@@ -89,7 +90,10 @@ def run(
     shape = _shape(wanted, axes)
     with shown() as started:
         found = workspace(margin, axes, progress=started(f"workspace of {visible(target)}"))
-    inside = None if shape is None else _largest(found, margin, shape, wanted)
+    inside = None
+    if shape is not None:
+        with stage(f"seeks the largest {shape.kind}"):
+            inside = _largest(found, margin, shape, wanted)
     result = _result(target, found, margin, inside)
     if out is not None:
         stem = f"{Path(target).stem.replace(':', '-')}-workspace"

@@ -27,8 +27,8 @@ def workspace(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
             help="One to three directions of the tool, as in --over x=-100mm..100mm:41; N odd. A "
-            "direction with one value is where the tool is put first. By default the file's "
-            "[workspace].",
+            "direction with one value is where the tool is put first. By default the machine's own "
+            "or the file's [workspace].",
         ),
     ] = None,
     tilt: Annotated[

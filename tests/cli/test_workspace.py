@@ -13,16 +13,13 @@ OVER = ("--over", "x=-30mm..30mm:9,y=-30mm..30mm:9")
 
 
 def test_words_and_numbers_agree(strutwork: Program, tmp_path: Path) -> None:
-    found = strutwork("workspace", "proposed-3pprs", *OVER, "--largest", "box", "--json").result
+    found = strutwork("workspace", "proposed-3pprs", *OVER, "--json").result
     assert found["unit"] == "m²"
     assert 0.0 < found["error"] < 0.2 * found["measure"]
     assert sum(found["border"].values()) == pytest.approx(1.0)
     assert found["home"]["component"] == 1
     assert found["components"][0]["home"]
     assert found["poses"] == 81
-    big = found["largest"]
-    assert big["sides"]["x"] == big["sides"]["y"]
-    assert 0.0 < big["measure"] < found["measure"]
     run = strutwork("workspace", "proposed-3pprs", *OVER, "--out", tmp_path)
     assert f"Area {1e4 * found['measure']:.4g} ± {1e4 * found['error']:.2g} cm²" in run.out
     for path in tmp_path.iterdir():
@@ -31,6 +28,21 @@ def test_words_and_numbers_agree(strutwork: Program, tmp_path: Path) -> None:
     near = found["nearest"]
     assert near["reason"] in run.out
     assert near["distance"] == pytest.approx(np.hypot(*near["at"].values()))
+
+
+def test_the_largest_box_about_home(strutwork: Program) -> None:
+    ask = ("workspace", "proposed-3pprs", *OVER, "--largest", "box", "--around", "x=0mm,y=0mm")
+    found = strutwork(*ask, "--proportions", "2:1", "--json").result
+    big = found["largest"]
+    assert big["sides"]["x"] == pytest.approx(2 * big["sides"]["y"])
+    assert big["centre"] == {"x": 0.0, "y": 0.0}
+    assert 0.0 < big["measure"] == pytest.approx(np.prod([*big["sides"].values()]))
+    assert big["measure"] < found["measure"]
+    assert big["confirmed"] == 81**2
+    # its critical point is on its border, and ends the workspace by what is told
+    shares = [2 * abs(big["critical"][d]) / big["sides"][d] for d in "xy"]
+    assert max(shares) == pytest.approx(1.0, rel=1e-6)
+    assert big["reason"] in found["border"]
 
 
 def test_tilts_shrink_it(strutwork: Program) -> None:
@@ -56,7 +68,6 @@ def test_a_direction_with_one_value_is_where_the_tool_is_put(strutwork: Program)
     [
         (("--over", "x=-30mm..30mm:10"), "odd number"),
         (("--over", "x=-1mm..1mm:5,y=-1mm..1mm:5,z=0mm..1mm:5,rx=0deg..1deg:5"), "one, two or"),
-        ((), "says no workspace"),
         ((*OVER, "--tilt", "30mm"), "--tilt"),
         ((*OVER, "--spare", "roll"), "--spare"),
         ((*OVER, "--spare", "x=0mm..1mm"), "direction of the grid"),
@@ -68,12 +79,18 @@ def test_a_direction_with_one_value_is_where_the_tool_is_put(strutwork: Program)
     ],
 )
 def test_what_cannot_be_asked(strutwork: Program, options: tuple[str, ...], words: str) -> None:
-    run = strutwork("workspace", "proposed-3pprs", *options, status=1)
+    run = strutwork("workspace", "proposed-3pprs", *options)
+    assert run.status == 1
     assert words in run.err
 
 
+def test_a_file_without_a_workspace(strutwork: Program) -> None:
+    run = strutwork("workspace", "examples/05_two_link_leg.toml")
+    assert run.status == 1
+    assert "says no workspace" in run.err
+
+
 def test_options_that_exclude_each_other(strutwork: Program) -> None:
-    run = strutwork(
-        "workspace", "proposed-3pprs", *OVER, "--tilt", "1deg", "--dexterous", "2deg", status=2
-    )
+    run = strutwork("workspace", "proposed-3pprs", *OVER, "--tilt", "1deg", "--dexterous", "2deg")
+    assert run.status == 2
     assert "not both" in run.err
