@@ -154,11 +154,14 @@ class JointMotion:
             )
         a, b_ = self.nodes.T
         gaps = positions[:, b_] - positions[:, a]
-        moved = np.flatnonzero(self.sliding)
-        positions[:, a[moved]] = positions[:, b_[moved]]
-        clamps = self._clamps(self.nodes)
-        positions[:, a[clamps]] = positions[:, b_[clamps]]
+        self._follow(positions)
         return positions, frames, gaps
+
+    def _follow(self, positions: Array) -> None:
+        """Put first nodes of joints that slide, and of clamps of these, where their second is."""
+        a, b = self.nodes.T
+        for joints in (np.flatnonzero(self.sliding), self._clamps(self.nodes)):
+            positions[:, a[joints]] = positions[:, b[joints]]
 
     def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:
         """Node positions and joint frames as of `place`, in compiled code: for many poses."""
@@ -175,10 +178,11 @@ class JointMotion:
             np.ascontiguousarray(bodies.position),
             np.ascontiguousarray(bodies.rotation),
             (owner, arms),
-            (self.nodes, self.sliding, locked, np.ascontiguousarray(home.frames, dtype=float)),
+            (self.nodes, locked, np.ascontiguousarray(home.frames, dtype=float)),
             positions,
             frames,
         )
+        self._follow(positions)
         return positions, frames
 
     @cached_property

@@ -31,7 +31,8 @@ STATE = np.dtype(
 )
 
 #: What is open, the leg's rates, the equations, their solution, the rates at a step's beginning,
-#: the end's place and the tool's that are wanted, its body's rotation, and another.
+#: the end's place and the tool's that are wanted, its body's rotation, the end's axes there, and how
+#: far these are apart from the leg's.
 SCRATCH = np.dtype(
     [
         ("left", float, (6,)),
@@ -43,6 +44,7 @@ SCRATCH = np.dtype(
         ("target", float, (3,)),
         ("turn", float, (3, 3)),
         ("rotation", float, (3, 3)),
+        ("apart", float, (3, 3)),
     ],
     align=True,
 )
@@ -164,12 +166,12 @@ def _pass(s, leg, state, w):  # type: ignore[no-untyped-def]
         _end_axes(step, at_tool, w)
         for r in range(3):
             for k in range(3):
-                w.before[r, k] = (
+                w.apart[r, k] = (
                     w.rotation[r, 0] * end.far_axes[k, 0]
                     + w.rotation[r, 1] * end.far_axes[k, 1]
                     + w.rotation[r, 2] * end.far_axes[k, 2]
                 )
-        rotation_log(w.before, w.left, 3)
+        rotation_log(w.apart, w.left, 3)
         for r in range(3, 6):
             largest = max(largest, abs(w.left[r]))
     return largest

@@ -12,7 +12,9 @@ def _turned_axis(rotation, frame, k, out):  # type: ignore[no-untyped-def]
     """Axis k of a joint that turns with a body, at home on the ground."""
     for r in range(3):
         out[r, k] = (
-            rotation[r, 0] * frame[0, k] + rotation[r, 1] * frame[1, k] + rotation[r, 2] * frame[2, k]
+            rotation[r, 0] * frame[0, k]
+            + rotation[r, 1] * frame[1, k]
+            + rotation[r, 2] * frame[2, k]
         )
 
 
@@ -38,11 +40,11 @@ def place_bodies(position, rotation, nodes, joints, positions, frames):  # type:
     """Node positions and joint frames of p placements of the bodies.
 
     `nodes`: body of each, −1 for the ground, and its arm from the body's reference point at home,
-    from the origin on the ground. `joints`: first and second node, whether it slides, the locked
-    one of two free rotations or −1, and the axes at home.
+    from the origin on the ground. `joints`: first and second node, the locked axis beside two free
+    rotations or −1, and the axes at home. No first node follows its second yet.
     """
     owner, arms = nodes
-    ends, slides, locked, home = joints
+    ends, locked, home = joints
     fixed, other = np.eye(3), np.empty((3, 3))
     for p in range(position.shape[0]):
         for n in range(owner.shape[0]):
@@ -65,7 +67,3 @@ def place_bodies(position, rotation, nodes, joints, positions, frames):  # type:
                 second = rotation[p, c] if c >= 0 else fixed
                 _turned_axis(second, home[j], (locked[j] + 2) % 3, other)
                 _two_turns(frames[p, j], other, locked[j], frames[p, j])
-            if slides[j]:
-                # the nodes of a joint stand where its second node is
-                for r in range(3):
-                    positions[p, ends[j, 0], r] = positions[p, ends[j, 1], r]

@@ -32,9 +32,7 @@ def around(motion: Motion, count: int, shift: float, turn: float, seed: int) -> 
     random = np.random.default_rng(seed)
     home = motion.home_pose
     turns = Rotation.from_rotvec(random.uniform(-turn, turn, (count, 3))).as_matrix()
-    return Poses(
-        home.position + random.uniform(-shift, shift, (count, 3)), turns @ home.rotation
-    )
+    return Poses(home.position + random.uniform(-shift, shift, (count, 3)), turns @ home.rotation)
 
 
 def platform_with_balls_below() -> Motion:

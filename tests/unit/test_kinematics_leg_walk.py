@@ -51,7 +51,8 @@ LINKAGES: dict[str, tuple[Callable[[], Motion], float, float]] = {
     "two universal joints a leg": (three_universal_legs, 0.04, 0.1),
 }
 
-FILES = sorted((ROOT / "examples").rglob("*.toml")) + [
+FILES = [
+    *sorted((ROOT / "examples").rglob("*.toml")),
     ROOT / "tests/cases/models/f1_three_axis_rigid_slides.toml",
     ROOT / "tests/cases/models/f1b_rotary_table.toml",
     ROOT / "tests/cases/models/skew_guide.toml",
