@@ -87,7 +87,7 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
     if not paths or len(paths) > MOST_LEGS:
         return None
     free = ~joints.held
-    passed = [_Leg(joints, free, path) for path in paths]
+    passed = [_Leg(free, path) for path in paths]
     if any(leg.freedoms > 6 for leg in passed):
         return None
     stop = np.cumsum([len(leg.steps) for leg in passed])
@@ -109,8 +109,7 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
 class _Leg:
     """One leg on its way to arrays."""
 
-    def __init__(self, joints: JointMotion, free: Array, path: list[tuple[int, int]]) -> None:
-        linkage, home = joints.linkage, joints.home
+    def __init__(self, free: Array, path: list[tuple[int, int]]) -> None:
         self.freedoms = int(free[[j for j, _ in path]].sum())
         balls = [bool(free[j, 3:].all() and not free[j, :3].any()) for j, _ in path]
         self.from_tool = int(balls[0] and not balls[-1])
@@ -154,7 +153,7 @@ def _axes(turns: Array) -> tuple[int, int]:
 
 def _regular(system: LegSystem) -> bool:
     """Whether the rates of each leg at home are independent."""
-    from strutwork.kinematics.leg_newton import home_rates  # noqa: PLC0415 - numba is slow to import
+    from strutwork.kinematics.leg_pass import home_rates  # noqa: PLC0415 - numba is slow to import
 
     for leg in range(len(system.legs)):
         values = np.linalg.svd(home_rates(system, leg), compute_uv=False)

@@ -60,8 +60,8 @@ class LegWalk:
         from strutwork.kinematics.leg_newton import (  # noqa: PLC0415 - numba is slow to import
             home_signs,
             walk_legs,
-            workspace,
         )
+        from strutwork.kinematics.leg_pass import workspace  # noqa: PLC0415
 
         given, system = self.given, self.system
         assert given.tool is not None  # noqa: S101 - legs are walked only for poses
