@@ -153,7 +153,7 @@ def test_planar_legs_refuse_what_leaves_the_plane() -> None:
     found = motion.move(tool=poses)
     assert found.reached.tolist() == [True, False]
     assert "contradicts the joints of a leg" in found.placement.reason(1)
-    assert "guide" in found.placement.reason(1)
+    assert "crank, pin and wrist" in found.placement.reason(1)
 
 
 def test_the_leg_that_ends_the_way_is_named_and_the_others_stop_with_it() -> None:
