@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -105,7 +106,7 @@ class Interference:
             body[i] != body[k] and frozenset((int(body[i]), int(body[k]))) not in joined
             for i, k in zip(first, second, strict=True)
         ]
-        return np.stack([first, second], axis=-1)[np.asarray(free, dtype=bool)]
+        return np.asarray(np.stack([first, second], axis=-1)[np.asarray(free, dtype=bool)])
 
     @cached_property
     def reach(self) -> Array:
@@ -202,7 +203,7 @@ def outlines(linkage: Linkage, radius: float, bodies: Iterable[str] | None = Non
         if bodies is not None and name not in bodies:
             continue
         nodes = [linkage.nodes[i] for i in np.flatnonzero(owner == b)]
-        sides = list(zip(nodes, nodes[1:], strict=False))
+        sides = list(pairwise(nodes))
         if len(nodes) > 2:
             sides.append((nodes[-1], nodes[0]))
         found += [Capsule(_part(name, sides, k), side, radius) for k, side in enumerate(sides)]

@@ -19,7 +19,7 @@ Array = NDArray[Any]
 STILL = 1e-9
 
 #: Samples along a straight path between which the signs are compared.
-SAMPLES = 48
+SAMPLES = 32
 
 #: Nodes of Gauss's rule for the length of a path.
 NODES = 16
@@ -144,7 +144,8 @@ def longest_clear_path(
 def _moves(speeds: Array) -> NDArray[np.bool_]:
     """Which drives move on each piece at all, (r, n)."""
     largest = np.abs(speeds).max(axis=1)
-    return np.asarray(largest > STILL * largest.max(axis=0, initial=0.0)) & (largest > 0.0)
+    moves = (largest > STILL * largest.max(axis=0, initial=0.0)) & (largest > 0.0)
+    return np.asarray(moves, dtype=bool)
 
 
 def _reversals(
@@ -192,8 +193,8 @@ def _chords(patch: Patch, way: Array, lines: int) -> tuple[Array, Array]:
     low = (-ends - shift).max(axis=-1)
     high = (ends - shift).min(axis=-1)
     kept = high > low
-    low_p, high_p = (base + t[:, None] * w for t in (low, high))
-    return tuple(corner + (0.5 + p[kept]) * span for p in (low_p, high_p))  # type: ignore[return-value]
+    ends_of = [corner + (0.5 + (base + t[:, None] * w)[kept]) * span for t in (low, high)]
+    return ends_of[0], ends_of[1]
 
 
 def _length(field: DriveField, start: Array, end: Array) -> float:

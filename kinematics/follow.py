@@ -83,8 +83,8 @@ class Follower:
         while True:
             tree = cKDTree(self.points / self.step)
             distance, start = tree.query(points / self.step)
-            # a corner of the next cell is within reach
-            near = distance <= 1.01 * np.sqrt(len(self.step))
+            # a corner of the next cell is within reach, from what stands for the near one
+            near = distance <= 1.01 * (np.sqrt(len(self.step)) + APART)
             turn = np.flatnonzero((status != 0) & near & (start != last) & (tried < TRIES))
             if not turn.size:
                 break
@@ -140,6 +140,9 @@ class Follower:
 
 class _Onward(Walk):
     """A walk whose poses start where others have arrived."""
+
+    # of a way that is a cell long
+    shortest = 1e-4
 
     def __init__(
         self, motion: Motion, wanted: Given, bodies: BodyPoses, coordinates: Array, begin: Array

@@ -27,8 +27,8 @@ from strutwork.kinematics.trajectory import Trajectory
 Array = NDArray[Any]
 Tell = Callable[[int, int], None]
 
-#: Poses treated at once.
-PIECE = 256
+#: Poses treated at once, and bytes that their matrices may take.
+PIECE, BYTES = 256, 4e8
 #: Poses of a trajectory, and hours that they may take.
 LARGEST, HOURS = 2_000_000, 12.0
 #: Pace of a body, as a share of the largest, below which it stands: rounding.
@@ -179,8 +179,9 @@ def follow(
     parts: list[dict[str, Array]] = []
     labels: tuple[str, ...] = ()
     last: Way | None = None
-    for first in range(0, len(times), PIECE):
-        some = times[first : first + PIECE]
+    piece = _piece(dynamics)
+    for first in range(0, len(times), piece):
+        some = times[first : first + piece]
         moved, placed = placed_along(dynamics, trajectory, some)
         _, rates, changes = trajectory.at(some)
         forces = inverse_dynamics(placed, rates, changes, wrench)
@@ -288,17 +289,24 @@ def within_speeds(
     return make(factor)
 
 
+def _piece(dynamics: Dynamics) -> int:
+    """Poses treated at once: some six square matrices of all bodies' twists each."""
+    size = 6.0 * len(dynamics.masses.mass)
+    return max(1, min(PIECE, int(BYTES / (6 * 8 * size**2))))
+
+
 def _require_time(dynamics: Dynamics, trajectory: Trajectory, times: Array) -> None:
     """Refuse a trajectory that is foreseen to take too long or too much memory."""
     count = len(times)
-    if count <= 20 * PIECE:
+    if count <= 20 * _piece(dynamics):
         return
-    trial = times[np.linspace(0, count - 1, TRIAL).astype(int)]
+    tried = min(TRIAL, _piece(dynamics))
+    trial = times[np.linspace(0, count - 1, tried).astype(int)]
     begun = time.perf_counter()
     _, rates, changes = trajectory.at(trial)
     placed = placed_along(dynamics, trajectory, trial)[1]
     _ = inverse_dynamics(placed, rates, changes).coordinates
-    hours = (time.perf_counter() - begun) / TRIAL * count / 3600.0
+    hours = (time.perf_counter() - begun) / tried * count / 3600.0
     columns = len(dynamics.motion.joints.names) + 6 * len(dynamics.motion.linkage.driven) + 12
     gigabytes = 8e-9 * count * columns
     if count > LARGEST or hours > HOURS:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -29,8 +29,8 @@ class InscribedShape:
         directions, about which the first two halves are its radius.
     half : (d,)
         Half of its size along each of its own directions, m and rad.
-    rotation : (d, d)
-        Its own directions as columns.
+    rotation : (d, d) or None
+        Its own directions as columns; those of the space by default.
 
     Raises
     ------
@@ -41,7 +41,7 @@ class InscribedShape:
 
     kind: Kind
     half: Array
-    rotation: Array = field(default=None)  # type: ignore[assignment]
+    rotation: Array | None = None
 
     def __post_init__(self) -> None:
         half = np.asarray(self.half, dtype=float)
@@ -59,6 +59,12 @@ class InscribedShape:
         object.__setattr__(self, "half", half)
         object.__setattr__(self, "rotation", turn)
 
+    @property
+    def turn(self) -> Array:
+        """Its own directions as columns, (d, d)."""
+        assert self.rotation is not None  # noqa: S101 - set when it was made
+        return self.rotation
+
     def __repr__(self) -> str:
         return f"<InscribedShape: {self.kind}, half {self.half.tolist()}>"
 
@@ -74,7 +80,7 @@ class InscribedShape:
         return float(unit[self.kind] * np.prod(self.half))
 
     def _own(self, points: Array) -> Array:
-        return np.asarray(points @ self.rotation / self.half)
+        return np.asarray(points @ self.turn / self.half)
 
     def gauge(self, points: Array) -> Array:
         """Size at which the shape reaches points, (...) of (..., d)."""
@@ -100,11 +106,11 @@ class InscribedShape:
             side = around >= np.abs(own[:, 2])
             flat[side, :2] = own[side, :2] / around[side, None]
             flat[~side, 2] = np.sign(own[~side, 2])
-        return np.asarray(flat / self.half @ self.rotation.T)
+        return np.asarray(flat / self.half @ self.turn.T)
 
     def support(self, normals: ArrayLike) -> Array:
         """How far the shape of size one reaches along normals, (...) of (..., d)."""
-        own = np.asarray(normals, dtype=float) @ self.rotation * self.half
+        own = np.asarray(normals, dtype=float) @ self.turn * self.half
         if self.kind == "ball":
             return np.asarray(np.linalg.norm(own, axis=-1))
         if self.kind == "cylinder":
@@ -132,10 +138,12 @@ class InscribedShape:
         """Points that fill the shape, border included, (k, d)."""
         cube = _cube(self.half.size, count)
         level = np.abs(cube).max(axis=-1)
-        points = (cube * self.half) @ self.rotation.T
+        points = (cube * self.half) @ self.turn.T
         gauge = self.gauge(points)
         # each shell of the cube on the shape's of the same size
-        return points * np.divide(level, gauge, out=np.ones_like(gauge), where=gauge > 0)[:, None]
+        return np.asarray(
+            points * np.divide(level, gauge, out=np.ones_like(gauge), where=gauge > 0)[:, None]
+        )
 
 
 def _cube(dimensions: int, count: int) -> Array:

@@ -109,6 +109,11 @@ class JointMotion:
         clamp = self.held.all(axis=1) & slides[nodes[:, 1]]
         return np.flatnonzero(clamp & (owner[ground] < 0) & (used[ground] == 1))
 
+    def _carry_clamps(self, positions: Array) -> None:
+        """Put the ground nodes of clamps where the nodes slide that they hold."""
+        first, second = self.nodes[self._clamps(self.nodes)].T
+        positions[:, first] = positions[:, second]
+
     @cached_property
     def sliding(self) -> Mask:
         """Joints with a free translation: their first node follows the second, (j,)."""
@@ -154,14 +159,10 @@ class JointMotion:
             )
         a, b_ = self.nodes.T
         gaps = positions[:, b_] - positions[:, a]
-        self._follow(positions)
+        moved = np.flatnonzero(self.sliding)
+        positions[:, a[moved]] = positions[:, b_[moved]]
+        self._carry_clamps(positions)
         return positions, frames, gaps
-
-    def _follow(self, positions: Array) -> None:
-        """Put first nodes of joints that slide, and of clamps of these, where their second is."""
-        a, b = self.nodes.T
-        for joints in (np.flatnonzero(self.sliding), self._clamps(self.nodes)):
-            positions[:, a[joints]] = positions[:, b[joints]]
 
     def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:
         """Node positions and joint frames as of `place`, in compiled code: for many poses."""
@@ -178,11 +179,11 @@ class JointMotion:
             np.ascontiguousarray(bodies.position),
             np.ascontiguousarray(bodies.rotation),
             (owner, arms),
-            (self.nodes, locked, np.ascontiguousarray(home.frames, dtype=float)),
+            (self.nodes, self.sliding, locked, np.ascontiguousarray(home.frames, dtype=float)),
             positions,
             frames,
         )
-        self._follow(positions)
+        self._carry_clamps(positions)
         return positions, frames
 
     @cached_property

@@ -2,14 +2,36 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from strutwork.jit import jit
-from strutwork.kinematics.leg_pass import end_axes, leg_rates, pass_leg, tool_at_home
+from strutwork.kinematics.leg_pass import SCRATCH, STATE, end_axes, home_tool, pass_leg, rates
 from strutwork.kinematics.leg_turns import rotation_log, turn_by_vector
 
+Array = NDArray[Any]
+
 #: What a leg's way ended at.
-ARRIVED, END_OF_REACH, DISAGREES, TOO_MANY = 0, 1, 2, 3
+ARRIVED, END_OF_REACH, TOO_MANY = 0, 1, 2
+
+
+def workspace(system: Any) -> tuple[Array, Array, Array]:
+    """State of all joints that are passed, at home; the same once more; scratch."""
+    state = np.zeros(len(system.steps), STATE)
+    state["turned"] = np.eye(3)
+    return state, state.copy(), np.zeros(1, SCRATCH)
+
+
+def home_rates(system: Any, leg: int) -> Array:
+    """Rates of a leg's end by its coordinates at home, on (v / L, ω), (3 or 6, n)."""
+    state, _, scratch = workspace(system)
+    home_tool(system, scratch[0])
+    pass_leg(system, leg, state, scratch[0])
+    rates(system, leg, state, scratch[0])
+    rows = 3 if system.legs["ball"][leg] else 6
+    return np.array(scratch[0]["rates"][:rows, : system.legs["unknowns"][leg]])
 
 
 @jit()
@@ -68,51 +90,17 @@ def _eliminate(a, n, x):  # type: ignore[no-untyped-def]
 
 
 @jit()
-def _correct(s, leg, begins, w):  # type: ignore[no-untyped-def]
-    """Correction of a leg's coordinates, least squares where rows are more; sign of its rates.
-
-    With more rows than unknowns the sign is of the rates now against those where the step begins.
-    """
+def _correct(s, leg, w):  # type: ignore[no-untyped-def]
+    """Correction of a leg's coordinates; determinant of its rates, which has their sign."""
     m, a = w.rates, w.equations
-    n, rows = s.legs[leg].unknowns, 3 if s.legs[leg].ball == 1 else 6
-    if n == 0:
-        return 1.0
-    if n == rows == 3:
+    n = s.legs[leg].unknowns
+    if n == 3:
         return _solve_three(m, w.left, w.change)
-    if n == rows:
-        for i in range(n):
-            for c in range(n):
-                a[i, c] = m[i, c]
-            a[i, n] = w.left[i]
-        return _eliminate(a, n, w.change)
-    return _least_squares(m, a, n, rows, begins, w)
-
-
-@jit()
-def _least_squares(m, a, n, rows, begins, w):  # type: ignore[no-untyped-def]
-    """Correction by the normal equations; sense of the rates against those of the beginning."""
-    if begins:
-        for r in range(rows):
-            for c in range(n):
-                w.before[r, c] = m[r, c]
     for i in range(n):
         for c in range(n):
-            a[i, c] = 0.0
-            for r in range(rows):
-                a[i, c] += m[r, i] * w.before[r, c]
-        a[i, n] = 0.0
-    sense = _eliminate(a, n, w.change)
-    for i in range(n):
-        for c in range(n):
-            a[i, c] = 0.0
-            for r in range(rows):
-                a[i, c] += m[r, i] * m[r, c]
-        a[i, n] = 0.0
-        for r in range(rows):
-            a[i, n] += m[r, i] * w.left[r]
-    if _eliminate(a, n, w.change) == 0.0:
-        return 0.0
-    return sense
+            a[i, c] = m[i, c]
+        a[i, n] = w.left[i]
+    return _eliminate(a, n, w.change)
 
 
 @jit()
@@ -141,23 +129,17 @@ def _newton(s, leg, sign, rules, state, w):  # type: ignore[no-untyped-def]
 
     `rules`: share by which corrections must shrink, largest first correction, gap at which a
     leg is closed, gap that rounding leaves, correction after which a closed leg is believed,
-    gap that a leg of fewer freedoms may keep, corrections.
+    corrections.
     """
-    shrink, farthest, closed, rounding, believed, open_, most = rules
+    shrink, farthest, closed, rounding, believed, most = rules
     n = s.legs[leg].unknowns
-    square = n == (3 if s.legs[leg].ball == 1 else 6)
     before, size = np.inf, 0.0
-    for correction in range(most):
+    for _ in range(most):
         size = pass_leg(s, leg, state, w)
-        if size <= rounding or (before <= believed and size <= (closed if square else open_)):
+        if size <= rounding or (before <= believed and size <= closed):
             return ARRIVED, size
-        # least squares have come to rest with something open
-        if not square and before <= 1e-9:
-            return DISAGREES, size
-        if n == 0:
-            return (ARRIVED if size <= open_ else DISAGREES), size
-        leg_rates(s, leg, state, w)
-        if not _correct(s, leg, correction == 0, w) * sign > 0.0:
+        rates(s, leg, state, w)
+        if not _correct(s, leg, w) * sign > 0.0:
             return END_OF_REACH, size
         norm = 0.0
         for c in range(n):
@@ -173,11 +155,11 @@ def _newton(s, leg, sign, rules, state, w):  # type: ignore[no-untyped-def]
 def home_signs(s, signs, state, scratch):  # type: ignore[no-untyped-def]
     """Sign of the determinant of each leg's rates in a state, which is home."""
     w = scratch[0]
-    tool_at_home(s, w)
+    home_tool(s, w)
     for leg in range(signs.shape[0]):
         pass_leg(s, leg, state, w)
-        leg_rates(s, leg, state, w)
-        signs[leg] = np.sign(_correct(s, leg, True, w))
+        rates(s, leg, state, w)
+        signs[leg] = np.sign(_correct(s, leg, w))
 
 
 @jit()

@@ -1,16 +1,11 @@
-"""Compiled passage along the joints of a leg: what is open at its end, and the leg's rates."""
+"""Compiled passing of a leg: where its joints are, what is open at its end, and its rates."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
 from strutwork.jit import jit
 from strutwork.kinematics.leg_turns import rotation_log, turn_about
-
-Array = NDArray[Any]
 
 #: What changes of a joint that is passed, and where its nodes and axes are.
 STATE = np.dtype(
@@ -27,8 +22,7 @@ STATE = np.dtype(
 )
 
 #: What is open, the leg's rates, the equations, their solution, the rates at a step's beginning,
-#: the end's place and the tool's that are wanted, its body's rotation, the end's axes there, and
-#: how far these are apart from the leg's.
+#: the end's place and the tool's that are wanted, its body's rotation, and another.
 SCRATCH = np.dtype(
     [
         ("left", float, (6,)),
@@ -40,31 +34,13 @@ SCRATCH = np.dtype(
         ("target", float, (3,)),
         ("turn", float, (3, 3)),
         ("rotation", float, (3, 3)),
-        ("apart", float, (3, 3)),
     ],
     align=True,
 )
 
 
-def workspace(system: Any) -> tuple[Array, Array, Array]:
-    """State of all joints that are passed, at home; the same once more; scratch."""
-    state = np.zeros(len(system.steps), STATE)
-    state["turned"] = np.eye(3)
-    return state, state.copy(), np.zeros(1, SCRATCH)
-
-
-def home_rates(system: Any, leg: int) -> Array:
-    """Rates of a leg's end by its coordinates at home, on (v / L, ω), (3 or 6, n)."""
-    state, _, scratch = workspace(system)
-    tool_at_home(system, scratch[0])
-    pass_leg(system, leg, state, scratch[0])
-    leg_rates(system, leg, state, scratch[0])
-    rows = 3 if system.legs["ball"][leg] else 6
-    return np.array(scratch[0]["rates"][:rows, : system.legs["unknowns"][leg]])
-
-
 @jit()
-def tool_at_home(s, w):  # type: ignore[no-untyped-def]
+def home_tool(s, w):  # type: ignore[no-untyped-def]
     """The tool's body as it is at home."""
     for r in range(3):
         w.target[r] = s.reference[s.platform, r]
@@ -162,12 +138,12 @@ def pass_leg(s, leg, state, w):  # type: ignore[no-untyped-def]
         end_axes(step, at_tool, w)
         for r in range(3):
             for k in range(3):
-                w.apart[r, k] = (
+                w.before[r, k] = (
                     w.rotation[r, 0] * end.far_axes[k, 0]
                     + w.rotation[r, 1] * end.far_axes[k, 1]
                     + w.rotation[r, 2] * end.far_axes[k, 2]
                 )
-        rotation_log(w.apart, w.left, 3)
+        rotation_log(w.before, w.left, 3)
         for r in range(3, 6):
             largest = max(largest, abs(w.left[r]))
     return largest
@@ -188,7 +164,7 @@ def end_axes(step, at_tool, w):  # type: ignore[no-untyped-def]
 
 
 @jit()
-def leg_rates(s, leg, state, w):  # type: ignore[no-untyped-def]
+def rates(s, leg, state, w):  # type: ignore[no-untyped-def]
     """Rates of a leg's end at the place that is wanted, on (v / L, ω), as columns."""
     m, c = w.rates, 0
     for i in range(s.legs[leg].start, s.legs[leg].stop - s.legs[leg].ball):

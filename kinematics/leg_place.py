@@ -40,11 +40,11 @@ def place_bodies(position, rotation, nodes, joints, positions, frames):  # type:
     """Node positions and joint frames of p placements of the bodies.
 
     `nodes`: body of each, −1 for the ground, and its arm from the body's reference point at home,
-    from the origin on the ground. `joints`: first and second node, the locked axis beside two free
-    rotations or −1, and the axes at home. No first node follows its second yet.
+    from the origin on the ground. `joints`: first and second node, whether it slides, the locked
+    one of two free rotations or −1, and the axes at home.
     """
     owner, arms = nodes
-    ends, locked, home = joints
+    ends, slides, locked, home = joints
     fixed, other = np.eye(3), np.empty((3, 3))
     for p in range(position.shape[0]):
         for n in range(owner.shape[0]):
@@ -67,3 +67,7 @@ def place_bodies(position, rotation, nodes, joints, positions, frames):  # type:
                 second = rotation[p, c] if c >= 0 else fixed
                 _turned_axis(second, home[j], (locked[j] + 2) % 3, other)
                 _two_turns(frames[p, j], other, locked[j], frames[p, j])
+            if slides[j]:
+                # the nodes of a joint stand where its second node is
+                for r in range(3):
+                    positions[p, ends[j, 0], r] = positions[p, ends[j, 1], r]

@@ -77,8 +77,8 @@ class LegSystem(NamedTuple):
 def leg_system(joints: JointMotion) -> LegSystem | None:
     """The legs of a linkage, or None where Newton's method leg by leg does not fit.
 
-    It fits where the linkage falls into legs (`leg_chains.leg_paths`), none with more freedoms
-    than six, all regular at home: there the tool's pose fixes each leg by itself.
+    It fits where the linkage falls into legs (`leg_chains.leg_paths`) of six freedoms each, all
+    regular at home: there the tool's pose fixes each leg by itself.
     """
     linkage = joints.linkage
     if linkage.tool is None or linkage.tool_body < 0:
@@ -88,7 +88,8 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
         return None
     free = ~joints.held
     passed = [_Leg(free, path) for path in paths]
-    if any(leg.freedoms > 6 for leg in passed):
+    # a leg that cannot follow every pose of the tool is closed with all others, by `walk.Walk`
+    if any(leg.freedoms != 6 for leg in passed):
         return None
     stop = np.cumsum([len(leg.steps) for leg in passed])
     legs = np.zeros(len(passed), LEG)
@@ -153,7 +154,7 @@ def _axes(turns: Array) -> tuple[int, int]:
 
 def _regular(system: LegSystem) -> bool:
     """Whether the rates of each leg at home are independent."""
-    from strutwork.kinematics.leg_pass import home_rates  # noqa: PLC0415 - numba is slow to import
+    from strutwork.kinematics.leg_newton import home_rates  # noqa: PLC0415 - numba is slow to import
 
     for leg in range(len(system.legs)):
         values = np.linalg.svd(home_rates(system, leg), compute_uv=False)

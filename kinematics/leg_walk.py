@@ -14,7 +14,6 @@ from strutwork.kinematics.turns import rotation_vector
 from strutwork.kinematics.walk import (
     CLOSED,
     CORRECTIONS,
-    ELSE,
     FARTHEST,
     MOST,
     ROUNDING,
@@ -31,7 +30,6 @@ ROUGHLY, ROUGH = 1e-2, 1e-6
 
 ENDS = (
     "out of reach: on the way the leg of {} comes to the end of its working mode",
-    "what is given contradicts the joints of a leg, {}: no pose near the way has it",
     "the way of the leg of {} was not walked to its end in the steps allowed",
 )
 
@@ -60,8 +58,8 @@ class LegWalk:
         from strutwork.kinematics.leg_newton import (  # noqa: PLC0415 - numba is slow to import
             home_signs,
             walk_legs,
+            workspace,
         )
-        from strutwork.kinematics.leg_pass import workspace  # noqa: PLC0415
 
         given, system = self.given, self.system
         assert given.tool is not None  # noqa: S101 - legs are walked only for poses
@@ -84,8 +82,8 @@ class LegWalk:
             (place, np.ascontiguousarray(rotation_vector(turn)), turn),
             signs,
             (
-                (SHRINK, FARTHEST, CLOSED, ROUNDING, BELIEVED, ELSE * CLOSED, CORRECTIONS),
-                (SHRINK, FARTHEST, ROUGH, ROUNDING, ROUGHLY, ELSE * CLOSED, CORRECTIONS),
+                (SHRINK, FARTHEST, CLOSED, ROUNDING, BELIEVED, CORRECTIONS),
+                (SHRINK, FARTHEST, ROUGH, ROUNDING, ROUGHLY, CORRECTIONS),
                 SHORTEST,
                 MOST,
             ),

@@ -27,13 +27,20 @@ class JointRange(Protocol):
     """Range of a joint coordinate, m or rad."""
 
     @property
-    def joint(self) -> str: ...
+    def joint(self) -> str:
+        """Its joint."""
+
     @property
-    def coordinate(self) -> str: ...
+    def coordinate(self) -> str:
+        """As in `Placement.names`."""
+
     @property
-    def low(self) -> float: ...
+    def low(self) -> float:
+        """Least value."""
+
     @property
-    def high(self) -> float: ...
+    def high(self) -> float:
+        """Largest value."""
 
 
 @dataclass(frozen=True)
@@ -181,7 +188,9 @@ def _together(several: Sequence[Margins]) -> tuple[tuple[str, ...], list[Indices
     """All reasons once, and the numbers of each batch's own among them."""
     words = tuple(dict.fromkeys(word for m in several for word in m.reasons))
     place = {word: i for i, word in enumerate(words)}
-    return words, [np.array([place[w] for w in m.reasons], dtype=np.intp)[m.reason] for m in several]
+    return words, [
+        np.array([place[w] for w in m.reasons], dtype=np.intp)[m.reason] for m in several
+    ]
 
 
 def _chosen(several: Sequence[Margins], index: Indices) -> Margins:

@@ -70,7 +70,7 @@ class Reversals:
         0 where a drive stands still, and out of reach.
         """
         speed = self.gradient @ np.asarray(feed, dtype=float)
-        return np.nan_to_num(np.sign(speed)).astype(np.int8)
+        return np.asarray(np.nan_to_num(np.sign(speed)), dtype=np.int8)
 
     def lines(self, feed: ArrayLike) -> dict[str, list[Array]]:
         """Lines on which a feed direction (2,) makes a drive turn back, (c, 2) each, by drive.

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.kinematics.row_rates import row_rates
 from strutwork.kinematics.rows import ConstraintRows, body_references
 
 Array = NDArray[Any]
@@ -61,40 +62,6 @@ def lost_twists(
 
 
 def drift(passive: ConstraintRows, twists: Array) -> Array:
-    """Ȧ(q) q of every row for twists (p, n) of the bodies about their references, (p, r).
-
-    A row's axis is carried by its joint's first body; that of a universal joint, z × x, has z
-    in the first body and x in the second.
-    """
-    linkage, placement = passive.linkage, passive.placement
-    references = body_references(linkage, placement)
-    owner = linkage.body_of_node
-    bodies = np.concatenate(
-        [twists.reshape(len(twists), -1, 6), np.zeros((len(twists), 1, 6))], axis=1
-    )
-    points = np.concatenate([references, np.zeros((len(twists), 1, 3))], axis=1)
-    result = np.zeros((len(twists), len(passive)))
-    for r, (joint, pair) in enumerate(zip(passive.joint, passive.nodes, strict=True)):
-        if owner[pair[0]] == owner[pair[1]]:
-            continue
-        axis = passive.axes[:, r]
-        turn, speed, inward = [], [], []
-        for node in pair:
-            which = owner[node]
-            spin = bodies[:, which, 3:]
-            arm = placement.positions[:, node] - points[:, which]
-            turn.append(spin)
-            speed.append(bodies[:, which, :3] + np.cross(spin, arm))
-            inward.append(np.cross(spin, np.cross(spin, arm)))
-        if passive.direction[r] < 3:
-            e = axis[:, :3]
-            result[:, r] = (e * (inward[1] - inward[0])).sum(-1)
-            result[:, r] += 2.0 * (np.cross(turn[0], e) * (speed[1] - speed[0])).sum(-1)
-            continue
-        e = axis[:, 3:]
-        change = np.cross(turn[0], e)
-        if linkage.joints[joint].type == "universal":
-            x, z = (placement.frames[:, joint, :, k] for k in (0, 2))
-            change = np.cross(np.cross(turn[0], z), x) + np.cross(z, np.cross(turn[1], x))
-        result[:, r] = (change * (turn[1] - turn[0])).sum(-1)
-    return result
+    """Ȧ(q) q of every row for twists (p, n) of the bodies about their references, (p, r)."""
+    references = body_references(passive.linkage, passive.placement)
+    return np.asarray(np.einsum("prn,pn->pr", row_rates(passive, references, twists), twists))

@@ -116,7 +116,7 @@ class ShapeSearch:
         """Bad sizes about rays, closer and closer, where they are least; clear of any or not."""
         d = len(centre)
         star = np.stack(np.meshgrid(*[[-1.0, 0.0, 1.0]] * d, indexing="ij"), -1).reshape(-1, d)
-        star = (star * self.shape.half) @ self.shape.rotation.T
+        star = (star * self.shape.half) @ self.shape.turn.T
         rays, size, clear = rays.copy(), size.copy(), clear.copy()
         reach = np.full(len(rays), 2.0 / (RAYS[d] - 1))
         sharp = max(0.01 * accuracy, SHARP)
@@ -191,7 +191,7 @@ class ShapeSearch:
         """Normals of the border where it is touched, to the bad side, (k, d)."""
         k, d = touch.rays.shape
         beside = SLOPE * np.concatenate([np.eye(d), -np.eye(d)])
-        beside = (beside * self.shape.half) @ self.shape.rotation.T
+        beside = (beside * self.shape.half) @ self.shape.turn.T
         rays = self.shape.fitted(touch.rays[:, None] + beside).reshape(-1, d)
         size = np.repeat(touch.size, 2 * d)
         if not k:

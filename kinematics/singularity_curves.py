@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
-import contourpy
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import (
-    breadth_first_order,
-    connected_components,
-    minimum_spanning_tree,
-)
 
 from strutwork.errors import ModelError
+from strutwork.kinematics.grid_lines import (
+    grid_edges,
+    grid_places,
+    one_sense,
+    runs,
+    sign_lines,
+)
 from strutwork.kinematics.lost_motion import Kind, kinds
-from strutwork.kinematics.pose_family import Looked, PoseFamily, Progress
-from strutwork.kinematics.reach_end import reach_ends
+from strutwork.kinematics.pose_family import PoseFamily, Progress
+from strutwork.kinematics.reach_end import ReachEnds, reach_ends
 from strutwork.kinematics.singularities import (
     PARTS,
     Singularity,
+    before_the_end,
     end_kinds,
     local_minima,
     ordered_ends,
@@ -41,9 +41,12 @@ from strutwork.kinematics.singularity_search import (
 Array = NDArray[Any]
 Indices = NDArray[np.intp]
 
-#: Poses of a grid: each takes about a millisecond and, with its rows, 100 kB.
+#: Poses of a grid, and what one takes, s and bytes.
 LARGEST = 1_000_000
-SECONDS, BYTES = 2e-3, 4e3
+SECONDS, BYTES = 5e-3, 5e3
+
+#: A curve goes on to a pose at most this many cells from its end.
+CELL = 1.5
 
 
 @dataclass(frozen=True)
@@ -144,20 +147,14 @@ def singularities_in_plane(
     parameters = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1).reshape(-1, 2)
     looked = family.look(parameters, progress)
     family = replace(family, known=looked.space.known)
-    number = np.arange(len(parameters)).reshape(shape)
-    edges = np.concatenate(
-        [
-            np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1),
-            np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1),
-        ]
-    )
+    edges = grid_edges(shape)
     inner = edges[looked.reach[edges].all(axis=1)]
     centre = np.asarray(home, dtype=float)
     spacing = np.array([np.ptp(x) / (len(x) - 1), np.ptp(y) / (len(y) - 1)])
     curves: list[SingularCurve] = []
     points: list[Singularity] = []
     senses = edge_senses(looked, inner)
-    sense, missed = _one_sense(len(parameters), inner, senses)
+    sense, missed = one_sense(len(parameters), inner, senses)
     for part in PARTS:
         changed = inner[:0]
         if has_minor(looked.space, part):
@@ -169,7 +166,14 @@ def singularities_in_plane(
         if low.size:
             refined = refine_least(family, parameters[low], spacing, part)
             points += _apart(singular_poses(family, refined), curves, points, (x, y))
-    curves += _border(family, looked, (x, y), centre)
+    rim = edges[looked.reach[edges].sum(axis=1) == 1]
+    if len(rim):
+        inside, outside, reasons = ordered_ends(looked, rim)
+        ends = reach_ends(family, inside, outside, reasons)
+        late = before_the_end(family, inside, ends.parameters)
+        curves, alone = _reaching(curves, late, spacing)
+        points += _apart(alone, curves, points, (x, y))
+        curves += _border(family, looked.reach.reshape(shape), ends, rim, (x, y), centre)
     curves.sort(key=lambda c: _far(c.at, centre, spacing))
     points.sort(key=lambda p: _far(p, centre, spacing))
 
@@ -213,12 +217,12 @@ def _zero_lines(
 ) -> list[SingularCurve]:
     """Lines on which a minor, (n, m) with NaN out of reach, is zero."""
     result = []
-    for start, end in _outlines(signed):
-        a, b = _at(axes, start), _at(axes, end)
+    for start, end in sign_lines(signed):
+        a, b = grid_places(axes, start), grid_places(axes, end)
         refined = refine_zeros(family, a, b, part)
         found = kinds(refined.space)
         # a curve may meet another kind at a point and change its own there
-        for run in _runs([None if k is None else k.value for k in found]):
+        for run in runs([None if k is None else k.value for k in found]):
             closed = len(run) == len(start) and np.array_equal(start[0], start[-1])
             at = _nearest(refined.parameters[run], axes, home)
             one = singular_poses(family, refined[run[at : at + 1]])[0]
@@ -226,20 +230,50 @@ def _zero_lines(
     return result
 
 
+def _reaching(
+    curves: list[SingularCurve], late: list[Singularity], spacing: Array
+) -> tuple[list[SingularCurve], list[Singularity]]:
+    """Curves led on to poses between the grid and the border, and those that no curve leads to."""
+    curves = list(curves)
+    alone = []
+    for one in late:
+        here = np.array(list(one.parameters.values()))
+        gaps = [
+            (float(np.abs((c.points[end] - here) / spacing).max()), k, end)
+            for k, c in enumerate(curves)
+            if c.kind is one.kind and not c.closed and len(c.points)
+            for end in (0, -1)
+        ]
+        gap, k, end = min(gaps, default=(np.inf, 0, 0))
+        if gap > CELL:
+            alone.append(one)
+            continue
+        parts = [curves[k].points, here[None]]
+        points = np.concatenate(parts if end else parts[::-1])
+        curves[k] = replace(curves[k], points=points)
+    return curves, alone
+
+
 def _border(
-    family: PoseFamily, looked: Looked, axes: tuple[Array, Array], home: Array
+    family: PoseFamily,
+    mask: NDArray[np.bool_],
+    ends: ReachEnds,
+    rim: Indices,
+    axes: tuple[Array, Array],
+    home: Array,
 ) -> list[SingularCurve]:
-    """The border of reach within the plane."""
-    mask = looked.reach.reshape(len(axes[0]), len(axes[1]))
+    """The border of reach within the plane, from its ends on the edges `rim`, (e, 2)."""
     result = []
-    for start, end in _outlines(np.where(mask, 1.0, -1.0)):
+    found = end_kinds(family, ends)
+    number = {(int(a), int(b)): i for i, (a, b) in enumerate(np.sort(rim, axis=1))}
+    for start, end in sign_lines(np.where(mask, 1.0, -1.0)):
         flat = np.stack([k[:, 0] * mask.shape[1] + k[:, 1] for k in (start, end)], axis=1)
-        ends = reach_ends(family, *ordered_ends(looked, flat))
-        found = end_kinds(family, ends)
-        for run in _runs([k.value for k in found]):
-            points = ends.parameters[run]
+        which = np.array([number[int(a), int(b)] for a, b in np.sort(flat, axis=1)])
+        for run in runs([found[i].value for i in which]):
+            own = which[run]
+            points = ends.parameters[own]
             closed = len(run) == len(start) and np.array_equal(start[0], start[-1])
-            at = run[_nearest(points, axes, home)]
+            at = own[_nearest(points, axes, home)]
             one = singular_pose(
                 family,
                 ends.parameters[at],
@@ -249,30 +283,6 @@ def _border(
             )
             result.append(SingularCurve(points, found[at], True, closed, one))
     return result
-
-
-def _outlines(field: Array) -> list[tuple[Indices, Indices]]:
-    """Edges of a grid that the lines between signs cross, in their order, (v, 2) each."""
-    known = np.isfinite(field)
-    # by its signs alone, so that every vertex is the middle of its edge and tells which it is
-    signs = np.where(np.where(known, field, 1.0) >= 0.0, 1.0, -1.0)
-    lines = contourpy.contour_generator(z=np.ma.array(signs.T, mask=~known.T)).lines(0.0)
-    result = []
-    for line in lines:
-        middle = np.asarray(line)
-        low = np.floor(middle + 0.25).astype(np.intp)
-        result.append((low, low + (middle - low > 0.25)))
-    return result
-
-
-def _at(axes: tuple[Array, Array], index: Indices) -> Array:
-    return np.stack([axes[0][index[:, 0]], axes[1][index[:, 1]]], axis=1)
-
-
-def _runs(names: list[str | None]) -> list[Indices]:
-    """Neighbours of one name, those without left out."""
-    cuts = [0, *(k for k in range(1, len(names)) if names[k] != names[k - 1]), len(names)]
-    return [np.arange(a, b) for a, b in pairwise(cuts) if b > a and names[a] is not None]
 
 
 def _nearest(points: Array, axes: tuple[Array, Array], home: Array) -> int:
@@ -304,41 +314,3 @@ def _apart(
             result.append(one)
             known.append(here[None])
     return result
-
-
-def _one_sense(count: int, edges: Indices, senses: Array) -> tuple[Array, int]:
-    """Sense of every pose's basis against the first of its region, ±1, and edges that disagree.
-
-    It is handed on between poses whose spaces are nearest to each other.
-    """
-    sense = np.ones(count)
-    if not len(edges):
-        return sense, 0
-    apart = 2.0 - np.abs(senses)
-    graph = coo_array((apart, edges.T), shape=(count, count)).tocsr()
-    tree = minimum_spanning_tree(graph)
-    regions, label = connected_components(tree, directed=False)
-    first = np.unique(label, return_index=True)[1]
-    before = np.arange(count)
-    for start in first[np.bincount(label, minlength=regions) > 1]:
-        order, found = breadth_first_order(tree, start, directed=False)
-        before[order[1:]] = found[order[1:]]
-    both = np.concatenate([edges, edges[:, ::-1]])
-    key = both[:, 0] * count + both[:, 1]
-    order = np.argsort(key)
-    at = np.flatnonzero(before != np.arange(count))
-    place = order[np.searchsorted(key[order], before[at] * count + at)]
-    sign = np.where(senses < 0.0, -1.0, 1.0)
-    sense[at] = np.tile(sign, 2)[place]
-    sense = _gathered(sense, before)
-    agree = sense[edges[:, 0]] * sense[edges[:, 1]] * sign
-    return sense, int(np.count_nonzero(agree < 0.0))
-
-
-def _gathered(sense: Array, before: Indices) -> Array:
-    """Product of signs from each pose back to its region's first, which has 1."""
-    while True:
-        further = before[before]
-        if np.array_equal(further, before):
-            return sense
-        sense, before = sense * sense[before], further

@@ -195,7 +195,7 @@ def tool_drive_space(
         No tool, a tool on the ground, no drive, fewer drives than freedoms, a length that is not
         positive.
     """
-    _check(linkage, length)
+    check_driven(linkage, length)
     flat = placement.flat() if placement.batch else placement[None]
     if length is None:
         length = characteristic_length(flat)
@@ -287,7 +287,14 @@ def _ranks(parts: list[_Rows], drives: int) -> Freedoms:
     return Freedoms(rank, freedoms, tool, tuple(sorted(int(k) for k in order[:tool])))
 
 
-def _check(linkage: Linkage, length: ArrayLike | None) -> None:
+def check_driven(linkage: Linkage, length: ArrayLike | None = None) -> None:
+    """Check that a linkage has a tool that can move, drives, and a length that is one.
+
+    Raises
+    ------
+    ModelError
+        It has not.
+    """
     body = linkage.tool_body
     if body < 0 or not linkage.driven:
         raise ModelError(

@@ -42,6 +42,8 @@ LOST = "the way was not walked to its end in the steps allowed"
 class Walk:
     """Poses on their way, each at its own share of it."""
 
+    shortest = SHORTEST
+
     def __init__(
         self, joints: JointMotion, rotation: Array, wanted: Given, *, lenient: bool = False
     ) -> None:
@@ -100,7 +102,7 @@ class Walk:
         self.active[done[self.share[done] >= 1.0]] = False
         failed = at[~good]
         self.stride[failed] = 0.5 * np.minimum(self.stride[failed], 1.0 - self.share[failed])
-        ended = failed[self.stride[failed] < SHORTEST]
+        ended = failed[self.stride[failed] < self.shortest]
         if ended.size:
             self._give_up(ended)
 

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from strutwork.errors import UnreachableError
-from strutwork.kinematics import DIRECTIONS, Placement
+from strutwork.kinematics import DIRECTIONS, Placement, Poses
 from strutwork.kinematics.motion import Moved
+from strutwork.kinematics.turns import rotation_matrix
 from strutwork.machines.limits import check_limits
 from strutwork.machines.model import Model
 
@@ -65,7 +66,11 @@ def moved(
     wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
     if not wanted and not coordinates:
         coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
-    found = model.motion.move(task=wanted or None, joints=coordinates or None)
+    if len(wanted) == len(DIRECTIONS) and not coordinates:
+        # the same way, and a pose of the tool may go leg by leg in compiled code
+        found = model.motion.move(tool=_poses(model, wanted))
+    else:
+        found = model.motion.move(task=wanted or None, joints=coordinates or None)
     placement = found.placement
     if model.closed_form is not None and found.tool is not None:
         own = model.closed_form(found.tool)
@@ -75,6 +80,12 @@ def moved(
         status = np.where(placement.reachable, np.asarray(own.status), late).astype(np.int8)
         placement = replace(own, status=status, reasons=reasons)
     return found, check_limits(model.limits, placement)
+
+
+def _poses(model: Model, task: Mapping[str, ArrayLike]) -> Poses:
+    values = np.broadcast_arrays(*(np.asarray(task[d], dtype=float) for d in DIRECTIONS))
+    six = np.stack(values, axis=-1)
+    return Poses(six[..., :3], rotation_matrix(six[..., 3:]) @ model.rotation)
 
 
 def at_pose(

@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Placement, Poses, characteristic_length
 from strutwork.kinematics.lost_motion import Kind, Lost
 from strutwork.kinematics.pose_family import PoseFamily, TaskSection, joined
 from strutwork.kinematics.singularities import Distance, classify, singularity_distance
-from strutwork.kinematics.tool_drive_space import Freedoms, tool_drive_space
+from strutwork.kinematics.tool_drive_space import Freedoms, check_driven, tool_drive_space
 from strutwork.kinematics.turns import rotation_matrix
 from strutwork.machines.limits import Limit, check_limits, joint_limits
 from strutwork.machines.model import Model
@@ -87,8 +88,16 @@ def pose_distance(model: Model, length: float | None = None) -> PoseDistance:
     here = replace(
         model.placement[None], values=np.zeros((1, 0)), names=(), turns=None, status=None
     )
+    # what has no drives or no moving tool is refused before anything is moved
+    check_driven(linkage, chosen)
     # the pose may be singular: ranks are those of poses beside it, a hundredth of its size away
     rest = motion.rest()
+    if not rest:
+        raise ModelError(
+            "tool",
+            "moves in no direction at home.",
+            "Put it on a body that moves, or home where it can.",
+        )
     rng = np.random.default_rng(1)
     beside = {
         d: v + rng.uniform(-0.01, 0.01, 16) * (1.0 if d.startswith("r") else chosen)

@@ -25,7 +25,7 @@ from strutwork.kinematics.margin_grid import (
 from strutwork.kinematics.regions import Regions, regions
 from strutwork.kinematics.task_grid import LARGEST
 from strutwork.memory import available_memory
-from strutwork.studies.level_set import LevelSet, level_set
+from strutwork.studies.level_set import LevelSet, apart, level_set
 from strutwork.studies.progress import Progress
 from strutwork.studies.workspace_margin import MachineMargin
 
@@ -70,8 +70,8 @@ class Workspace:
     border : LevelSet
     regions : Regions
     error : float
-        Of the measure: its change from the grid of every second point, which for a smooth border
-        is some three times what is left.
+        Of the measure: what lies between the border and that of every second point of the grid,
+        for a smooth border some three times what is left.
     home : (d,)
         Home in the grid's directions.
     home_margin : float
@@ -225,7 +225,7 @@ def workspace(
     grid = margin_grid(
         directions, values, margin, halvings=halvings, at_once=margin.follows, told=progress
     )
-    border = level_set(grid)
+    border, coarse = level_set(grid), grid.coarse()
     home = margin.home[[DIRECTIONS.index(d) for d in directions]]
     there = margin(home[None])
     spare = None
@@ -238,7 +238,7 @@ def workspace(
         grid,
         border,
         regions(grid.good),
-        abs(border.measure - level_set(grid.coarse()).measure),
+        apart(border, level_set(coarse), coarse.step),
         home,
         float(there.value[0]),
         there.reasons[int(there.reason[0])],

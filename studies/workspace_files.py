@@ -40,7 +40,7 @@ def write_workspace(folder: Path, stem: str, found: Workspace) -> list[Path]:
 
         surface = trimesh.Trimesh(1e3 * found.border.points, found.border.facets, process=False)
         for kind in ("stl", "ply"):
-            content = surface.export(file_type=kind)
+            content: Any = surface.export(file_type=kind)
             written.append(_write_bytes(folder / f"{stem}.{kind}", content))
     return written
 

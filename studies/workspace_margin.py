@@ -56,9 +56,7 @@ class Spare:
 def tilted(tilt: float, azimuth: float = 0.0, roll: float = 0.0) -> Array:
     """Rotation of a tool tilted towards an azimuth about its axis at home, rad, (3, 3)."""
     turn = rotation_z(np.asarray(azimuth))
-    return np.asarray(
-        turn @ rotation_y(np.asarray(tilt)) @ turn.T @ rotation_z(np.asarray(roll))
-    )
+    return np.asarray(turn @ rotation_y(np.asarray(tilt)) @ turn.T @ rotation_z(np.asarray(roll)))
 
 
 def dexterous(tilt: float, azimuths: int = 12, rolls: ArrayLike = 0.0) -> Array:
@@ -184,9 +182,7 @@ class MachineMargin:
         if self.spare is not None and self.spare.name == ROLL:
             several = Poses.of(self.home[:3], motion.rotation @ rotation_z(np.asarray(0.1)))
         moved = np.abs(motion.task_of(several) - self.home) > 1e-9
-        wrong = [
-            d for k, d in enumerate(DIRECTIONS) if moved[..., k].any() and d not in self.held
-        ]
+        wrong = [d for k, d in enumerate(DIRECTIONS) if moved[..., k].any() and d not in self.held]
         if wrong:
             raise ModelError(
                 "workspace",

@@ -89,7 +89,7 @@ def _map(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
         slice_figure(
             found,
             values,
-            ("largest displacement of the tool", "µm"),
+            ("largest displacement", "µm"),
             f"{STEM}-largest",
             f"{STEM}.csv",
             worst_is_least=False,

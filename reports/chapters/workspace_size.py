@@ -11,7 +11,7 @@ from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.figures.shapes import Shape, mesh
 from strutwork.reports.figures.solid import scene
-from strutwork.reports.numbers import count, share, significant
+from strutwork.reports.numbers import MINUS, count, share, significant
 from strutwork.reports.subject import SPREAD, Subject
 from strutwork.reports.survey_words import pose_text
 from strutwork.studies.workspace import Workspace
@@ -57,7 +57,7 @@ def write(subject: Subject) -> Chapter:
                 "Ends nearest to home",
                 significant(1e3 * near.distance),
                 "mm",
-                f"away, at {pose_text(place)}: {near.reason}",
+                f"away, at {pose_text(place)}: {_minus(near.reason)}",
             )
         )
     blocks: list[Block] = [
@@ -72,7 +72,7 @@ def write(subject: Subject) -> Chapter:
     figure = _figure(found)
     if figure is not None:
         blocks.append(figure)
-    rows = [[words, share(part)] for words, part in found.shares.items()]
+    rows = [[_minus(words), share(part)] for words, part in found.shares.items()]
     columns = (Column("what ends the workspace", "", False), Column("share of the border"))
     if rows:
         blocks.append(Table("What it ends at", columns, rows[:SHOWN], f"{STEM}-border.csv"))
@@ -86,6 +86,11 @@ def write(subject: Subject) -> Chapter:
         ),
     )
     return Chapter(KEY, TITLE, tuple(blocks), files)
+
+
+def _minus(words: str) -> str:
+    """Numbers in a reason with the sign that the page has."""
+    return words.replace(" -", f" {MINUS}")
 
 
 def _shown_unit(unit: str) -> tuple[float, str]:

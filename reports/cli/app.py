@@ -28,6 +28,7 @@ from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
 from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
+from strutwork.reports.cli.reversals_command import reversals
 from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.trajectory_command import trajectory
@@ -329,6 +330,7 @@ app.command()(accuracy)
 app.command()(move)
 app.command()(workspace)
 app.command()(new)
+app.command()(reversals)
 app.command()(singularities)
 app.command()(trajectory)
 

@@ -162,7 +162,8 @@ def _print_line(screen: Console, found: tuple[Singularity, ...]) -> None:
     ends = [one for one in found if one.reason]
     say(
         screen,
-        f"{len(found) - len(ends)} singular poses along the line, and {len(ends)} ends of reach",
+        f"{_count(len(found) - len(ends), 'singular pose')} along the line, and "
+        f"{_count(len(ends), 'end')} of reach",
     )
     for one in found:
         end = "end of reach: " if one.reason else ""
@@ -174,13 +175,14 @@ def _print_plane(screen: Console, found: SingularPlane) -> None:
     inner = [curve for curve in found.curves if not curve.border]
     borders = [curve for curve in found.curves if curve.border]
     say(screen, f"{int(found.reach.sum())} of {found.reach.size} poses reached")
-    say(screen, f"{len(inner)} curves of singular poses, and {len(found.points)} poses alone")
+    alone = _count(len(found.points), "pose")
+    say(screen, f"{_count(len(inner), 'curve')} of singular poses, and {alone} alone")
     for curve in inner:
         _print_curve(screen, curve.kind.meaning, curve.at, len(curve.points))
     for one in found.points:
         _print_curve(screen, one.kind.meaning, one, 1)
     if borders:
-        say(screen, f"Reach ends on {len(borders)} curves")
+        say(screen, f"Reach ends on {_count(len(borders), 'curve')}")
     for curve in borders:
         _print_curve(screen, curve.kind.meaning, curve.at, len(curve.points))
     if found.missed:
@@ -188,11 +190,15 @@ def _print_plane(screen: Console, found: SingularPlane) -> None:
 
 
 def _print_curve(screen: Console, meaning: str, one: Singularity, points: int) -> None:
-    say(screen, f"  {kind_words(one.kind)}, {points} points: {meaning}")
+    say(screen, f"  {kind_words(one.kind)}, {_count(points, 'point')}: {meaning}")
     say(screen, f"    nearest to home at {place_words(one.parameters)}")
     said = lost_words(one.lost, one.reason)
     if said:
         say(screen, f"    {said}")
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def say(screen: Console, text: str) -> None:

@@ -39,7 +39,7 @@ def test_a_line_across_a_singular_pose(strutwork: Program, tmp_path: Path) -> No
     assert one["twist"][1] > 0.0
     # the ball's swing ends the line where ranges count
     run = strutwork(*arguments, "--out", tmp_path)
-    assert "1 singular poses along the line, and 1 ends of reach" in run.out
+    assert "1 singular pose along the line, and 1 end of reach" in run.out
     assert "leg3/ball: swing of the spherical joint, 0 to 70 deg is exceeded" in run.out
     table = tmp_path / "proposed-3pprs-singularities.csv"
     rows = list(csv.DictReader(table.open(encoding="utf-8")))
@@ -58,7 +58,8 @@ def test_curves_over_a_plane(strutwork: Program, tmp_path: Path) -> None:
     assert (curve["kind"], curve["type"], curve["closed"]) == ("actuator", 2, False)
     assert found["poses"] == found["reached"] == 121
     assert found["edges_missed"] == 0
-    rows = list(csv.DictReader(Path(found["data"][0]).open(encoding="utf-8")))
+    with Path(found["data"][0]).open(encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
     assert len(rows) == curve["points"] >= 11
     # the machine is its own mirror image: rx at ry and −ry
     place = {round(float(r["ry, deg"]), 9): float(r["rx, deg"]) for r in rows}
@@ -97,13 +98,17 @@ def test_a_model_file_ends_in_a_stretched_leg(strutwork: Program) -> None:
         (("--line", "z=5..9m",), "no pose of the 101 can be taken"),
     ],
 )  # fmt: skip
-def test_wrong_lines_and_planes(
-    strutwork: Program, arguments: tuple[str, ...], said: str
-) -> None:
+def test_wrong_lines_and_planes(strutwork: Program, arguments: tuple[str, ...], said: str) -> None:
     run = strutwork("singularities", "hexel-hexapod", *arguments)
     assert run.status == 1
     assert said in run.err
     assert run.out == ""
+
+
+def test_a_frame_without_drives_has_no_singularities(strutwork: Program) -> None:
+    run = strutwork("singularities", "examples/01_cantilever.toml")
+    assert run.status == 1
+    assert "has no driven direction" in run.err
 
 
 def test_options_that_do_not_go_together(strutwork: Program) -> None:

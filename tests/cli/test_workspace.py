@@ -67,9 +67,7 @@ def test_a_direction_with_one_value_is_where_the_tool_is_put(strutwork: Program)
         ((*OVER, "--conditioning", "2"), "conditioning"),
     ],
 )
-def test_what_cannot_be_asked(
-    strutwork: Program, options: tuple[str, ...], words: str
-) -> None:
+def test_what_cannot_be_asked(strutwork: Program, options: tuple[str, ...], words: str) -> None:
     run = strutwork("workspace", "proposed-3pprs", *options, status=1)
     assert words in run.err
 

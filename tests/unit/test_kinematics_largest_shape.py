@@ -189,8 +189,8 @@ def test_wrong_shapes() -> None:
         InscribedShape("box", np.ones(2), np.ones((2, 2)))
     with pytest.raises(ModelError, match="cylinder"):
         InscribedShape("cylinder", np.ones(2))
+    grid = margin_grid("xy", [np.linspace(-1, 1, 11)] * 2, biglide)
     with pytest.raises(ModelError, match="as many"):
-        grid = margin_grid("xy", [np.linspace(-1, 1, 11)] * 2, biglide)
         largest_shape(grid, biglide, box_of([1, 1, 1]))
     with pytest.raises(ModelError, match="centre"):
         largest(biglide, box_of([1, 1]), 1.1, np.array([1.05, 0.0]))

@@ -13,7 +13,7 @@ from strutwork.errors import ModelError
 from strutwork.kinematics.margin_grid import margin_grid
 from strutwork.kinematics.margins import Margins, of_slacks
 from strutwork.kinematics.regions import regions
-from strutwork.studies.level_set import level_set
+from strutwork.studies.level_set import apart, level_set
 
 Array = NDArray[Any]
 
@@ -70,6 +70,20 @@ def test_a_hollow_ball_in_space() -> None:
     assert measure == pytest.approx(4 / 3 * np.pi * (1.25**3 - 0.55**3), rel=1e-2)
 
 
+def test_errors_of_an_outer_and_an_inner_border_do_not_cancel() -> None:
+    # chords lose outside what they gain inside: the measures of two grids nearly agree
+    ring = shape(lambda p: 0.4 - np.abs(np.linalg.norm(p, axis=1) - 0.9))
+    grid = margin_grid("xy", axes(2, 25), ring)
+    fine, coarse = level_set(grid), level_set(grid.coarse())
+    error = abs(fine.measure - np.pi * (1.3**2 - 0.5**2))
+    between = apart(fine, coarse, 2 * grid.step)
+    assert error < between < 0.02 * fine.measure
+    assert between > 2 * abs(fine.measure - coarse.measure)
+    ball = margin_grid("xyz", axes(3, 21), shape(lambda p: 1.0 - np.linalg.norm(p, axis=1)))
+    fine, coarse = level_set(ball), level_set(ball.coarse())
+    assert apart(fine, coarse, 2 * ball.step) >= abs(fine.measure - coarse.measure)
+
+
 @pytest.mark.parametrize("dimensions", [1, 2, 3])
 def test_the_border_is_closed_where_the_grid_ends(dimensions: int) -> None:
     everything = shape(lambda p: np.ones(len(p)))
@@ -78,7 +92,9 @@ def test_the_border_is_closed_where_the_grid_ends(dimensions: int) -> None:
     assert (found.crossing == -1).all()
     # the corners are cut by cells outside the grid, whose size is nothing
     assert found.measure == pytest.approx(3.0**dimensions, rel=1e-12)
-    nothing = margin_grid("xyz"[:dimensions], axes(dimensions, 5), shape(lambda p: -np.ones(len(p))))
+    nothing = margin_grid(
+        "xyz"[:dimensions], axes(dimensions, 5), shape(lambda p: -np.ones(len(p)))
+    )
     assert level_set(nothing).measure == 0.0
 
 

@@ -64,9 +64,9 @@ def arm(limits: dict[str, tuple[float, float]] | None = None) -> Model:
     return model_of(replace(linkage, joints=tuple(joints)), home)
 
 
-def space(model: Model, axes: dict[str, Array], **options: Any) -> Workspace:
+def space(model: Model, axes: dict[str, Array], *, halvings: int = 6, **options: Any) -> Workspace:
     step = np.array([a[1] - a[0] for a in axes.values()])
-    return workspace(MachineMargin(model, tuple(axes), step, **options), axes)
+    return workspace(MachineMargin(model, tuple(axes), step, **options), axes, halvings=halvings)
 
 
 def square(half: float, count: int) -> dict[str, Array]:
@@ -193,22 +193,32 @@ def test_a_spare_stage_of_a_redundant_machine() -> None:
     model = load("prototype-3ppprs")
     axes = {"x": np.linspace(-0.02, 0.02, 5)}
     stages = Spare(("leg1/tangential", "z"), np.array([-0.02, 0.0, 0.02]))
-    found = space(model, axes, spare=stages)
+    found = space(model, axes, halvings=2, spare=stages)
     assert found.spare is not None
     assert found.grid.good.any()
     assert set(found.spare[found.grid.good]) <= {-0.02, 0.0, 0.02}
 
 
-def test_interference_bounds_the_ring() -> None:
-    # a post beside the arm: a third body that no joint joins
+def test_interference_bounds_it() -> None:
+    # three bars, of which the first and the last may collide; the last stays upright
     linkage, home = chain(
-        [[0, 0, 0], [FIRST, 0, 0], [FIRST, SECOND, 0]], [[0, 0, 1.0]] * 3, driven=0, closed=False
+        [[0, 0, 0], [0, 1, 0], [1, 1, 0], [1, 0.1, 0]], [[0, 0, 1.0]] * 4, driven=0, closed=False
     )
-    free = space(model_of(linkage, home), square(1.73, 29))
-    safe = interference_of(model_of(linkage, home), 0.1)
-    assert len(safe.pairs) == 0
-    folded = space(model_of(linkage, home), square(1.73, 29), interference=safe)
-    assert folded.measure == pytest.approx(free.measure, rel=1e-12)
+    model = model_of(linkage, home)
+    axes = {"x": np.linspace(0.05, 1.2, 11)}
+    free = space(model, axes)
+    assert free.shares == {"the grid ends": 1.0}
+    safe = interference_of(model, 0.1)
+    assert [safe.words(q) for q in range(len(safe.pairs))] == ["bar1 and bar3"]
+    kept = space(model, axes, halvings=12, interference=safe)
+    # the tip at (x, 0.1) comes within two radii of the first bar's foot
+    assert kept.measure == pytest.approx(1.2 - np.sqrt(0.2**2 - 0.1**2), abs=2e-5)
+    assert kept.nearest is not None
+    assert kept.nearest.reason == "interference of bar1 and bar3"
+    assert kept.nearest.distance == pytest.approx(1.0 - np.sqrt(0.03), abs=2e-5)
+    # as thick as the two are apart at home, they collide there
+    with pytest.raises(ModelError, match=r"bar1 and bar3: interfere at home: they overlap by 100"):
+        interference_of(model, 0.55)
 
 
 def test_bad_questions() -> None:
@@ -217,7 +227,7 @@ def test_bad_questions() -> None:
         MachineMargin(model, ("x", "y"), np.ones(2), tilted(0.2)[None])
     with pytest.raises(ModelError, match="outer size"):
         interference_of(model, None)
-    with pytest.raises(ModelError, match="cannot move|not move|depend|held"):
+    with pytest.raises(ModelError, match=r"cannot move|not move|depend|held"):
         space(model, {d: np.linspace(-0.1, 0.1, 5) for d in "xyz"})
     with pytest.raises(ModelError, match="direction of the grid"):
         MachineMargin(model, ("x", "y"), np.ones(2), spare=Spare("x", np.zeros(1)))
@@ -273,7 +283,7 @@ def test_a_motion_follows_from_home() -> None:
     # the follower's margins are those of the motion where the straight way is free
     model = arm()
     points = np.array([[1.1, 0.5], [0.9, 0.8], [1.2, 0.9], [1.5, 0.9]])
-    margin = MachineMargin(model, ("x", "y"), np.array([0.2, 0.2]))
+    margin = MachineMargin(model, ("x", "y"), np.array([0.4, 0.4]))
     straight = Motion(model.structure.linkage, model.placement).move(
         task={"x": points[:, 0], "y": points[:, 1]}
     )

@@ -265,3 +265,28 @@ def test_the_distance_of_the_biglide() -> None:
     values = np.linalg.svd(inverse, compute_uv=False)
     np.testing.assert_allclose(found.parallel, values[:, 1], rtol=1e-12)
     np.testing.assert_allclose(found.serial, 1.0 / values[:, 0], rtol=1e-12)
+
+
+def test_a_seventh_drive_leaves_a_single_pose_of_a_curve() -> None:
+    """Tilts in all directions: six drives have a curve, with leg 1's hinge one pose is left."""
+    machine = Crossed()
+
+    def place(parameters: Array) -> Placement:
+        tilt, heading = parameters.T
+        axis = np.stack([-np.sin(heading), np.cos(heading), 0.0 * heading], axis=1)
+        turn = Rotation.from_rotvec(tilt[:, None] * axis).as_matrix()
+        return machine.place(Poses(np.array([0.0, 0.0, 0.2588]) + 0.0912 * turn[..., 2], turn))
+
+    axes = np.radians(np.linspace(21.0, 40.0, 12)), np.radians(np.linspace(-8.0, 9.0, 12))
+    six = PoseFamily(machine.linkage, place, ("tilt", "heading"), LENGTH)
+    seven = replace(six, linkage=machine.family(0.0, (1,)).linkage)
+    (curve,) = singularities_in_plane(six, axes).curves
+    assert curve.kind is Kind.ACTUATOR
+    found = singularities_in_plane(seven, axes)
+    assert found.curves == ()
+    (one,) = found.points
+    assert one.kind is Kind.ACTUATOR
+    on_line = singularities_on_line(machine.family(0.0), np.radians(np.linspace(20.0, 40.0, 5)))
+    # on the plane of symmetry, where the curve of six drives crosses it
+    assert one.parameters["heading"] == pytest.approx(0.0, abs=1e-8)
+    assert one.parameters["tilt"] == pytest.approx(on_line[0].parameters["tilt"], abs=1e-8)
