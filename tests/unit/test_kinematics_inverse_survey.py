@@ -1,0 +1,37 @@
+"""A survey of poses beside its parts: inverse kinematics, joint ranges, margin."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from strutwork.errors import ModelError
+from strutwork.kinematics import jacobians
+from strutwork.kinematics.inverse_survey import PIECE, inverse_survey
+from strutwork.machines import Proposed3PPRS, check_limits
+from strutwork.machines.moving import moving
+from tests.legs import around
+
+
+def test_newton_and_closed_form_say_the_same_as_their_parts() -> None:
+    found, machine = moving("proposed-3pprs"), Proposed3PPRS()
+    poses = around(found.motion, PIECE + 100, 0.03, 0.4, 1)
+    newton = inverse_survey(found.motion, poses, found.limits)
+    closed = inverse_survey(machine, poses, found.limits)
+    placement = check_limits(found.limits, machine.place(poses))
+    margin = jacobians(machine.linkage, placement).margin(newton.length)
+    for survey in (newton, closed):
+        np.testing.assert_array_equal(survey.reachable, placement.reachable)
+        # rounding of two inverse kinematics, at rates of some hundreds
+        np.testing.assert_allclose(survey.margin[survey.taken], margin[survey.taken], atol=1e-9)
+    assert 0.1 < newton.reachable.mean() < 0.95
+    bad = int(np.flatnonzero(~newton.reachable)[0])
+    assert newton.reason(bad) == placement.reason(bad)
+
+
+def test_a_length_and_a_coordinate_that_make_no_sense() -> None:
+    motion = moving("hexel-hexapod").motion
+    with pytest.raises(ModelError, match=r"has the length 0 m"):
+        inverse_survey(motion, motion.home_pose, length=0.0)
+    with pytest.raises(ModelError, match='no coordinate "y"'):
+        inverse_survey(motion, motion.home_pose, coordinates=[("leg1/ram", "y")])
