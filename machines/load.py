@@ -14,7 +14,7 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.catalogue import CATALOGUE, Machine
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
-from strutwork.machines.variants import is_machine, named_machine
+from strutwork.machines.variants import is_machine, named_machine, require_mass
 
 
 def load(name: str | Path) -> Model:
@@ -47,6 +47,21 @@ def load(name: str | Path) -> Model:
             "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
         )
     return read_model(text)
+
+
+def load_heavy(name: str | Path) -> Model:
+    """As `load`, a machine that can vibrate.
+
+    Raises
+    ------
+    ModelError
+        As `load`, and a variant that is for statics alone; names those that are not.
+    """
+    text = str(name)
+    if not is_machine(text):
+        return load(text)
+    found = require_mass(named_machine(text))
+    return machine_model(found.machine, found.title, found.entry.around_home)
 
 
 def machine_model(

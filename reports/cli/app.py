@@ -301,11 +301,31 @@ def tolerance(
 @app.command()
 def scale(
     machine: Annotated[
-        str, typer.Argument(metavar="MACHINE", help="A machine whose size is studied.")
+        str,
+        typer.Argument(
+            metavar="FILE_OR_MACHINE", help="A model file, or a machine: NAME or NAME:VARIANT."
+        ),
     ],
-    low: Annotated[float, typer.Option("--from", help="Shortest struts, m.")] = 0.1,
-    high: Annotated[float, typer.Option("--to", help="Longest struts, m.")] = 3.0,
-    lengths: Annotated[int, typer.Option(min=2, max=10_000, help="Lengths, evenly spaced.")] = 30,
+    pose: Pose = None,
+    joint: JointAt = None,
+    low: Annotated[
+        float | None,
+        typer.Option(
+            "--from",
+            help="Smallest size beside its own, 0.25 by default; of mit-ss1 the shortest struts, "
+            "0.1 m.",
+        ),
+    ] = None,
+    high: Annotated[
+        float | None,
+        typer.Option(
+            "--to", help="Largest size, 4 by default; of mit-ss1 the longest struts, 3 m."
+        ),
+    ] = None,
+    lengths: Annotated[
+        int | None,
+        typer.Option(min=2, max=10_000, help="Sizes: 9, or for mit-ss1 30, by default."),
+    ] = None,
     width_ratio: Annotated[float, typer.Option(help="Width of a strut over its length.")] = 0.2,
     tilt: Annotated[
         str, typer.Option(metavar="ANGLE", help="Parallelism of the axes: half-angle of the cone.")
@@ -319,11 +339,24 @@ def scale(
     ] = False,
     json: Json = False,
 ) -> None:
-    """Show what the size of a machine does to locked-in forces, stiffness and frequencies."""
-    from strutwork.reports.cli import scale as work
+    """Show what the size of a machine does to its stiffness and frequencies.
 
+    Of mit-ss1 to locked-in forces too: --width-ratio, --tilt and --granite are of this.
+    """
+    from strutwork.machines.load import load_heavy
+    from strutwork.reports.cli import scale as work
+    from strutwork.reports.cli.subject import where
+
+    at = where(pose, joint)
+    if not (at.home and work.is_studied(machine)):
+        from strutwork.reports.cli import scale_any
+
+        scale_any.run(at.put(load_heavy(machine)), machine, (low, high), lengths, out, json=json)
+        return
     study = work.study_of(machine)
-    study(machine, (low, high), lengths, width_ratio, tilt, out, granite=granite, json=json)
+    span = (0.1 if low is None else low, 3.0 if high is None else high)
+    count = 30 if lengths is None else lengths
+    study(machine, span, count, width_ratio, tilt, out, granite=granite, json=json)
 
 
 app.command()(accuracy)

@@ -9,6 +9,11 @@ from strutwork.machines.catalogue import CATALOGUE
 from strutwork.machines.paper_reference import resolve
 
 
+def is_studied(machine: str) -> bool:
+    """Whether a paper has a study of this machine's size."""
+    return machine in CATALOGUE and bool(CATALOGUE[machine].scale)
+
+
 def study_of(machine: str) -> Callable[..., None]:
     """What computes and prints the study of a machine's size, given the command's words.
 

@@ -13,9 +13,8 @@ from strutwork.errors import ModelError
 from strutwork.fea import Port
 from strutwork.fea.damping import LossFactor, ModalRatio, Rayleigh
 from strutwork.kinematics import DIRECTIONS
-from strutwork.machines.load import load, machine_model
+from strutwork.machines.load import load, load_heavy
 from strutwork.machines.model import Model
-from strutwork.machines.variants import is_machine, named_machine, require_mass
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
@@ -40,7 +39,7 @@ def run(
     json: bool,
 ) -> None:
     """Survey a machine over a grid and print the extremes."""
-    model = _model(target, vibration=vibration)
+    model = load_heavy(target) if vibration else load(target)
     grid = grid_of_words(over) if over else model.workspace
     if grid is None:
         raise ModelError(
@@ -65,13 +64,6 @@ def run(
         print_json(result)
         return
     _print(result, grid_text(grid))
-
-
-def _model(target: str, *, vibration: bool) -> Model:
-    if vibration and is_machine(target):
-        found = require_mass(named_machine(target))
-        return machine_model(found.machine, found.title)
-    return load(target)
 
 
 def _vibration(model: Model) -> Vibration:
