@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -35,3 +39,34 @@ def test_a_length_and_a_coordinate_that_make_no_sense() -> None:
         inverse_survey(motion, motion.home_pose, length=0.0)
     with pytest.raises(ModelError, match='no coordinate "y"'):
         inverse_survey(motion, motion.home_pose, coordinates=[("leg1/ram", "y")])
+
+
+MILLION = """
+import resource
+import numpy as np
+from strutwork.kinematics import Poses
+from strutwork.kinematics.inverse_survey import inverse_survey
+from strutwork.kinematics.turns import rotation_matrix
+from strutwork.machines.load import load
+model = load("hexel-hexapod")
+home = model.motion.home_pose
+random = np.random.default_rng(0)
+place = home.position + random.uniform(-0.1, 0.1, (1_000_000, 3))
+turn = rotation_matrix(random.uniform(-0.1, 0.1, (1_000_000, 3)))
+found = inverse_survey(model.motion, Poses(place, turn))
+print(int(found.reachable.sum()), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
+
+@pytest.mark.slow
+def test_a_million_poses_take_less_than_a_gigabyte() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", MILLION],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=Path(__file__).parents[2],
+    )
+    good, kilobytes = map(int, done.stdout.split())
+    assert good > 900_000
+    assert kilobytes < 1_000_000
