@@ -24,7 +24,8 @@ from strutwork.reports.chapters.model_loads import forces_chapter, loads_chapter
 from strutwork.reports.chapters.model_tool import budget_chapter, tool_chapter
 from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
 from strutwork.reports.chapters.vibration import vibration_chapter
-from strutwork.reports.content import Chapter, Facts, Points, Text
+from strutwork.reports.content import Chapter, Facts, Links, Points, Text
+from strutwork.reports.data_files import DataFile
 from strutwork.reports.subject import Subject, Teller
 
 #: Cover of a machine that a document describes.
@@ -171,9 +172,20 @@ def chapters_beside(
     known = keys | {chapter.key for chapter in kept}
     facts = tuple(replace(f, link=f.link if f.link in known else "") for f in cover_facts(subject))
     *before, closing = own
+    closing = _with_files(closing, [file for chapter in kept for file in chapter.files])
     answers = Chapter(COVER, "What it does", (Text(COVER_TEXT), Facts(facts)))
     del cover
     return (answers, *before, *kept, closing)
+
+
+def _with_files(closing: Chapter, files: Sequence[DataFile]) -> Chapter:
+    """The closing chapter with some files more in its list."""
+    more = tuple((file.name, file.what) for file in files)
+    blocks = tuple(
+        Links((*block.items, *more)) if isinstance(block, Links) else block
+        for block in closing.blocks
+    )
+    return replace(closing, blocks=blocks)
 
 
 def report_of(

@@ -18,6 +18,8 @@ from tests.reports.conftest import text_of
 from tests.reports.test_data_files import rows_of, specs
 
 CHAPTERS = (
+    # what every machine has stands before and after what its document adds
+    "cover",
     "summary",
     "drawing",
     "kinematics",
@@ -31,6 +33,14 @@ CHAPTERS = (
     "designs",
     "size",
     "assumptions",
+    "structure",
+    "check",
+    "motion",
+    "workspace-size",
+    "singularities",
+    "tool",
+    "budget",
+    "workspace-stiffness",
     "files",
 )
 

@@ -114,9 +114,9 @@ def test_the_surface_follows_the_nodes() -> None:
         [shift + np.cross(spin, solid.positions), np.tile(spin, (len(solid.nodes), 1))], axis=1
     )
     expected = shift + np.cross(spin, solid.points)
-    np.testing.assert_allclose(solid.motion(moves), expected, atol=1e-8)
+    np.testing.assert_allclose(solid.motion(moves, model.placed), expected, atol=1e-8)
     np.testing.assert_allclose(
-        solid.motion(np.stack([moves, 2 * moves]))[1], 2 * expected, atol=1e-8
+        solid.motion(np.stack([moves, 2 * moves]), model.placed)[1], 2 * expected, atol=1e-8
     )
     # a closed surface, outwards: its volume is that of the block
     corners = solid.points[solid.triangles]
