@@ -29,6 +29,9 @@ QUICK = ("check", "solve", "modes", "frf", "tolerance")
 #: One mutant in so many is given to `report` too, which takes longer than all others together.
 REPORT_EVERY = 50
 
+#: One mutant in so many is moved, or asked over its workspace.
+MOVED_EVERY = 3
+
 #: One mutant in so many comes with a command on a machine of the catalogue.
 MACHINES_EVERY = 40
 
@@ -71,11 +74,29 @@ def commands(number: int, model: Path, folder: Path) -> list[tuple[str, ...]]:
         plain[4] += rng.choice((("--allocate", "uniform"), ("--limit", f"force={rng.choice(odd)}")))
     if number % 3:
         plain = [(*c, "--json") for c in plain]
+    if number % MOVED_EVERY == 0:
+        plain.append(_moved(rng, file))
     if number % REPORT_EVERY == 0:
         plain.append(("report", file, "-o", str(folder / "report")))
     if number % MACHINES_EVERY == 0:
         plain.append(_of_a_machine(rng, odd))
     return plain
+
+
+def _moved(rng: random.Random, file: str) -> tuple[str, ...]:
+    """A command that moves a mutant, which may have no tool and no freedom."""
+    pose = rng.choice(("x=1mm", "z=5mm,rx=2deg", "rz=nan", "y=1e30", "x=1mm,x=2mm", "w=3", "z"))
+    grid = rng.choice(("x=0mm..5mm:3", "z=0.6..0.7:2", "rx=0deg..2deg:2", "x=1..0", "z=0..1e300:2"))
+    return rng.choice(
+        (
+            ("move", file, "--pose", pose),
+            ("move", file),
+            ("solve", file, "--pose", pose),
+            ("map", file, "--over", grid),
+            ("accuracy", file, "--pose", pose, "--drive-error", "5um"),
+            ("singularities", file, "--pose", pose),
+        )
+    )
 
 
 def _of_a_machine(rng: random.Random, odd: tuple[str, ...]) -> tuple[str, ...]:

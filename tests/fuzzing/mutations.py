@@ -55,7 +55,13 @@ class Mutant:
 
 def seeds() -> dict[str, str]:
     """The files that are mutated, by name."""
-    folders = ("examples", "tests/cases/models", "tests/cases/robustness", "tests/cases/tol")
+    folders = (
+        "examples",
+        "examples/machines",
+        "tests/cases/models",
+        "tests/cases/robustness",
+        "tests/cases/tol",
+    )
     files = (path for folder in folders for path in sorted((ROOT / folder).glob("*.toml")))
     found = {path.stem: path.read_text(encoding="utf-8") for path in files}
     found["sample"] = toml(SAMPLE)
