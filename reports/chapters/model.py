@@ -31,7 +31,8 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
     ]
     present = [part for part in parts if not part.startswith("0 ")]
     listed = " and ".join(filter(None, [", ".join(present[:-1]), present[-1]]))
-    text = f"A structure of {listed}, in one configuration."
+    where = "in one configuration" if model.workspace is None else "as it stands at home"
+    text = f"A structure of {listed}, {where}."
     facts = [
         Fact("Degrees of freedom", str(check.degrees_of_freedom), "", "of the flexible structure"),
         Fact(

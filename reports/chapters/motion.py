@@ -14,6 +14,9 @@ from strutwork.reports.survey_words import grid_text
 KEY = "motion"
 TITLE = "How far do its joints move?"
 
+#: A support whose free direction moves by less, mm or deg, is left out.
+STILL = 1e-6
+
 
 def missing(subject: Subject) -> str:
     """Why there is nothing to say; empty where there is."""
@@ -28,11 +31,15 @@ def write(subject: Subject) -> Chapter:
     home = model.motion.home_values
     driven = set(model.structure.linkage.driven)
     limits = {(limit.joint, limit.coordinate): limit for limit in model.limits}
+    held = set(model.supports.values())
     rows = []
     for k, (joint, direction) in enumerate(names):
         turns = direction.startswith("r")
         factor, unit = (degrees(1.0), "deg") if turns else (1e3, "mm")
         span = factor * values[:, k]
+        if joint in held and np.nanmax(span) - np.nanmin(span) <= STILL:
+            # a support that leaves a direction free is no joint that a reader looks for
+            continue
         limit = limits.get((joint, direction))
         rows.append(
             [
