@@ -312,19 +312,19 @@ def scale(
         float | None,
         typer.Option(
             "--from",
-            help="Smallest size beside its own, 0.25 by default; of mit-ss1 the shortest struts, "
-            "0.1 m.",
+            help="Smallest size beside its own, 0.25 by default; where its document studies its "
+            "size, what that names, as the shortest struts in m.",
         ),
     ] = None,
     high: Annotated[
         float | None,
-        typer.Option(
-            "--to", help="Largest size, 4 by default; of mit-ss1 the longest struts, 3 m."
-        ),
+        typer.Option("--to", help="Largest size, 4 by default, or as with --from."),
     ] = None,
     lengths: Annotated[
         int | None,
-        typer.Option(min=2, max=10_000, help="Sizes: 9, or for mit-ss1 30, by default."),
+        typer.Option(
+            min=2, max=10_000, help="Sizes: 9 by default, 30 where a document has a study."
+        ),
     ] = None,
     width_ratio: Annotated[float, typer.Option(help="Width of a strut over its length.")] = 0.2,
     tilt: Annotated[
@@ -341,7 +341,8 @@ def scale(
 ) -> None:
     """Show what the size of a machine does to its stiffness and frequencies.
 
-    Of mit-ss1 to locked-in forces too: --width-ratio, --tilt and --granite are of this.
+    Where its document studies its size, to locked-in forces too: --width-ratio, --tilt and
+    --granite are of this.
     """
     from strutwork.machines.load import load_heavy
     from strutwork.reports.cli import scale as work

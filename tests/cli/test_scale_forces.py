@@ -29,7 +29,7 @@ def test_scale_in_json_tables_and_files(strutwork: Program, tmp_path: Path) -> N
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (("eclipse-3pprs",), "mit-ss1"),
+        (("eclipse-3pprs",), "Name a model that can"),
         (("mit-ss1", "--from", "2", "--to", "1"), "from 2 to 1 m"),
         (("mit-ss1", "--from", "0"), "--from of at least"),
         (("mit-ss1", "--tilt", "3 mm"), "an angle"),

@@ -91,7 +91,6 @@ def _moved(rng: random.Random, file: str) -> tuple[str, ...]:
         (
             ("move", file, "--pose", pose),
             ("move", file),
-            ("solve", file, "--pose", pose),
             ("map", file, "--over", grid),
             ("accuracy", file, "--pose", pose, "--drive-error", "5um"),
             ("singularities", file, "--pose", pose),
