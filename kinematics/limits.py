@@ -82,7 +82,7 @@ def check_limits(limits: Iterable[Limit], placement: Placement) -> Placement:
         A limit on a coordinate that the placement does not give.
     """
     column = {name: i for i, name in enumerate(placement.names)}
-    status = np.array(placement.status, dtype=np.int8)
+    status = np.array(placement.status, dtype=np.int16)
     reasons = list(placement.reasons)
     for limit in limits:
         if (limit.joint, limit.coordinate) not in column:
@@ -94,5 +94,5 @@ def check_limits(limits: Iterable[Limit], placement: Placement) -> Placement:
         value = placement.values[..., column[limit.joint, limit.coordinate]].real
         reasons.append(f"{limit} is exceeded")
         outside = (value < limit.low - SLACK) | (value > limit.high + SLACK)
-        status = np.where(outside & (status == 0), np.int8(len(reasons)), status)
+        status = np.where(outside & (status == 0), np.int16(len(reasons)), status)
     return replace(placement, status=status, reasons=tuple(reasons))

@@ -43,7 +43,7 @@ class Placement:
     frames: NDArray[Any]
     values: NDArray[Any]
     names: tuple[tuple[str, str], ...] = ()
-    status: NDArray[np.int8] | None = None
+    status: NDArray[np.signedinteger[Any]] | None = None
     reasons: tuple[str, ...] = ()
     turns: NDArray[Any] | None = None
 

@@ -19,6 +19,9 @@ from strutwork.machines.model import Model
 #: A joint coordinate by its joint and direction.
 Coordinate = tuple[str, str]
 
+#: Joint coordinates that differ by less, m and rad, are the same.
+SAME = 1e-7
+
 
 def targets(
     model: Model,
@@ -35,6 +38,34 @@ def targets(
     if not task and (joints or model.tool is None):
         return {}
     return {**task, **model.motion.rest(tuple(task), tuple(joints))}
+
+
+def walked(
+    model: Model,
+    task: Mapping[str, ArrayLike] | None = None,
+    joints: Mapping[Coordinate, ArrayLike] | None = None,
+) -> Moved:
+    """Move a machine from home by its joints alone; what is not named stays, where it can.
+
+    Parameters
+    ----------
+    model : Model
+    task : mapping of direction to (...)
+        Of the tool, m and rad.
+    joints : mapping of (joint, direction) to (...)
+
+    Raises
+    ------
+    ModelError
+        As `Motion.move`.
+    """
+    wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
+    if not wanted and not coordinates:
+        coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
+    if len(wanted) == len(DIRECTIONS) and not coordinates:
+        # the same way, and a pose of the tool may go leg by leg in compiled code
+        return model.motion.move(tool=_poses(model, wanted))
+    return model.motion.move(task=wanted or None, joints=coordinates or None)
 
 
 def moved(
@@ -63,23 +94,37 @@ def moved(
     ModelError
         As `Motion.move`.
     """
-    wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
-    if not wanted and not coordinates:
-        coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
-    if len(wanted) == len(DIRECTIONS) and not coordinates:
-        # the same way, and a pose of the tool may go leg by leg in compiled code
-        found = model.motion.move(tool=_poses(model, wanted))
-    else:
-        found = model.motion.move(task=wanted or None, joints=coordinates or None)
+    found = walked(model, task, joints)
     placement = found.placement
     if model.closed_form is not None and found.tool is not None:
         own = model.closed_form(found.tool)
         # what the way there does not reach, no formula makes reachable on this branch
         reasons = (*own.reasons, *placement.reasons)
         late = np.asarray(placement.status) + len(own.reasons)
-        status = np.where(placement.reachable, np.asarray(own.status), late).astype(np.int8)
+        status = np.where(placement.reachable, np.asarray(own.status), late).astype(np.int16)
         placement = replace(own, status=status, reasons=reasons)
+        placement = _of_the_asked(placement, joints or {})
     return found, check_limits(model.limits, placement)
+
+
+def _of_the_asked(placement: Placement, joints: Mapping[Coordinate, ArrayLike]) -> Placement:
+    """Poses marked at which the machine's own formulas take a joint elsewhere than asked.
+
+    With redundant drives a pose of the tool leaves some open, and the formulas choose.
+    """
+    for (joint, direction), asked in joints.items():
+        if (joint, direction) not in placement.names:
+            continue
+        value = placement.values[..., placement.names.index((joint, direction))]
+        why = (
+            f"the machine's own formulas choose {joint}:{direction} by themselves: ask for a pose "
+            "of the tool alone"
+        )
+        reasons = (*placement.reasons, why)
+        other = (np.abs(value - np.asarray(asked)) > SAME) & placement.reachable
+        status = np.where(other, np.int16(len(reasons)), np.asarray(placement.status))
+        placement = replace(placement, status=status, reasons=reasons)
+    return placement
 
 
 def _poses(model: Model, task: Mapping[str, ArrayLike]) -> Poses:
@@ -139,7 +184,7 @@ def pose_words(task: Mapping[str, float], joints: Mapping[Coordinate, float]) ->
 def _offer(model: Model, found: Moved, task: Mapping[str, float] | None) -> str:
     """Remedy: how far the machine gets on the way, within its ranges."""
     if found.tool is None or not task:
-        return "Move the target nearer to home."
+        return "Give other joint coordinates, or a pose of the tool."
     last = found.share[()]
     home = dict(zip(DIRECTIONS, model.motion.task_of(model.motion.home_pose), strict=True))
     # the ranges may end before the reach does: the last share that keeps them, to 0.1 %

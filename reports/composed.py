@@ -132,7 +132,7 @@ CHAPTERS: tuple[Offered, ...] = (
 def chapters_of(
     subject: Subject, offered: Sequence[Offered] = CHAPTERS
 ) -> tuple[tuple[Chapter, ...], tuple[tuple[str, str], ...]]:
-    """Chapters that apply, the cover first, and for the others title and reason.
+    """Chapters that apply, and for the others title and reason.
 
     Raises
     ------
@@ -147,7 +147,7 @@ def chapters_of(
             left.append((one.title, reason))
         else:
             written.append(replace(one.write(subject), key=one.key, title=one.title))
-    return (_cover(subject), *written), tuple(left)
+    return tuple(written), tuple(left)
 
 
 def chapters_beside(
@@ -167,14 +167,13 @@ def chapters_beside(
     keys = {chapter.key for chapter in own}
     files = {file.name for chapter in own for file in chapter.files}
     offered = [one for one in CHAPTERS if one.key not in keys]
-    (cover, *written), _ = chapters_of(subject, offered)
+    written, _ = chapters_of(subject, offered)
     kept = [c for c in written if not files & {file.name for file in c.files}]
     known = keys | {chapter.key for chapter in kept}
     facts = tuple(replace(f, link=f.link if f.link in known else "") for f in cover_facts(subject))
     *before, closing = own
     closing = _with_files(closing, [file for chapter in kept for file in chapter.files])
     answers = Chapter(COVER, "What it does", (Text(COVER_TEXT), Facts(facts)))
-    del cover
     return (answers, *before, *kept, closing)
 
 
@@ -209,7 +208,8 @@ def report_of(
         The model is wrong, or moves freely under its loads.
     """
     subject = Subject(model, name, stem, progress)
-    chapters, left = chapters_of(subject)
+    written, left = chapters_of(subject)
+    chapters = (cover(subject), *written)
     if left:
         lines = tuple(f"{title} {reason[0].upper()}{reason[1:]}." for title, reason in left)
         absent = Chapter(
@@ -224,7 +224,8 @@ def report_of(
     return subject.title, subtitle, (*chapters, closing)
 
 
-def _cover(subject: Subject) -> Chapter:
+def cover(subject: Subject) -> Chapter:
+    """What the machine is, and its answers, a number each."""
     plain = summary_chapter(subject.model, subject.check, subject.solution)
     text, facts = plain.blocks[0], plain.blocks[1:]
     answers = cover_facts(subject)

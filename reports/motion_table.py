@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter, csv_name
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
-from strutwork.kinematics.motion import Moved
-from strutwork.machines.moving import Moving
+from strutwork.kinematics.motion import Motion, Moved
 from strutwork.units import ANGLE, LENGTH, quantity
 
 Array = NDArray[Any]
@@ -151,11 +150,11 @@ def column_numbers(rows: Sequence[Sequence[str]], column: int, name: str, part: 
     return np.array(values)
 
 
-def moved_columns(subject: Moving, moved: Moved) -> dict[str, Array]:
+def moved_columns(motion: Motion, moved: Moved) -> dict[str, Array]:
     """Columns of a table: tool, joints and whether reached, mm and deg, (p,) each."""
     columns: dict[str, Array] = {}
     if moved.tool is not None:
-        task = subject.motion.task_of(moved.tool)
+        task = motion.task_of(moved.tool)
         for k, direction in enumerate(DIRECTIONS):
             columns[f"{direction}, {_unit(direction)}"] = _shown(direction, task[..., k])
     for k, (joint, direction) in enumerate(moved.placement.names):

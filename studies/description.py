@@ -91,6 +91,9 @@ def plain(value: object, part: str = "value") -> Any:
     if isinstance(value, Sequence | frozenset | set):
         items = sorted(value, key=str) if isinstance(value, frozenset | set) else value
         return [plain(v, part) for v in items]
+    if inspect.ismethod(value):
+        owner = plain(value.__self__, part)
+        return {"method": f"{value.__module__}.{value.__qualname__}", "of": owner}
     if inspect.isfunction(value):
         kept = inspect.getclosurevars(value).nonlocals
         return {"function": f"{value.__module__}.{value.__qualname__}", **plain(kept, part)}

@@ -110,12 +110,13 @@ def survey(
 def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> Arrays:
     """Status, reasons, joint coordinates and answers of some poses."""
     found, placement = moved(model, task)
-    # without its ranges: what they alone forbid is out of range, not out of reach
     reach = np.asarray(found.reached)
+    # the ranges' reasons are the last: what they alone forbid is out of range, not out of reach
+    ranged = np.asarray(placement.status) > len(placement.reasons) - len(model.limits)
     status = np.where(
         placement.reachable,
         PoseStatus.GOOD,
-        np.where(reach, PoseStatus.JOINT_RANGE, PoseStatus.UNREACHABLE),
+        np.where(ranged, PoseStatus.JOINT_RANGE, PoseStatus.UNREACHABLE),
     ).astype(np.int8)
     reason, reasons = np.asarray(placement.status).astype(np.int16), [*placement.reasons]
     good = np.flatnonzero(placement.reachable)

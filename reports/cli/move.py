@@ -10,8 +10,11 @@ import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.files import write_text
-from strutwork.machines.limits import check_limits
-from strutwork.machines.moving import Moving, moving
+from strutwork.kinematics.motion import Moved
+from strutwork.machines.limits import check_limits, joint_limits
+from strutwork.machines.load import load
+from strutwork.machines.model import Model
+from strutwork.machines.model_poses import walked
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, print_table
 from strutwork.reports.cli.subject import where
@@ -39,30 +42,22 @@ def run(
     wanted: dict[Coordinate, Any] = {**{("", d): v for d, v in at.task.items()}, **at.joints}
     if targets is not None:
         wanted |= read_targets(Path(targets))
-    subject = moving(name)
-    _print(subject, _moved(subject, wanted), out, json=json)
+    model = load(name)
+    _print(model, _moved(model, wanted), out, json=json)
 
 
-def _moved(subject: Moving, wanted: dict[Coordinate, Any]) -> tuple[Any, list[str]]:
-    motion = subject.motion
+def _moved(model: Model, wanted: dict[Coordinate, Any]) -> tuple[Moved, list[str]]:
     task = {d: v for (owner, d), v in wanted.items() if not owner}
     joints = {pair: v for pair, v in wanted.items() if pair[0]}
-    if not wanted:
-        # home itself
-        task = motion.rest(()) if motion.linkage.tool is not None else {}
-        joints = {} if task else dict.fromkeys(motion.joints.names[:1], 0.0)
-    elif task:
-        # what is not named stays, where it can
-        task |= motion.rest(tuple(task), tuple(joints))
-    moved = motion.move(task=task or None, joints=joints or None)
-    placed = check_limits(subject.limits, moved.placement)
-    reasons = [placed.reason(i) for i in np.ndindex(*placed.batch)]
-    return moved, reasons
+    found = walked(model, task, joints)
+    # a range of a coordinate that only the machine's own formulas know is no motion's
+    placed = check_limits(joint_limits(model.structure.linkage), found.placement)
+    return found, [placed.reason(i) for i in np.ndindex(*placed.batch)]
 
 
-def _print(subject: Moving, result: tuple[Any, list[str]], out: str | None, *, json: bool) -> None:
+def _print(model: Model, result: tuple[Moved, list[str]], out: str | None, *, json: bool) -> None:
     moved, reasons = result
-    columns = moved_columns(subject, moved)
+    columns = moved_columns(model.motion, moved)
     if out is not None:
         write_text(Path(out), moved_csv(columns, reasons))
     if json:
@@ -78,7 +73,7 @@ def _print(subject: Moving, result: tuple[Any, list[str]], out: str | None, *, j
         )
         return
     screen = console()
-    screen.print(subject.title, markup=False, style="bold")
+    screen.print(model.title or "Model", markup=False, style="bold")
     if len(reasons) == 1:
         rows = [(*name.rpartition(", ")[::2], float(v[0])) for name, v in columns.items()]
         print_table(screen, "Coordinates", ["", "unit", "value"], rows)

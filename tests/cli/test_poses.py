@@ -82,6 +82,10 @@ def test_a_map_over_a_grid(strutwork: Program, tmp_path: Path) -> None:
         (("solve", HEAD, "--pose", "drive1:z=1"), "Use --joint for it"),
         (("solve", HEAD, "--joint", "z=1"), "names no joint for z"),
         (("solve", HEAD, "--pose", "rz=1deg"), "task: the tool cannot move in rz from home"),
+        (
+            ("solve", "prototype-3ppprs", "--joint", "leg1/guide:rz=1deg"),
+            "own formulas choose leg1/guide:rz by themselves",
+        ),
         (("map", HEAD, "--over", "z=1..0"), "has no extent"),
         (("map", HEAD, "--over", "z=0..1:1"), "fewer than two points"),
         (("map", HEAD, "--over", "z=0..1:x"), "has no number of points"),

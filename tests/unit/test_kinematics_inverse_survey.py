@@ -12,17 +12,18 @@ import pytest
 from strutwork.errors import ModelError
 from strutwork.kinematics import jacobians
 from strutwork.kinematics.inverse_survey import PIECE, inverse_survey
-from strutwork.machines import Proposed3PPRS, check_limits
-from strutwork.machines.moving import moving
+from strutwork.machines import Proposed3PPRS, check_limits, joint_limits
+from strutwork.machines.load import load
 from tests.legs import around
 
 
 def test_newton_and_closed_form_say_the_same_as_their_parts() -> None:
-    found, machine = moving("proposed-3pprs"), Proposed3PPRS()
+    found, machine = load("proposed-3pprs"), Proposed3PPRS()
     poses = around(found.motion, PIECE + 100, 0.03, 0.4, 1)
-    newton = inverse_survey(found.motion, poses, found.limits)
-    closed = inverse_survey(machine, poses, found.limits)
-    placement = check_limits(found.limits, machine.place(poses))
+    limits = joint_limits(machine.linkage)
+    newton = inverse_survey(found.motion, poses, limits)
+    closed = inverse_survey(machine, poses, limits)
+    placement = check_limits(limits, machine.place(poses))
     margin = jacobians(machine.linkage, placement).margin(newton.length)
     for survey in (newton, closed):
         np.testing.assert_array_equal(survey.reachable, placement.reachable)
@@ -34,7 +35,7 @@ def test_newton_and_closed_form_say_the_same_as_their_parts() -> None:
 
 
 def test_a_length_and_a_coordinate_that_make_no_sense() -> None:
-    motion = moving("hexel-hexapod").motion
+    motion = load("hexel-hexapod").motion
     with pytest.raises(ModelError, match=r"has the length 0 m"):
         inverse_survey(motion, motion.home_pose, length=0.0)
     with pytest.raises(ModelError, match='no coordinate "y"'):

@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 from strutwork.kinematics import Poses
 from strutwork.kinematics.leg_turns import rotation_log, turn_by_vector
 from strutwork.kinematics.motion import Motion
-from strutwork.machines.moving import moving
+from strutwork.machines.load import load
 from tests.legs import (
     arm,
     around,
@@ -105,7 +105,7 @@ def agree(motion: Motion, poses: Poses) -> Array:
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_machines(name: str) -> None:
-    motion = moving(name).motion
+    motion = load(name).motion
     ends = []
     for k, (shift, turn) in enumerate(MACHINES[name]):
         ends.append(agree(motion, around(motion, 12, shift, turn, k)))
@@ -127,7 +127,7 @@ def test_linkages(name: str) -> None:
 @pytest.mark.filterwarnings("ignore::UserWarning")
 def test_model_files(file: Path) -> None:
     """Poses that the tool can have, and others, that few of these machines can."""
-    motion = moving(str(file)).motion
+    motion = load(str(file)).motion
     if motion.linkage.tool is None or motion.legs is None:
         pytest.skip("does not fall into legs")
     random = np.random.default_rng(3)
@@ -158,7 +158,7 @@ def test_planar_legs_go_with_all_joints_and_refuse_what_leaves_the_plane() -> No
 
 
 def test_the_leg_that_ends_the_way_is_named_and_the_others_stop_with_it() -> None:
-    motion = moving("glozman-3prrs").motion
+    motion = load("glozman-3prrs").motion
     start = motion.home_pose
     poses = Poses.of(start.position + np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0]]), start.rotation)
     found = motion.move(tool=poses)
@@ -179,7 +179,7 @@ def test_the_leg_that_ends_the_way_is_named_and_the_others_stop_with_it() -> Non
 
 
 def test_redundant_legs_and_closed_loops_in_legs_are_walked_together() -> None:
-    machines = (moving("prototype-3ppprs"), moving("mit-ss1"))
+    machines = (load("prototype-3ppprs"), load("mit-ss1"))
     for motion in (*(m.motion for m in machines), of(gough("spherical"))):
         assert motion.legs is None
         assert motion.move(tool=motion.home_pose).reached.all()
@@ -189,7 +189,7 @@ def test_redundant_legs_and_closed_loops_in_legs_are_walked_together() -> None:
 
 
 def test_a_pose_alone_has_the_digits_that_it_has_among_others() -> None:
-    motion = moving("hexel-hexapod").motion
+    motion = load("hexel-hexapod").motion
     poses = around(motion, 5, 0.1, 0.4, 5)
     together = motion.move(tool=poses).placement
     for k in range(5):
