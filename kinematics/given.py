@@ -129,15 +129,6 @@ def given(
             np.broadcast_to(tool.position, (*batch, 3)).reshape(count, 3),
             np.broadcast_to(tool.rotation, (*batch, 3, 3)).reshape(count, 3, 3),
         )
-        wrong = np.argwhere(
-            ~np.isfinite(np.concatenate([poses.position, poses.rotation.sum(axis=1)], axis=1))
-        )
-        if len(wrong):
-            raise ModelError(
-                part,
-                f"{DIRECTIONS[wrong[0, 1]]} of target {wrong[0, 0]} is not finite.",
-                "Give finite numbers, m and rad.",
-            )
     found_joints = joints.linkage.joint_index
     return Given(
         batch,

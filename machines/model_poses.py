@@ -62,8 +62,10 @@ def walked(
     wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
     if not wanted and not coordinates:
         coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
-    if len(wanted) == len(DIRECTIONS) and not coordinates:
-        # the same way, and a pose of the tool may go leg by leg in compiled code
+    whole = len(wanted) == len(DIRECTIONS) and not coordinates
+    if whole and all(np.isfinite(v).all() for v in wanted.values()):
+        # the same way, and a pose of the tool may go leg by leg in compiled code; what is not
+        # finite is named by its direction below
         return model.motion.move(tool=_poses(model, wanted))
     return model.motion.move(task=wanted or None, joints=coordinates or None)
 
