@@ -23,6 +23,7 @@ from strutwork.overconstraint.joint_errors import JointError
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import subject
+from strutwork.reports.cli.survey_output import print_kept, written
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words
 from strutwork.reports.survey_words import grid_text, largest
@@ -32,9 +33,7 @@ from strutwork.studies.accuracy_answer import (
     require_feasible,
     top_sources,
 )
-from strutwork.studies.dataset_files import write_netcdf
 from strutwork.studies.survey import survey
-from strutwork.studies.survey_files import write_survey
 from strutwork.units import ANGLE, LENGTH, quantity
 
 #: How the three measures are called, and by which key.
@@ -271,12 +270,7 @@ def _over(
         "data": [],
     }
     if out is not None:
-        stem = f"{_stem(target)}-accuracy-survey"
-        written = [
-            write_netcdf(Path(out) / f"{stem}.nc", found),
-            write_survey(Path(out) / f"{stem}.csv", found),
-        ]
-        result["data"] = [str(path) for path in written]
+        result["data"] = written(out, target, "accuracy", found)
     if json:
         print_json(result)
         return
@@ -284,11 +278,8 @@ def _over(
 
 
 def _print_over(result: dict[str, Any], grid: str) -> None:
+    print_kept(result, grid)
     out = console()
-    out.print(visible(result["model"] or result["target"]), markup=False, style="bold")
-    out.print(f"{grid}; {result['poses_kept']} of {result['poses']} count", markup=False)
-    for reason, count in result["dropped_by_reason"].items():
-        out.print(f"  {count}: {visible(reason)}", markup=False, soft_wrap=True)
     found = result["largest_over_poses"]
     rows: list[tuple[object, ...]] = []
     for d in DIRECTIONS:

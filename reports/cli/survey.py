@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json as json_text
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,15 +17,14 @@ from strutwork.machines.model import Model
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.survey_output import print_kept, written
 from strutwork.reports.covering_band import covering_band
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.model_damping import model_damping
 from strutwork.reports.survey_words import grid_text, largest, least
 from strutwork.studies.answers import Answer, Stiffness, Vibration
-from strutwork.studies.dataset_files import write_netcdf
 from strutwork.studies.dynamic import ONE_PERCENT
 from strutwork.studies.survey import survey
-from strutwork.studies.survey_files import write_survey
 
 
 def run(
@@ -54,12 +52,7 @@ def run(
         found = survey(model, grid, [answer], workers=workers, progress=progress)
     result = _result(target, model, found, vibration=vibration)
     if out is not None:
-        stem = f"{Path(target).stem.replace(':', '-')}-{what}-survey"
-        written = [
-            write_netcdf(Path(out) / f"{stem}.nc", found),
-            write_survey(Path(out) / f"{stem}.csv", found),
-        ]
-        result["data"] = [str(path) for path in written]
+        result["data"] = written(out, target, what, found)
     if json:
         print_json(result)
         return
@@ -118,11 +111,8 @@ def _extremes(found: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | Non
 
 
 def _print(result: dict[str, Any], grid: str) -> None:
+    print_kept(result, grid)
     out = console()
-    out.print(visible(result["model"] or result["target"]), markup=False, style="bold")
-    out.print(f"{grid}; {result['poses_kept']} of {result['poses']} count", markup=False)
-    for reason, count in result["dropped_by_reason"].items():
-        out.print(f"  {count}: {visible(reason)}", markup=False, soft_wrap=True)
     rows: list[tuple[object, ...]] = []
     for name, entry in result["extremes"].items():
         words = name.replace("_", " ")

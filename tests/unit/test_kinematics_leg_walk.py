@@ -60,6 +60,9 @@ FILES = [
     ),
 ]
 
+#: Those whose legs each have six freedoms.
+WITH_LEGS = ("6-ups",)
+
 
 def of(machine: Any) -> Motion:
     home = machine.home()
@@ -125,11 +128,15 @@ def test_linkages(name: str) -> None:
 
 @pytest.mark.parametrize("file", FILES, ids=lambda f: f.stem)
 @pytest.mark.filterwarnings("ignore::UserWarning")
-def test_model_files(file: Path) -> None:
-    """Poses that the tool can have, and others, that few of these machines can."""
-    motion = load(str(file)).motion
-    if motion.linkage.tool is None or motion.legs is None:
-        pytest.skip("does not fall into legs")
+def test_only_legs_of_six_freedoms_go_by_themselves(file: Path) -> None:
+    assert (load(file).motion.legs is not None) == (file.stem in WITH_LEGS)
+
+
+@pytest.mark.parametrize("name", WITH_LEGS)
+def test_model_files(name: str) -> None:
+    """Poses that the tool can have, and others."""
+    motion = load(ROOT / f"examples/machines/{name}.toml").motion
+    assert motion.legs is not None
     random = np.random.default_rng(3)
     size = motion.legs.length
     home = motion.rest()
