@@ -64,8 +64,8 @@ def write(subject: Subject) -> Chapter:
         Text(
             f"All poses over {', '.join(directions)} that the machine reaches within its joint "
             f"ranges, the other directions at home, looked for in {SPREAD:g} times the ranges "
-            "that this report looks over. Borders are refined between the poses of a grid; the error is "
-            "that from a grid half as fine."
+            "that this report looks over. Borders are refined between the poses of a grid; the "
+            "error is that from a grid half as fine."
         ),
         Facts(tuple(facts)),
     ]

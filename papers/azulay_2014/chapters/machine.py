@@ -70,7 +70,8 @@ def summary_chapter(study: MachineStudy) -> Chapter:
             Note(
                 "Large numbers: true spherical joints, which is the machine as it is described. "
                 "The paper's own numbers suggest links clamped in the platform; both models stand "
-                "side by side below, each labelled."
+                "side by side below, each labelled. Both are calibrated: dimensions that the paper "
+                "leaves open were chosen with its means in view."
             ),
         ),
     )
