@@ -116,8 +116,8 @@ def summary_chapter(study: Comparison) -> Chapter:
                 "True spherical joints are the machines as they are described. The paper's own "
                 "numbers suggest links clamped in the platform; that model comes closer and is "
                 "shown beside the first throughout, labelled “as the paper's numbers suggest”. "
-                "Both are calibrated, neither is a prediction: heights of poles, lengths and the model "
-                "of the drives were chosen with the paper's means in view."
+                "Both are calibrated, neither is a prediction: heights of poles, lengths and the "
+                "model of the drives were chosen with the paper's means in view."
             ),
         ),
     )
