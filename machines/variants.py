@@ -137,11 +137,19 @@ def require_mass(found: NamedMachine) -> NamedMachine:
     ModelError
         Its platform has no mass; names the variants that have.
     """
-    if found.machine.structure.masses or found.variant.name == "own":
+    heavy = heavy_variants(found)
+    if not heavy:
         return found
-    heavy = [v.name for v in variants(found.entry.name).values() if v.name in DYNAMIC_SETS]
     raise ModelError(
         f"machine {found.name}",
         "is a model for statics: its platform has no mass, so it cannot be asked how it vibrates.",
-        "Name a model that can: " + ", ".join(f"{found.entry.name}{MARK}{v}" for v in heavy) + ".",
+        "Name a model that can: " + ", ".join(heavy) + ".",
     )
+
+
+def heavy_variants(found: NamedMachine) -> tuple[str, ...]:
+    """Names of the models to ask how a machine vibrates; none where it can be asked itself."""
+    if found.machine.structure.masses or found.variant.name == "own":
+        return ()
+    name = found.entry.name
+    return tuple(f"{name}{MARK}{v}" for v in variants(name) if v in DYNAMIC_SETS)

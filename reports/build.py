@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from strutwork import __version__
@@ -14,7 +13,7 @@ from strutwork.reports.content import Chapter, Page
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.page import render
 from strutwork.reports.report_folder import PAGE, require_ours, write_set
-from strutwork.studies.progress import Teller
+from strutwork.reports.subject import Subject, Teller
 
 
 @dataclass(frozen=True)
@@ -34,6 +33,26 @@ class WrittenReport:
 
     def __repr__(self) -> str:
         return f"<WrittenReport: {self.report} and {len(self.data)} data files>"
+
+
+@dataclass(frozen=True)
+class Composed:
+    """A report before it is written.
+
+    Parameters
+    ----------
+    page : Page
+    files : tuple of DataFile
+    subject : Subject or None
+        The machine with what was found of it; None of a comparison.
+    """
+
+    page: Page
+    files: tuple[DataFile, ...]
+    subject: Subject | None = None
+
+    def __repr__(self) -> str:
+        return f"<Composed: {self.page.title}, {len(self.page.chapters)} chapters>"
 
 
 def write_report(
@@ -73,33 +92,61 @@ def write_report(
     folder = Path(folder)
     # before minutes of work, and not after them
     require_ours(folder, (PAGE,))
-    page, files = _contents(target, progress, put)
-    text = render(page)
+    return write_page(compose(target, progress, put), folder)
+
+
+def write_page(composed: Composed, folder: Path) -> WrittenReport:
+    """Write a report that is composed, all of it or nothing.
+
+    Raises
+    ------
+    OutputError
+        A folder that cannot be written, or that holds files of the same name and no manifest.
+    """
+    text = render(composed.page)
     write_set(
         folder,
         {
-            **{file.name: file.write for file in files},
+            **{file.name: file.write for file in composed.files},
             PAGE: lambda path: path.write_text(text, encoding="utf-8"),
         },
     )
-    return WrittenReport(folder / PAGE, tuple(folder / file.name for file in files))
+    return WrittenReport(folder / PAGE, tuple(folder / file.name for file in composed.files))
 
 
-def _contents(
-    target: str, progress: Teller | None, put: Callable[[Model], Model] | None
-) -> tuple[Page, tuple[DataFile, ...]]:
+def page_of(title: str, subtitle: str, chapters: tuple[Chapter, ...]) -> Page:
+    """A page with the footer that all have."""
+    footer = f"Made by Strutwork {__version__}. This page needs no network."
+    return Page(title, subtitle, chapters, footer)
+
+
+def compose(
+    target: str,
+    progress: Teller | None = None,
+    put: Callable[[Model], Model] | None = None,
+) -> Composed:
+    """Find everything that a report says.
+
+    Parameters are those of `write_report`.
+
+    Raises
+    ------
+    ModelError
+        No such machine or file, a wrong model.
+    StrutworkError
+        A model that cannot be solved.
+    """
     from strutwork.machines.catalogue import CATALOGUE
-    from strutwork.machines.paper_reference import resolve
     from strutwork.machines.variants import MARK, is_machine
 
-    make: Callable[[], tuple[str, str, tuple[Chapter, ...]]]
-    pages = {e.paper.key: e.paper.page for e in CATALOGUE.values() if e.paper.page}
+    pages = paper_pages()
+    subject: Subject | None = None
     if target in pages:
         if put is not None:
             raise ModelError(
                 target, "is a comparison, which has no pose of its own.", "Name a machine."
             )
-        make = partial(resolve(pages[target]), progress)
+        title, subtitle, chapters = _paper(pages[target], progress)
     elif is_machine(target) and MARK in target:
         raise ModelError(
             f"report {target}",
@@ -107,11 +154,11 @@ def _contents(
             f"Leave the variant out: {target.partition(MARK)[0]}.",
         )
     elif target in CATALOGUE:
-        make = partial(_machine_chapters, target, progress, put)
+        title, subtitle, chapters, subject = _machine(target, progress, put)
     elif Path(target).suffix == ".toml" or Path(target).exists():
-        from strutwork.reports.model_report import model_chapters
+        from strutwork.reports.model_report import model_report
 
-        make = partial(model_chapters, Path(target), progress, put)
+        title, subtitle, chapters, subject = model_report(Path(target), progress, put)
     else:
         raise ModelError(
             f"report {target}",
@@ -119,24 +166,36 @@ def _contents(
             f"Machines: {', '.join(CATALOGUE)}; comparison: {', '.join(pages)}; or the path of a "
             "TOML file.",
         )
-    title, subtitle, chapters = make()
-    footer = f"Made by Strutwork {__version__}. This page needs no network."
     files = tuple(f for chapter in chapters for f in chapter.files)
-    return Page(title, subtitle, chapters, footer), files
+    return Composed(page_of(title, subtitle, chapters), files, subject)
 
 
-def _machine_chapters(
+def paper_pages() -> dict[str, str]:
+    """Documents that have a page of their own: what writes it, by their keys."""
+    from strutwork.machines.catalogue import CATALOGUE
+
+    return {e.paper.key: e.paper.page for e in CATALOGUE.values() if e.paper.page}
+
+
+def _paper(page: str, progress: Teller | None) -> tuple[str, str, tuple[Chapter, ...]]:
+    from strutwork.machines.paper_reference import resolve
+
+    title, subtitle, chapters = resolve(page)(progress)
+    return title, subtitle, chapters
+
+
+def _machine(
     name: str, progress: Teller | None, put: Callable[[Model], Model] | None
-) -> tuple[str, str, tuple[Chapter, ...]]:
+) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """What every machine has, then what its document adds: of one name, the document's."""
     from strutwork.machines.catalogue import CATALOGUE
     from strutwork.machines.load import load
     from strutwork.machines.paper_reference import resolve
     from strutwork.reports.composed import chapters_beside, report_of
 
-    model = load(name)
+    model, entry = load(name), CATALOGUE[name]
+    subject = Subject(model if put is None else put(model), name, name, progress)
     if put is not None:
-        model = put(model)
-        return report_of(model, name, name, CATALOGUE[name].topology, progress)
-    title, subtitle, own = resolve(CATALOGUE[name].report)(name, progress)
-    return title, subtitle, chapters_beside(own, model, name, progress)
+        return subject.title, entry.topology, report_of(subject), subject
+    title, subtitle, own = resolve(entry.report)(name, progress)
+    return title, subtitle, chapters_beside(own, subject), subject

@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from strutwork.machines.model import Model
 from strutwork.names import visible
 from strutwork.reports.chapters import (
     accuracy,
@@ -26,7 +25,7 @@ from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
 from strutwork.reports.chapters.vibration import vibration_chapter
 from strutwork.reports.content import Chapter, Facts, Links, Points, Text
 from strutwork.reports.data_files import DataFile
-from strutwork.reports.subject import Subject, Teller
+from strutwork.reports.subject import Subject
 
 #: Cover of a machine that a document describes.
 COVER = "cover"
@@ -151,9 +150,7 @@ def chapters_of(
     return tuple(written), tuple(left)
 
 
-def chapters_beside(
-    own: tuple[Chapter, ...], model: Model, name: str, progress: Teller | None = None
-) -> tuple[Chapter, ...]:
+def chapters_beside(own: tuple[Chapter, ...], subject: Subject) -> tuple[Chapter, ...]:
     """Chapters that every machine has, put into a report that a document's machine has of its own.
 
     The cover answers first, then come those of the document, and before its closing chapter all
@@ -164,7 +161,6 @@ def chapters_beside(
     StrutworkError
         As `report_of`.
     """
-    subject = Subject(model, name, name, progress)
     keys = {chapter.key for chapter in own}
     files = {file.name for chapter in own for file in chapter.files}
     offered = [one for one in CHAPTERS if one.key not in keys]
@@ -188,27 +184,14 @@ def _with_files(closing: Chapter, files: Sequence[DataFile]) -> Chapter:
     return replace(closing, blocks=blocks)
 
 
-def report_of(
-    model: Model, name: str, stem: str, subtitle: str, progress: Teller | None = None
-) -> tuple[str, str, tuple[Chapter, ...]]:
-    """Title, subtitle and chapters of a machine's report.
-
-    Parameters
-    ----------
-    model : Model
-    name : str
-        As the report was asked for.
-    stem : str
-        For a title, where the model has none.
-    subtitle : str
-    progress : callable, optional
+def report_of(subject: Subject) -> tuple[Chapter, ...]:
+    """Chapters of a machine's report.
 
     Raises
     ------
     StrutworkError
         The model is wrong, or moves freely under its loads.
     """
-    subject = Subject(model, name, stem, progress)
     written, left = chapters_of(subject)
     chapters = (cover(subject), *written)
     if left:
@@ -217,12 +200,12 @@ def report_of(
             "absent", "What is not here", (Text("Questions that have no answer:"), Points(lines))
         )
         chapters = (*chapters, absent)
-    shown = visible(name)
+    shown = visible(subject.name)
     settings = {"model": shown}
     if subject.solution is not None:
         settings["solver"] = subject.solution.statics.method
     closing = closing_chapter(shown, settings, _content(subject), chapters)
-    return subject.title, subtitle, (*chapters, closing)
+    return (*chapters, closing)
 
 
 def cover(subject: Subject) -> Chapter:

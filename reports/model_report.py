@@ -10,15 +10,15 @@ from strutwork.machines.model_file import read_model
 from strutwork.names import visible
 from strutwork.reports.composed import report_of
 from strutwork.reports.content import Chapter
-from strutwork.reports.subject import Teller
+from strutwork.reports.subject import Subject, Teller
 
 
-def model_chapters(
+def model_report(
     path: Path,
     progress: Teller | None = None,
     put: Callable[[Model], Model] | None = None,
-) -> tuple[str, str, tuple[Chapter, ...]]:
-    """Title, subtitle and chapters of a model file's report.
+) -> tuple[str, str, tuple[Chapter, ...], Subject]:
+    """Title, subtitle, chapters and subject of a model file's report.
 
     Raises
     ------
@@ -28,4 +28,5 @@ def model_chapters(
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
     model = read_model(path) if put is None else put(read_model(path))
-    return report_of(model, file, visible(path.stem), subtitle, progress)
+    subject = Subject(model, file, visible(path.stem), progress)
+    return subject.title, subtitle, report_of(subject), subject

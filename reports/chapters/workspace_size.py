@@ -33,7 +33,7 @@ def write(subject: Subject) -> Chapter:
     """Its size with the error of it, its pieces, and what it ends at."""
     found = subject.workspace
     directions = found.grid.directions
-    scale, unit = _shown_unit(found.unit)
+    scale, unit = shown_unit(found.unit)
     facts = [
         Fact(
             "Size",
@@ -93,7 +93,7 @@ def _minus(words: str) -> str:
     return words.replace(" -", f" {MINUS}")
 
 
-def _shown_unit(unit: str) -> tuple[float, str]:
+def shown_unit(unit: str) -> tuple[float, str]:
     """Litres, square centimetres and millimetres; as it is where turns are among them."""
     known = {"m³": (1e3, "litres"), "m²": (1e4, "cm²"), "m": (1e3, "mm"), "rad": (degrees(1), "°")}
     return known.get(unit, (1.0, unit))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from strutwork.names import visible
 from strutwork.reports.build import write_report
-from strutwork.reports.cli.output import console, print_json
+from strutwork.reports.cli.output import console, print_json, tell
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.manifest import verify_report
@@ -23,6 +23,24 @@ def run(target: str, out: str | None, json: bool, at: Where = HOME) -> None:
     printed = console()
     printed.print(f"Report: {visible(str(written.report))}", markup=False, soft_wrap=True)
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)
+
+
+def run_all(out: str | None, json: bool) -> None:
+    """Write every report and the page that compares the machines."""
+    from strutwork.reports.every_machine import write_every_report
+
+    folder = Path("out") / "all" if out is None else Path(out)
+    written = []
+    with shown("steps") as started:
+        for report in write_every_report(folder, started):
+            written.append(str(report.report))
+            tell(f"Written: {visible(written[-1])}")
+    if json:
+        print_json({"report": written[-1], "reports": written[:-1]})
+        return
+    printed = console()
+    printed.print(f"Report: {visible(written[-1])}", markup=False, soft_wrap=True)
+    printed.print(f"Reports of machines and documents: {len(written) - 1}", markup=False)
 
 
 def verify(folder: str, json: bool) -> None:

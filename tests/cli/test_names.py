@@ -236,7 +236,7 @@ def test_names_of_files_that_are_no_utf8(tmp_path: Path) -> None:
         page = Path(os.fsdecode(folder + b"/\xfd" + name)) / "report.html"
         assert page.read_text(encoding="utf-8")
         settings = json.loads((page.parent / "report.json").read_text("utf-8"))["settings"]
-        assert settings["model file"] == visible(os.fsdecode(name))
+        assert settings["model"] == visible(os.fsdecode(name))
         data = json.loads(run.stdout)
         assert Path(data["report"]) == page
     universal = folder + b"/\xfe/\xff m-modes.uff"
