@@ -36,4 +36,5 @@ SON_2002 = Paper(
     "son-2002",
     "S.-K. Son: A hybrid type small 5-axis CNC milling machine. PhD thesis, Massachusetts "
     "Institute of Technology (2002).",
+    "strutwork.papers.son_2002.document_page:document_chapters",
 )

@@ -44,7 +44,7 @@ def difference(row: PublishedRow) -> Cell:
     """Difference from the print, coloured by its size."""
     size = abs(row.difference_percent)
     tone = "good" if size < CLOSE else "fair" if size < FAIR else "poor"
-    return Cell(percent(row.difference_percent), tone)  # type: ignore[arg-type]
+    return Cell(percent(nearly(row.difference_percent)), tone)  # type: ignore[arg-type]
 
 
 def nearly(percentage: float) -> float:

@@ -130,7 +130,8 @@ def _summary(study: HexapodStudy) -> Chapter:
             "Position condition number",
             f"{float(condition.min()):.2f} to {float(condition.max()):.2f}",
             "",
-            f"published {published[0]:.2f} to {published[1]:.2f}; nothing fitted",
+            f"published {published[0]:.2f} to {published[1]:.2f}; calibrated: "
+            "the drawing is missing, and its reading was chosen by these",
         ),
         *(
             Fact(

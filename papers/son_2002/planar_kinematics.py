@@ -31,9 +31,9 @@ STEEPEST = np.radians(80.0)
 def planar_kinematics(
     machine: MitSS1 | None = None, x: ArrayLike | None = None, b: ArrayLike | None = None
 ) -> xr.Dataset:
-    """Drive coordinates and condition number over x and tilt, at height zero.
+    """Drive coordinates and ellipsoid of velocities over x and tilt, at height zero.
 
-    The position condition number is that of the tool's velocity along x, y and z, tilts held:
+    The ellipsoid is that of the tool's velocity along x, y and z, tilts held:
     the three struts move x and z, the table's carriage y, one to one (Son 2002, section 6.4).
 
     Parameters
@@ -45,7 +45,8 @@ def planar_kinematics(
     Returns
     -------
     Dataset
-        drive (x, b, block) in m, condition (x, b), determinant (x, b) of the parallel matrix,
+        drive (x, b, block) in m; condition, smallest axis and volume of the ellipsoid for unit
+        rates of the drives (x, b), as in Fig. 34; determinant (x, b) of the parallel matrix,
         m; not a number out of reach.
     """
     machine = machine or MitSS1()
@@ -62,13 +63,17 @@ def planar_kinematics(
     matrix = np.zeros((len(inverse), 4, 3))
     matrix[:, :3, [0, 2]] = inverse[:, :, [0, 2]]
     matrix[:, 3, 1] = 1.0
-    condition = np.full(grid[0].shape, np.nan)
-    condition[good] = velocity_ellipsoid(matrix).condition
+    ellipsoid = velocity_ellipsoid(matrix)
+    measures = {}
+    for name in ("condition", "smallest", "volume"):
+        values = np.full(grid[0].shape, np.nan)
+        values[good] = getattr(ellipsoid, name)
+        measures[name] = (("x", "b"), values, {"units": "1"})
     drives = np.where(good[..., None], drive_values(machine, placement), np.nan)
     return xr.Dataset(
         {
             "drive": (("x", "b", "block"), drives, {"units": "m"}),
-            "condition": (("x", "b"), condition, {"units": "1"}),
+            **measures,
             "determinant": (
                 ("x", "b"),
                 parallel_determinant(machine, grid[0], grid[1]),

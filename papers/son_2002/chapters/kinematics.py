@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees
 
 import numpy as np
+import xarray as xr
 
 from strutwork.kinematics import drive_values
 from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
@@ -120,8 +121,9 @@ def kinematics_chapter(study: MitSS1Study) -> Chapter:
     return Chapter("kinematics", "Kinematics", tuple(blocks), tuple(_kinematics_files(study)))
 
 
-def _manipulability(study: MitSS1Study) -> tuple[PublishedRow, ...]:
-    condition = study.kinematics["condition"]
+def condition_rows(kinematics: xr.Dataset) -> tuple[PublishedRow, ...]:
+    """Condition numbers of the position beside the printed ones, of `planar_kinematics`."""
+    condition = kinematics["condition"]
     ours = {"least": float(condition.min()), "most": float(condition.max())}
     return tuple(
         PublishedRow(
@@ -131,7 +133,7 @@ def _manipulability(study: MitSS1Study) -> tuple[PublishedRow, ...]:
             v.value,
             ours[v.quantity.rsplit(" ", 1)[-1]],
             "predicted",
-            "from the dimensions of Appendix B; nothing fitted",
+            "from the dimensions of Appendix B and the workspace of section 6.1; nothing fitted",
         )
         for v in MANIPULABILITY
         if v.row == MACHINE
@@ -147,7 +149,7 @@ def _published_kinematics(study: MitSS1Study) -> Table:
             Cell(percent(r.difference_percent), "good"),
             r.status,
         ]
-        for r in _manipulability(study)
+        for r in condition_rows(study.kinematics)
     ]
     return Table(
         "Manipulability of section 6.4 beside ours",
@@ -170,7 +172,7 @@ def _kinematics_files(study: MitSS1Study) -> list[DataFile]:
         rows_file(
             file_name(MANIPULABILITY.key),
             "manipulability of the thesis beside ours",
-            _manipulability(study),
+            condition_rows(study.kinematics),
         ),
     ]
 

@@ -72,9 +72,9 @@ def manipulability_chapter(found: xr.Dataset) -> Chapter:
                     "printed 0.66 to 0.71."
                 ),
                 (
-                    "The drawing is missing. How the joints stand was chosen by the condition "
-                    "numbers of the position, which are therefore called calibrated; the other "
-                    "rows are predicted from that reading, near or far."
+                    "The drawing is missing. How the joints stand and how far the machine reaches "
+                    "was chosen among many readings by the condition numbers of the position: "
+                    "every row is therefore called calibrated, near or far."
                 ),
             )
         ),

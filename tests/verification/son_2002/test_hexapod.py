@@ -84,15 +84,12 @@ def test_figures_of_the_report() -> None:
     assert ours("rotation_volume") == pytest.approx([132.5, 619.7], abs=0.1)
 
 
-def test_rows_say_what_was_chosen_by_them() -> None:
+def test_every_row_hangs_on_the_reading_that_was_chosen() -> None:
     rows = manipulability_rows(found())
     assert len(rows) == 12
-    by = {r.quantity for r in rows if r.status == "calibrated"}
-    assert by == {f"position condition number, {end}" for end in ("least", "most")}
-    # nothing was chosen by the others, however far they are
-    others = [r for r in rows if r.quantity not in by]
-    assert {r.status for r in others} == {"predicted"}
-    assert max(abs(r.difference_percent) for r in others) > 20.0
+    assert {r.status for r in rows} == {"calibrated"}
+    # the reading was chosen by the first two, which says nothing of how far the others are
+    assert max(abs(r.difference_percent) for r in rows) > 20.0
 
 
 def test_the_printed_ranges_do_not_contradict_the_identity() -> None:

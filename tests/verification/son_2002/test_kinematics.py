@@ -26,6 +26,7 @@ from strutwork.kinematics import drive_values, jacobians, velocity_ellipsoid
 from strutwork.machines import MitSS1, WorkTable
 from strutwork.machines import mit_ss1_parts as parts
 from strutwork.machines.mit_ss1 import NOMINAL_TILT, NOMINAL_X
+from strutwork.papers.son_2002.planar_kinematics import planar_kinematics
 from strutwork.papers.son_2002.published import DIMENSIONS, MACHINE, MANIPULABILITY
 
 PLANE = [0, 2, 4]
@@ -208,3 +209,25 @@ def test_position_condition_number() -> None:
     assert (x.flat[found.argmax()], np.degrees(b.flat[found.argmax()])) == pytest.approx(
         (-0.06, -30.0)
     )
+
+
+def test_the_ellipsoid_shrinks_at_the_two_corners() -> None:
+    """Section 6.4, Fig. 34 (b) and (c): smallest axis and volume fall towards two corners.
+
+    "as the end-effector gets close to x = -0.06, b = -30° or x = 0.04, b = 30°, [...] the volume of
+    the velocity ellipsoid and the minimum eigenvalue goes down rapidly": least of all there.
+    """
+    found = planar_kinematics()
+    smallest, volume, condition = (
+        found[name].to_numpy() for name in ("smallest", "volume", "condition")
+    )
+    middle = tuple(n // 2 for n in volume.shape)
+    soft, others = ((0, 0), (-1, -1)), ((0, -1), (-1, 0))
+    assert int(volume.argmin()) == int(smallest.argmin()) == 0
+    for corner in soft:
+        assert volume[corner] < 0.7 * volume[middle]
+        assert smallest[corner] < smallest[middle]
+        assert all(volume[corner] < 0.8 * volume[other] for other in others)
+    # the text has the condition number rise sharply at both: it does at the first alone
+    assert condition[0, 0] > 1.3 * condition[middle]
+    assert condition[-1, -1] < condition[middle]

@@ -1,0 +1,73 @@
+"""The page of Son 2002: every result that the thesis prints, beside ours."""
+
+from __future__ import annotations
+
+from itertools import groupby
+
+from strutwork.machines.literature import SON_2002
+from strutwork.papers.son_2002.statements import statements
+from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.content import Chapter, Text
+from strutwork.studies.progress import Teller
+
+#: Chapters of the page: key, title, and the places of the thesis that begin it.
+_PARTS = (
+    ("manipulability", "How well do drives move a hexapod?", ("section 2.2",)),
+    ("scale", "What does size do?", ("eqs 14, 15", "eq. 24")),
+    ("reversals", "Where do drives turn back?", ("eq. 34", "section 4")),
+    (
+        "planar",
+        "How does the planar machine move, and how stiff is it?",
+        ("section 6.4", "Fig. 34 (b), (c)", "section 6.1", "section 6.3", "section 6.2"),
+    ),
+    ("table-2", "Which forces lock in?", ("Table 2",)),
+    ("targets", "Does it meet its targets?", ("chapter 7",)),
+    (
+        "measured",
+        "What was measured on it?",
+        ("section 9.1.1", "Table 5", "section 9.1.3", "Table 6", "eq. 65", "section 9.2.1"),
+    ),
+    ("modes", "How does it vibrate?", ("eq. 66", "sections 6.2, 9.2.2")),
+    ("bridge", "What of the moving bridge?", ("chapter 10",)),
+)
+
+
+def document_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[Chapter, ...]]:
+    """Title, subtitle and chapters of the thesis's page."""
+    told = None if progress is None else progress("results of the thesis")
+    said = statements()
+    if told is not None:
+        told(len(said), len(said))
+    file = statements_file(SON_2002.key, said)
+    summary = Chapter(
+        "summary",
+        "Summary",
+        (
+            count_text(said),
+            Text(
+                "The machines' own reports, “strutwork report mit-ss1” and “strutwork report "
+                "hexel-hexapod”, say how each number is found; here stands every result of the "
+                "thesis in its order, with the test that holds it."
+            ),
+        ),
+        (file,),
+    )
+    part_of = {place: key for key, _, places in _PARTS for place in places}
+    by_part = {
+        key: tuple(some)
+        for key, some in groupby(
+            sorted(said, key=lambda s: [p[0] for p in _PARTS].index(part_of[s.place])),
+            key=lambda s: part_of[s.place],
+        )
+    }
+    chapters = [
+        summary,
+        *(statements_chapter(key, title, by_part[key]) for key, title, _ in _PARTS),
+    ]
+    chapters.append(closing_chapter(SON_2002.key, {}, {}, chapters))
+    return (
+        "A hybrid five-axis machine: what its thesis prints, beside ours",
+        SON_2002.citation,
+        tuple(chapters),
+    )

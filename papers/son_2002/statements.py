@@ -1,0 +1,214 @@
+"""Every result that Son 2002 prints, beside ours."""
+
+from __future__ import annotations
+
+from math import nan
+
+import numpy as np
+
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.drive_fields import MotionField
+from strutwork.kinematics.motion import Motion
+from strutwork.kinematics.reversal_cones import cone
+from strutwork.kinematics.reversals import reversals
+from strutwork.kinematics.task_surfaces import Plane
+from strutwork.machines import HexelHexapod
+from strutwork.papers.son_2002.assembly_table import table_2_rows
+from strutwork.papers.son_2002.chapters.kinematics import condition_rows
+from strutwork.papers.son_2002.manipulability import hexapod_manipulability, manipulability_rows
+from strutwork.papers.son_2002.measured_statements import (
+    CHOSEN,
+    TESTS,
+    measured,
+    spindle,
+    targets,
+)
+from strutwork.papers.son_2002.modes import mode_rows
+from strutwork.papers.son_2002.planar_kinematics import planar_kinematics
+from strutwork.papers.son_2002.published import (
+    MACHINE,
+    STIFFNESS,
+)
+from strutwork.papers.son_2002.stiffness_table import computed_stiffness, table_6_rows
+from strutwork.papers.statements import Statement, stated
+
+#: Outer size of the machine, m (section 6).
+ENVELOPE = (0.9, 1.0, 1.5)
+
+
+def statements() -> tuple[Statement, ...]:
+    """All of them, in the order of the document."""
+    return (
+        *stated(
+            manipulability_rows(hexapod_manipulability()),
+            "section 2.2",
+            f"{TESTS}/test_hexapod.py::test_figures_of_the_report",
+        ),
+        *_scaling(),
+        *_reversals(),
+        *_planar(),
+        *stated(table_2_rows(), "Table 2", f"{TESTS}/test_table_2.py::test_rows_of_the_table"),
+        *targets(),
+        *measured(),
+        *stated(table_6_rows(), "Table 6", f"{TESTS}/test_stiffness.py::test_rows_of_table_6"),
+        *spindle(),
+        *stated(
+            mode_rows(),
+            "sections 6.2, 9.2.2",
+            f"{TESTS}/test_modes.py::test_rows_beside_the_published",
+        ),
+        Statement(
+            "chapter 10",
+            "four-axis machine on a moving bridge",
+            "",
+            "the planar mechanism on a bridge, a stage of one axis below",
+            "not a machine of its own here",
+            "not reproducible",
+            "no dimension of bridge or stage is printed; the planar mechanism is the machine of "
+            "chapter 6 itself",
+            f"{TESTS}/test_statements.py::test_every_chapter_with_results_is_there",
+        ),
+    )
+
+
+def _scaling() -> tuple[Statement, ...]:
+    """Chapter 3: exponents of a machine whose joints scale as it does."""
+    test = f"{TESTS}/test_scaling.py::test_similar_machine"
+    why = "exact for any similar structure; Fig. 9 shows the same for two machines without numbers"
+    return (
+        Statement("eqs 14, 15", "static stiffness ~ size^n", "", 1.0, 1.0, "predicted", why, test),
+        Statement("eq. 24", "lowest frequency ~ size^n", "", -1.0, -1.0, "predicted", why, test),
+    )
+
+
+def _reversals() -> tuple[Statement, ...]:
+    """Chapter 4: cones, and singular points over a flat surface with the tool upright."""
+    gradient = np.array([[1.0, 2.0], [1.0, -1.0], [2.0, 3.0]])
+    low, high = np.degrees(cone(gradient, [1, -1, 1]))
+    cones_test = "tests/unit/test_kinematics_reversal_cones.py::test_cone_of_the_thesis"
+    machine = HexelHexapod()
+    home = machine.home()
+    field = MotionField(
+        Motion(machine.linkage, machine.place(home), home.rotation),
+        Plane(DIRECTIONS[:2]),
+        machine.place,
+    )
+    axis = np.linspace(-0.4, 0.4, 17)
+    points = [p for drive in reversals(field, axis, axis).singular for p in drive.points]
+    away = min(float(np.linalg.norm(p.place)) for p in points)
+    flat = "flat surface, tool upright"
+    places = "tests/unit/test_kinematics_reversals.py"
+    curved = "the patch of the curved surface is not published"
+    return (
+        Statement(
+            "eq. 34", "first ray of the cone", "deg", 45.0, float(low), "predicted", "", cones_test
+        ),
+        Statement(
+            "eq. 34",
+            "last ray of the cone, (−3, 2)",
+            "deg",
+            float(np.degrees(np.arctan2(2.0, -3.0))),
+            float(high),
+            "predicted",
+            "the condition α + 2β ≥ 0 that is printed too bounds nothing",
+            cones_test,
+        ),
+        Statement(
+            "section 4",
+            f"hexapod, {flat}: singular points",
+            "",
+            6.0,
+            float(len(points)),
+            "predicted",
+            f"one a leg, all strong, the nearest {1e3 * away:.2f} mm from the axis, outside the "
+            "reach of section 2.2: none in the usual workspace, as printed",
+            f"{places}::test_flat_surface_and_vertical_tool_of_a_hexapod",
+        ),
+        Statement(
+            "section 4",
+            f"MIT-SS-1, {flat}: singular points",
+            "",
+            "none",
+            "no point; whole lines at x = −202.5, 212.5 and 157.5 mm, outside the workspace",
+            "predicted",
+            "",
+            f"{places}::test_planar_machine_with_a_table_has_whole_lines",
+        ),
+        Statement(
+            "section 4",
+            f"serial machine, {flat}: singular points",
+            "",
+            "none",
+            "none",
+            "predicted",
+            "",
+            f"{places}::test_serial_machine_never_turns_back",
+        ),
+        Statement(
+            "section 4",
+            "curved surface: singular points, three machines, two orientations",
+            "",
+            "33, 30, 15, 6, 3, 0",
+            "not counted",
+            "not reproducible",
+            f"{curved}; the index theorem, which the text states, holds on ours",
+            f"{places}::test_strong_less_weak_points_are_the_winding_with_the_tool_normal",
+        ),
+    )
+
+
+def _planar() -> tuple[Statement, ...]:
+    """Chapter 6: the planar machine."""
+    found = planar_kinematics()
+    test = f"{TESTS}/test_kinematics.py"
+    volume, condition = found["volume"].to_numpy(), found["condition"].to_numpy()
+    middle = tuple(n // 2 for n in volume.shape)
+    falls = " and ".join(f"{volume[at] / volume[middle]:.2f}" for at in ((0, 0), (-1, -1)))
+    area = 0.021 * np.prod(ENVELOPE) / float(np.ptp(found["x"].to_numpy()))
+    return (
+        *stated(condition_rows(found), "section 6.4", f"{test}::test_position_condition_number"),
+        Statement(
+            "Fig. 34 (b), (c)",
+            "smallest axis and volume of the ellipsoid",
+            "",
+            "fall rapidly towards x = −60 mm, b = −30° and x = 40 mm, b = 30°, and the condition "
+            "number rises sharply",
+            f"the volume is {falls} of that in the middle there; the condition number is "
+            f"{condition[0, 0]:.2f} and {condition[-1, -1]:.2f}, in the middle "
+            f"{condition[middle]:.2f}: it rises at the first alone",
+            "predicted",
+            "the figures carry no legible numbers",
+            f"{test}::test_the_ellipsoid_shrinks_at_the_two_corners",
+        ),
+        Statement(
+            "section 6.1",
+            "singularities in the nominal workspace",
+            "",
+            "none",
+            "none: the determinant keeps its sign",
+            "predicted",
+            "",
+            f"{test}::test_no_actuator_singularity_in_the_nominal_workspace",
+        ),
+        Statement(
+            "section 6.3",
+            "workspace over machine volume",
+            "%",
+            2.1,
+            nan,
+            "not reproducible",
+            "the travels along y and z are not printed; with 100 mm along x the ratio asks for "
+            f"{area:.2f} m² of them",
+            f"{TESTS}/test_statements.py::test_volume_ratio",
+        ),
+        Statement(
+            "section 6.2",
+            "stiffness along y",
+            "N/µm",
+            STIFFNESS.value(MACHINE, "Ky"),
+            float(computed_stiffness()[0, 1]) / 1e6,
+            "calibrated",
+            CHOSEN + " and to this number",
+            f"{TESTS}/test_statements.py::test_stiffness_along_y_is_what_it_was_calibrated_to",
+        ),
+    )

@@ -1,0 +1,155 @@
+"""Every result that a document prints: published, ours, status, reason, and its test."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import astuple, dataclass, fields
+
+from strutwork.papers.published_rows import PublishedRow, Status
+from strutwork.papers.tables import difference, texts
+from strutwork.reports.content import Cell, Chapter, Column, Points, Table, Text
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.numbers import MINUS, percent, significant
+
+NONE = "–"
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One result of a document beside ours, in words where it is no number.
+
+    Parameters
+    ----------
+    place : str
+        Where the document prints it: "Table 2", "section 6.4".
+    what : str
+    unit : str
+    published, computed : float or str
+        Of a text, what is said. Not a number where we have none.
+    status : "predicted", "calibrated" or "not reproducible"
+    reason : str
+        What was chosen, or why it does not come out; empty where there is nothing to say.
+    test : str
+        Path and name of the test that holds it, `tests/…py::test_…`.
+    """
+
+    place: str
+    what: str
+    unit: str
+    published: float | str
+    computed: float | str
+    status: Status
+    reason: str
+    test: str
+
+    @property
+    def difference(self) -> str:
+        """In percent, where both are numbers."""
+        if isinstance(self.published, str) or isinstance(self.computed, str) or not self.published:
+            return NONE
+        if self.computed != self.computed:
+            return NONE
+        return percent(100.0 * (self.computed - self.published) / self.published)
+
+
+def stated(rows: Iterable[PublishedRow], place: str, test: str) -> tuple[Statement, ...]:
+    """Rows of a published table as statements."""
+    return tuple(
+        Statement(
+            place,
+            f"{row.row}: {row.quantity}",
+            row.unit,
+            row.published,
+            row.computed,
+            row.status,
+            row.note,
+            test,
+        )
+        for row in rows
+    )
+
+
+def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapter:
+    """A chapter with one table of statements, and below it reasons and tests, each once."""
+    reasons = list(dict.fromkeys(s.reason for s in said if s.reason))
+    tests = list(dict.fromkeys(s.test for s in said))
+    columns = (
+        *texts("place", "what"),
+        # words wrap, numbers stand to the right
+        Column("published", "", not any(isinstance(s.published, str) for s in said)),
+        Column("ours", "", not any(isinstance(s.computed, str) for s in said)),
+        Column("unit", "", False),
+        Column("difference"),
+        *texts("status", "why"),
+        *(texts("test") if len(tests) > 1 else ()),
+    )
+    rows: list[list[str | Cell]] = [
+        [
+            s.place,
+            s.what,
+            _shown(s.published),
+            _shown(s.computed),
+            s.unit,
+            _difference(s),
+            s.status,
+            f"({reasons.index(s.reason) + 1})" if s.reason else NONE,
+            *([_letter(tests.index(s.test))] if len(tests) > 1 else ()),
+        ]
+        for s in said
+    ]
+    table = Table(f"Published and ours: {len(said)}", columns, rows)
+    why = tuple(f"({n}) {reason[0].upper()}{reason[1:]}." for n, reason in enumerate(reasons, 1))
+    held = tuple(
+        f"Held by {test}" if len(tests) == 1 else f"{_letter(n)}: {test}"
+        for n, test in enumerate(tests)
+    )
+    return Chapter(key, title, (table, Points((*why, *held))))
+
+
+def _letter(number: int) -> str:
+    """A to z, then aa and so on."""
+    text = ""
+    number += 1
+    while number:
+        number, digit = divmod(number - 1, 26)
+        text = chr(ord("a") + digit) + text
+    return text
+
+
+def statements_file(paper: str, said: Sequence[Statement]) -> DataFile:
+    """All statements of a document, unrounded."""
+    return csv_file(
+        f"published-{paper}-statements.csv",
+        "every result that the document prints, beside ours, with the test that holds it",
+        [f.name for f in fields(Statement)],
+        [list(astuple(s)) for s in said],
+    )
+
+
+def count_text(said: Sequence[Statement]) -> Text:
+    """How many have which status."""
+    counts = Counter(s.status for s in said)
+    parts = ", ".join(f"{counts[status]} {status}" for status in sorted(counts))
+    return Text(
+        f"{len(said)} results of the document stand beside ours: {parts}. Predicted means that no "
+        "choice was made with the published value in sight; calibrated, that one was."
+    )
+
+
+def _shown(value: float | str) -> str:
+    if isinstance(value, str):
+        return value
+    if value != value:  # noqa: PLR0124 - not a number
+        return NONE
+    # what is counted has no decimals
+    return f"{value:.0f}".replace("-", MINUS) if value == round(value) else significant(value)
+
+
+def _difference(said: Statement) -> Cell:
+    if isinstance(said.published, str) or isinstance(said.computed, str):
+        return Cell(NONE)
+    if said.difference == NONE:
+        return Cell(NONE)
+    row = PublishedRow("", "", said.unit, said.published, said.computed, said.status)
+    return difference(row)
