@@ -28,6 +28,7 @@ from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
 from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
+from strutwork.reports.cli.report_command import report
 from strutwork.reports.cli.reversals_command import reversals
 from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
@@ -367,48 +368,4 @@ app.command()(new)
 app.command()(reversals)
 app.command()(singularities)
 app.command()(trajectory)
-
-
-@app.command()
-def report(
-    target: Annotated[
-        str,
-        typer.Argument(metavar="TARGET", help="A machine, a paper's key or a FILE."),
-    ] = "",
-    pose: Pose = None,
-    joint: JointAt = None,
-    out: Annotated[
-        str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Folder; out/TARGET by default."),
-    ] = None,
-    everything: Annotated[
-        bool,
-        typer.Option(
-            "--all",
-            help="Every machine and paper, and a page that compares the machines; out/all by "
-            "default.",
-        ),
-    ] = False,
-    verify: Annotated[
-        bool,
-        typer.Option("--verify", help="Compare the report in the folder TARGET with its manifest."),
-    ] = False,
-    json: Json = False,
-) -> None:
-    """Write a report: one HTML file that opens offline, and its data files."""
-    from strutwork.reports.cli import report as work
-    from strutwork.reports.cli.subject import where
-
-    if everything:
-        if target or pose or joint or verify:
-            raise typer.BadParameter("--all takes no target, pose or other option but --out.")
-        work.run_all(out, json)
-        return
-    if not target:
-        raise typer.BadParameter("Name a machine, a paper or a file, or give --all.")
-    if verify:
-        if out is not None:
-            raise typer.BadParameter("--verify writes nothing: leave --out out.")
-        work.verify(target, json)
-        return
-    work.run(target, out, json, where(pose, joint))
+app.command()(report)
