@@ -9,7 +9,9 @@ from typing import Any
 from strutwork.names import visible
 from strutwork.reports.chapters import (
     accuracy,
+    dynamics,
     motion,
+    reversals,
     singularities,
     workspace_assembly,
     workspace_size,
@@ -106,6 +108,7 @@ CHAPTERS: tuple[Offered, ...] = (
     _module(motion),
     _module(workspace_size),
     _module(singularities),
+    _module(reversals),
     Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
     Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),
     _module(workspace_stiffness),
@@ -126,6 +129,7 @@ CHAPTERS: tuple[Offered, ...] = (
     ),
     _module(workspace_assembly),
     _module(accuracy),
+    _module(dynamics),
 )
 
 

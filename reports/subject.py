@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, StrutworkError
 from strutwork.fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.singularity_curves import SingularPlane, singularities_in_plane
 from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.kinematics.task_surfaces import Plane
 from strutwork.machines.model import Model
 from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
 from strutwork.names import visible
@@ -25,9 +28,13 @@ from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_mo
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
 from strutwork.studies.progress import Progress, silent
+from strutwork.studies.reversal_study import ReversalStudy, reversal_study
+from strutwork.studies.standard_motion import StandardMotion, standard_motion
 from strutwork.studies.survey import survey
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_margin import MachineMargin
+
+Array = NDArray[Any]
 
 Teller = Callable[[str], Progress]
 
@@ -41,6 +48,9 @@ SIZED = {1: 81, 2: 31, 3: 13}
 
 #: Poses along either direction of the plane in which singular poses are looked for.
 SINGULAR_STEPS = 21
+
+#: Points along either direction of the plane in which reversals are looked for.
+REVERSAL_STEPS = 15
 
 
 @dataclass(frozen=True)
@@ -232,6 +242,56 @@ class Subject:
         step = np.array([axis[1] - axis[0] for axis in axes.values()])
         margin = MachineMargin(self.model, tuple(axes), step)
         return workspace(margin, axes, progress=self._told("size of the workspace"))
+
+    @cached_property
+    def undynamic(self) -> str:
+        """Why nothing is said of its dynamics; empty where something is."""
+        return self._reason(lambda: self.standard_motion)
+
+    @cached_property
+    def standard_motion(self) -> StandardMotion:
+        """What its weight and a standard circle ask of its drives."""
+        return standard_motion(self.model, self.grid, self._told("dynamics"))
+
+    @cached_property
+    def reversal_plane(self) -> dict[str, Array] | None:
+        """The first two directions of its workspace with several points; None without them."""
+        axes = {} if self.model.workspace is None else self.model.workspace.axes
+        wide = [(d, v) for d, v in axes.items() if len(v) > 1][:2]
+        if len(wide) < 2:
+            return None
+        return {d: np.linspace(float(v[0]), float(v[-1]), REVERSAL_STEPS) for d, v in wide}
+
+    @cached_property
+    def unreversed(self) -> str:
+        """Why nothing is said of reversals; empty where something is."""
+        return self._reason(lambda: self.reversals)
+
+    @cached_property
+    def reversals(self) -> ReversalStudy:
+        """Where its drives turn back over that plane, fed along its first direction.
+
+        Raises
+        ------
+        ModelError
+            There is no plane.
+        """
+        plane = self.reversal_plane
+        if plane is None:
+            raise ModelError("workspace", "has no plane.", "Name two directions.")
+        first, second = plane
+        told = self._told("reversals")
+        return reversal_study(
+            self.model, Plane((first, second)), (plane[first], plane[second]), first, told
+        )
+
+    def _reason(self, ask: Callable[[], object]) -> str:
+        """What keeps a question from an answer, in words; empty where nothing does."""
+        try:
+            ask()
+        except StrutworkError as error:
+            return visible(str(error).replace("\n", " ")).rstrip(".")
+        return ""
 
     def _told(self, part: str) -> Progress:
         return silent if self.progress is None else self.progress(part)
