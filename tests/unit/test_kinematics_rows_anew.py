@@ -64,7 +64,7 @@ def test_biglide_reaches_the_same_from_everywhere(home: tuple[float, float]) -> 
 def test_parallelogram_up_to_its_flat_position() -> None:
     turned = np.radians(20.0)
     c, s = np.cos(turned), np.sin(turned)
-    points = [[0, 0, 0], [c, s, 0], [2 + c, s, 0], [2, 0, 0]]
+    points = np.array([[0, 0, 0], [c, s, 0], [2 + c, s, 0], [2, 0, 0]])
     linkage, home = chain(points, [Z] * 4, driven=0)
     motion = Motion(linkage, home)
     angles = np.radians([10.0, 40.0, 91.0, 120.0, 158.0, -18.0, -80.0])
@@ -79,5 +79,16 @@ def test_sarrus() -> None:
     linkage, home = chain(points, [[1, 0, 0]] * 3 + [[0, 1, 0]] * 3, driven=0)
     motion = Motion(linkage, home)
     moved = motion.move(joints={linkage.driven[0]: np.radians([5.0, 35.0, -20.0, -100.0])})
+    assert moved.reached.all()
+    closes(motion, moved)
+
+
+def test_bennett() -> None:
+    # each axis is normal to the two bars that meet there
+    points = np.array([[1.0, 0, 0], [0, 0.7, 0.5], [-1.0, 0, 0], [0, -0.7, 0.5]])
+    ahead, back = np.roll(points, -1, axis=0) - points, np.roll(points, 1, axis=0) - points
+    linkage, home = chain(points, np.cross(ahead, back), driven=0)
+    motion = Motion(linkage, home)
+    moved = motion.move(joints={linkage.driven[0]: np.radians([5.0, 30.0, -10.0, -25.0])})
     assert moved.reached.all()
     closes(motion, moved)
