@@ -75,7 +75,8 @@ def test_parallelogram_up_to_its_flat_position() -> None:
 
 
 def test_sarrus() -> None:
-    points = [[0, 1, 0], [0, 1.6, 0.5], [0, 1, 1], [1, 0, 1], [1.6, 0, 0.5], [1, 0, 0]]
+    first = [(0.0, 1.0, 0.0), (0.0, 1.6, 0.5), (0.0, 1.0, 1.0)]
+    points = [*first, (1.0, 0.0, 1.0), (1.6, 0.0, 0.5), (1.0, 0.0, 0.0)]
     linkage, home = chain(points, [[1, 0, 0]] * 3 + [[0, 1, 0]] * 3, driven=0)
     motion = Motion(linkage, home)
     moved = motion.move(joints={linkage.driven[0]: np.radians([5.0, 35.0, -20.0, -100.0])})
