@@ -45,6 +45,39 @@ def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
     return np.sort(np.asarray(kept, dtype=np.intp)), every
 
 
+def spanning_rows(matrix: Array, kept: NDArray[np.intp], held: int) -> NDArray[np.intp]:
+    """As many held rows as at home, chosen anew at each pose, and what was given as at home.
+
+    Each next row is the one that stands farthest from those before (pivoted Gram-Schmidt).
+
+    Parameters
+    ----------
+    matrix : (k, r, n)
+        In one unit, at the poses.
+    kept : (i,)
+        The independent rows at home.
+    held : int
+        How many of the first rows are held directions of joints.
+
+    Returns
+    -------
+    (k, i)
+        Ascending.
+    """
+    rest = matrix[:, :held].copy()
+    count = int(np.sum(kept < held))
+    chosen = np.tile(kept, (len(matrix), 1))
+    each = np.arange(len(matrix))
+    for k in range(count):
+        size = np.linalg.norm(rest, axis=-1)
+        size[each[:, None], chosen[:, :k]] = -1.0
+        best = size.argmax(axis=-1)
+        chosen[:, k] = best
+        unit = rest[each, best] / np.maximum(size[each, best], np.finfo(float).tiny)[:, None]
+        rest -= (rest @ unit[..., None]) * unit[:, None]
+    return np.sort(chosen, axis=-1)
+
+
 def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
     """Refuse a direction that was named and that the joints hold at home; a pose may name all six.
 

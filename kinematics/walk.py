@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics.given import Given
-from strutwork.kinematics.independent import independent_rows, refuse_dependent
+from strutwork.kinematics.independent import independent_rows, refuse_dependent, spanning_rows
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.rows import characteristic_length, constraint_rows
@@ -32,6 +32,8 @@ ELSE = 1e3
 SHORTEST, MOST = 1e-6, 2000
 #: A singular value of the rows, as a share of the largest, below which the way ends at it.
 SINGULAR = 3e-3
+#: How many times better the condition of other rows must be, and the first step with them.
+BETTER, RESTART = 2.0, 1e-2
 
 REACH = "out of reach: on the way a leg comes to the end of its working mode"
 PARALLEL = "a singularity lies on the way, where what is given no longer holds the tool"
@@ -70,6 +72,9 @@ class Walk:
         self.order = rank[6 * self.joint + self.direction]
         _, matrix = self._system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
         self.kept, self.independent = independent_rows(matrix[0], len(held))
+        self.held_rows = len(held)
+        # of each pose: rows that are independent at home may depend on each other elsewhere
+        self.rows = np.tile(self.kept, (count, 1))
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)
 
@@ -116,18 +121,20 @@ class Walk:
         first: Array | None = None
         for _ in range(CORRECTIONS):
             left, matrix = self._system(at[going], bodies[going], share[going])
-            matrix = matrix[:, self.kept]
+            rows = self.rows[at[going]]
+            matrix = np.take_along_axis(matrix, rows[..., None], axis=1)
+            open_ = np.take_along_axis(left, rows, axis=1)
             if first is None:
                 first = matrix
             whole = np.abs(left).max(axis=-1, initial=0.0)
-            size = np.abs(left[:, self.kept]).max(axis=-1, initial=0.0)
+            size = np.abs(open_).max(axis=-1, initial=0.0)
             error[going] = whole
             # rounding reached, or a whole correction after the gaps had closed
             closed = (size <= ROUNDING) | ((size <= CLOSED) & (before[going] <= 1e-6))
             there = going[closed]
             good[there] = (whole[closed] <= ELSE * CLOSED) & _alike(first[there], matrix[closed])
-            going, left, matrix = going[~closed], left[~closed], matrix[~closed]
-            change = -_least(matrix, left[:, self.kept])
+            going, open_, matrix = going[~closed], open_[~closed], matrix[~closed]
+            change = -_least(matrix, open_)
             norm = np.abs(change).max(axis=-1, initial=0.0)
             fits = (norm <= FARTHEST) & ((norm <= SHRINK * before[going]) | (norm <= 1e-9))
             going = going[fits]
@@ -210,7 +217,15 @@ class Walk:
     def _give_up(self, at: Indices) -> None:
         """End poses whose steps have become too short, with the reason."""
         _, matrix = self._system(at, self.bodies[at], self.share[at])
-        values = np.linalg.svd(matrix[:, self.kept], compute_uv=False)
+        rows = self.rows[at]
+        values = np.linalg.svd(np.take_along_axis(matrix, rows[..., None], 1), compute_uv=False)
+        anew = spanning_rows(matrix, self.kept, self.held_rows)
+        other = np.linalg.svd(np.take_along_axis(matrix, anew[..., None], 1), compute_uv=False)
+        # rows that do not stand better change nothing: the way ends
+        better = other[:, -1] * values[:, 0] > BETTER * values[:, -1] * other[:, 0]
+        self.rows[at[better]] = anew[better]
+        self.stride[at[better]] = np.minimum(RESTART, 1.0 - self.share[at[better]])
+        at, values = at[~better], values[~better]
         singular = values[:, -1] <= SINGULAR * values[:, 0]
         tool = bool(self._tool_directions)
         self._end(at[singular], REACH if tool else PARALLEL)
