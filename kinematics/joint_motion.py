@@ -225,6 +225,18 @@ class JointMotion:
                 open_[:, j, 3 + d] = -turn[:, (d + 1) % 3, (d + 2) % 3]
         return np.where(self.held, open_, 0.0)
 
+    def reversed(self, bodies: BodyPoses) -> Mask:
+        """Whether a joint with one free rotation has its axis turned round, (p).
+
+        Its held directions close then too, and no pin goes in so.
+        """
+        first, second = self._frames(bodies)
+        found = np.zeros(len(bodies.position), dtype=bool)
+        for j in np.flatnonzero(self._turning == 1):
+            e = int(np.flatnonzero(~self._locks[j])[0])
+            found |= np.einsum("pi,pi->p", first[:, j, :, e], second[:, j, :, e]) < 0.0
+        return found
+
     def coordinates(self, bodies: BodyPoses, gaps: Array) -> Array:
         """Joint coordinates, m and rad, zero at home and in held directions, (p, j, 6).
 

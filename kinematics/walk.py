@@ -70,7 +70,7 @@ class Walk:
         # rows come joint by joint: where each of ours stands among them
         rank = np.cumsum(self.select.ravel()) - 1
         self.order = rank[6 * self.joint + self.direction]
-        _, matrix = self._system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
+        _, matrix = self.system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
         self.kept, self.independent = independent_rows(matrix[0], len(held))
         self.held_rows = len(held)
         # of each pose: rows that are independent at home may depend on each other elsewhere
@@ -120,7 +120,7 @@ class Walk:
         before = np.full(at.size, np.inf)
         first: Array | None = None
         for _ in range(CORRECTIONS):
-            left, matrix = self._system(at[going], bodies[going], share[going])
+            left, matrix = self.system(at[going], bodies[going], share[going])
             rows = self.rows[at[going]]
             matrix = np.take_along_axis(matrix, rows[..., None], axis=1)
             open_ = np.take_along_axis(left, rows, axis=1)
@@ -146,7 +146,7 @@ class Walk:
             bodies.rotation[going] = rotation_matrix(blocks[..., 3:]) @ bodies.rotation[going]
         return bodies, good, error
 
-    def _system(self, at: Indices, bodies: BodyPoses, share: Array) -> tuple[Array, Array]:
+    def system(self, at: Indices, bodies: BodyPoses, share: Array) -> tuple[Array, Array]:
         """What is open, lengths over L, and its rates by (v / L, ω), (k, r) and (k, r, 6b)."""
         positions, frames, gaps = self.joints.place(bodies)
         placement = Placement(positions, frames, np.zeros((len(positions), 0)))
@@ -216,7 +216,7 @@ class Walk:
 
     def _give_up(self, at: Indices) -> None:
         """End poses whose steps have become too short, with the reason."""
-        _, matrix = self._system(at, self.bodies[at], self.share[at])
+        _, matrix = self.system(at, self.bodies[at], self.share[at])
         rows = self.rows[at]
         values = np.linalg.svd(np.take_along_axis(matrix, rows[..., None], 1), compute_uv=False)
         anew = spanning_rows(matrix, self.kept, self.held_rows)

@@ -9,6 +9,7 @@ from typing import Any
 from strutwork.names import visible
 from strutwork.reports.chapters import (
     accuracy,
+    assembly_modes,
     dynamics,
     motion,
     reversals,
@@ -108,6 +109,7 @@ CHAPTERS: tuple[Offered, ...] = (
     _module(motion),
     _module(workspace_size),
     _module(singularities),
+    _module(assembly_modes),
     _module(reversals),
     Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
     Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),

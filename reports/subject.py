@@ -27,6 +27,7 @@ from strutwork.reports.model_solution import ModelSolution, solve_model
 from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
+from strutwork.studies.machine_modes import MachineModes, machine_modes
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.reversal_study import ReversalStudy, reversal_study
 from strutwork.studies.standard_motion import StandardMotion, standard_motion
@@ -242,6 +243,16 @@ class Subject:
         step = np.array([axis[1] - axis[0] for axis in axes.values()])
         margin = MachineMargin(self.model, tuple(axes), step)
         return workspace(margin, axes, progress=self._told("size of the workspace"))
+
+    @cached_property
+    def unassembled(self) -> str:
+        """Why nothing is said of assembly modes; empty where something is."""
+        return self._reason(lambda: self.modes)
+
+    @cached_property
+    def modes(self) -> MachineModes:
+        """Its assembly modes at home."""
+        return machine_modes(self.model)
 
     @cached_property
     def undynamic(self) -> str:

@@ -10,13 +10,16 @@ import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.files import write_text
+from strutwork.kinematics import Poses
+from strutwork.kinematics.branches import Branches
+from strutwork.kinematics.branches import branches as working_modes
 from strutwork.kinematics.motion import Moved
 from strutwork.machines.limits import check_limits, joint_limits
 from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import walked
 from strutwork.names import visible
-from strutwork.reports.cli.output import console, print_json, print_table
+from strutwork.reports.cli.output import console, print_json, print_table, table
 from strutwork.reports.cli.subject import where
 from strutwork.reports.motion_table import (
     Coordinate,
@@ -24,6 +27,7 @@ from strutwork.reports.motion_table import (
     moved_csv,
     read_targets,
 )
+from strutwork.studies.machine_modes import STARTS, machine_modes
 
 
 def run(
@@ -33,6 +37,7 @@ def run(
     targets: str | None,
     out: str | None,
     *,
+    branches: bool,
     json: bool,
 ) -> None:
     """Move, and print where everything stands."""
@@ -43,7 +48,9 @@ def run(
     if targets is not None:
         wanted |= read_targets(Path(targets))
     model = load(name)
-    _print(model, _moved(model, wanted), out, json=json)
+    found = _moved(model, wanted)
+    ways = _ways(model, found[0]) if branches else {}
+    _print(model, found, out, ways, json=json)
 
 
 def _moved(model: Model, wanted: dict[Coordinate, Any]) -> tuple[Moved, list[str]]:
@@ -55,7 +62,87 @@ def _moved(model: Model, wanted: dict[Coordinate, Any]) -> tuple[Moved, list[str
     return found, [placed.reason(i) for i in np.ndindex(*placed.batch)]
 
 
-def _print(model: Model, result: tuple[Moved, list[str]], out: str | None, *, json: bool) -> None:
+def _ways(model: Model, found: Moved) -> dict[str, Any]:
+    """Other ways to put the machine together where it stands, mm and deg.
+
+    Raises
+    ------
+    ModelError
+        Several targets, or one that was not reached.
+    """
+    if found.reached.size != 1 or not found.reached.all():
+        raise ModelError(
+            "--branches",
+            "needs one target that is reached.",
+            "Give one pose, or joint coordinates, and leave --targets out.",
+        )
+    placement = found.placement if not found.placement.batch else found.placement[0]
+    modes = machine_modes(model, placement)
+    assert found.tool is not None  # noqa: S101 - asked by `machine_modes`
+    pose = Poses(found.tool.position.reshape(3), found.tool.rotation.reshape(3, 3))
+    working = working_modes(model.motion, tool=pose, starts=STARTS)
+    task = model.motion.task_of(modes.tool)
+    return {
+        "assembly_modes": task.tolist(),
+        "every": modes.every,
+        "working_modes": [
+            {
+                f"{joint}:{d}": float(value)
+                for (joint, d), value in zip(model.motion.joints.names, row, strict=True)
+                if (joint, d) in model.structure.linkage.driven
+            }
+            for row in _coordinates(model, working)
+        ],
+    }
+
+
+def _coordinates(model: Model, found: Branches) -> Any:
+    """Joint coordinates of ways, (m, c)."""
+    joints = model.motion.joints
+    _, _, gaps = joints.place(found.bodies)
+    return joints.coordinates(found.bodies, gaps)[:, ~joints.held] + model.motion.home_values
+
+
+def _print_ways(ways: dict[str, Any]) -> None:
+    screen = console()
+    rows = [
+        (k + 1, *(1e3 * v for v in row[:3]), *np.degrees(row[3:]).tolist())
+        for k, row in enumerate(ways["assembly_modes"])
+    ]
+    heads = ["mode", "x, mm", "y, mm", "z, mm", "rx, deg", "ry, deg", "rz, deg"]
+    which = "all" if ways["every"] else "found from several starts; there may be others"
+    screen.print(
+        table(f"Assembly modes at these drives, the first where it stands: {which}", heads, rows)
+    )
+    drives = ways["working_modes"]
+    if drives and drives[0]:
+        names = list(drives[0])
+        turns = [n.rpartition(":")[2].startswith("r") for n in names]
+        rows = [
+            (
+                k + 1,
+                *(
+                    float(np.degrees(v)) if t else 1e3 * v
+                    for v, t in zip(way.values(), turns, strict=True)
+                ),
+            )
+            for k, way in enumerate(drives)
+        ]
+        heads = [
+            "mode",
+            *(f"{n}, {'deg' if t else 'mm'}" for n, t in zip(names, turns, strict=True)),
+        ]
+        screen.print(table("Working modes at this pose, found from several starts", heads, rows))
+
+
+def _print(
+    model: Model,
+    result: tuple[Moved, list[str]],
+    out: str | None,
+    ways: dict[str, Any],
+    *,
+    json: bool,
+) -> None:
     moved, reasons = result
     columns = moved_columns(model.motion, moved)
     if out is not None:
@@ -69,6 +156,7 @@ def _print(model: Model, result: tuple[Moved, list[str]], out: str | None, *, js
                 "share": np.atleast_1d(moved.share).tolist(),
                 "columns": {k: v.tolist() for k, v in columns.items()},
             }
+            | ways
             | ({"data": [out]} if out is not None else {})
         )
         return
@@ -87,5 +175,7 @@ def _print(model: Model, result: tuple[Moved, list[str]], out: str | None, *, js
             markup=False,
             soft_wrap=True,
         )
+    if ways:
+        _print_ways(ways)
     if out is not None:
         screen.print(f"Written: {visible(out)}", markup=False, soft_wrap=True)

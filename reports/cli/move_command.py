@@ -21,9 +21,17 @@ def move(
         str | None,
         typer.Option("--out", "-o", metavar="CSV", help="Write all coordinates there."),
     ] = None,
+    branches: Annotated[
+        bool,
+        typer.Option(
+            "--branches",
+            help="Also list the other ways to put the machine together: assembly modes at the "
+            "drives reached, working modes at the pose.",
+        ),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Move a machine: from poses of the tool to joint coordinates, and back."""
     from strutwork.reports.cli import move as work
 
-    work.run(target, pose or (), joint or (), targets, out, json=json)
+    work.run(target, pose or (), joint or (), targets, out, branches=branches, json=json)

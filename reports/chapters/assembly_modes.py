@@ -1,0 +1,180 @@
+"""Other ways in which the machine can be put together with its drives where they stand."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.kinematics import DIRECTIONS
+from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Row, Table, Text
+from strutwork.reports.data_files import csv_file
+from strutwork.reports.figures.theme import PALETTE, layout
+from strutwork.reports.numbers import significant
+from strutwork.reports.subject import Subject
+from strutwork.studies.machine_modes import MachineModes
+
+Array = NDArray[Any]
+
+KEY = "assembly-modes"
+TITLE = "In which other ways can it be put together?"
+
+#: Modes that are drawn.
+DRAWN = 16
+
+
+def missing(subject: Subject) -> str:
+    """Why there is nothing to say; empty where there is."""
+    if subject.model.tool is None:
+        return "it has no tool: add [tool] with tcp"
+    if not subject.model.structure.linkage.driven:
+        return "it has no drives: name driven directions of joints"
+    return subject.unassembled
+
+
+def write(subject: Subject) -> Chapter:
+    """All modes at home, each with where it puts the tool, and drawn."""
+    modes = subject.modes
+    task = subject.model.motion.task_of(modes.tool)
+    blocks: list[Block] = [Text(_text(modes)), Facts(tuple(_facts(modes)))]
+    if len(modes) > 1:
+        blocks += [_figures(modes), _table(task)]
+    file = csv_file(
+        "assembly-modes.csv",
+        "place of the tool, m, and its rotation vector from home, rad, in every assembly mode",
+        ["mode", *(f"{d}_{'rad' if d.startswith('r') else 'm'}" for d in DIRECTIONS)],
+        [[k + 1, *row] for k, row in enumerate(task.tolist())],
+    )
+    return Chapter(KEY, TITLE, tuple(blocks), (file,))
+
+
+def _text(modes: MachineModes) -> str:
+    text = (
+        "With its drives held at home the joints allow these poses of the tool; the first is the "
+        "machine's own. Without taking it apart, it comes from one to another only through a "
+        "singularity (type 2). "
+    )
+    if modes.every:
+        text += (
+            "The platform's three balls each run on a circle then, and an elimination finds all "
+            f"{modes.ways} ways to put them at their distances; those with real angles are poses."
+        )
+    else:
+        text += (
+            f"They were found from {modes.starts} starts, of which {modes.ways} closed: there may "
+            "be others."
+        )
+    if modes.moves:
+        text += " Bodies can move on where the drives are held: a way stands for a family."
+    return text + " Whether links or bodies would collide is not looked at."
+
+
+def _facts(modes: MachineModes) -> list[Fact]:
+    facts = [
+        Fact(
+            "Assembly modes",
+            f"{len(modes)}",
+            "",
+            "all there are" if modes.every else "found; there may be others",
+        )
+    ]
+    if np.isfinite(modes.apart):
+        facts.append(
+            Fact(
+                "Nearest other mode",
+                significant(degrees(modes.apart)),
+                "deg",
+                "largest turn of a leg about its hinge from home to there",
+            )
+        )
+    return facts
+
+
+def _table(task: Array) -> Table:
+    factors = np.array([1e3] * 3 + [degrees(1.0)] * 3)
+    rows = []
+    for k, row in enumerate(task):
+        name = "1, the machine's own" if k == 0 else f"{k + 1}"
+        rows.append([name, *(significant(round(float(v), 6) + 0.0, 4) for v in row * factors)])
+    columns = (
+        Column("mode", "", False),
+        *(Column(d, "deg" if d.startswith("r") else "mm") for d in DIRECTIONS),
+    )
+    return Table(
+        "The tool in every mode: its place, and its rotation vector from home",
+        columns,
+        rows,
+        "assembly-modes.csv",
+    )
+
+
+#: A view that tells the three axes apart: right, up.
+_VIEW = np.array([[0.77, 0.64, 0.0], [-0.26, 0.31, 0.91]])
+
+
+def _figures(modes: MachineModes) -> Row:
+    every = 1e3 * np.concatenate([line for lines in modes.lines for line in lines]) @ _VIEW.T
+    middle = 0.5 * (every.max(axis=0) + every.min(axis=0))
+    half = 0.55 * float(np.ptp(every, axis=0).max())
+    return Row(
+        tuple(
+            Figure(
+                f"assembly-mode-{k + 1}",
+                f"Mode {k + 1}{', the machine as it is' if k == 0 else ''}.",
+                _sketch(lines, modes.tool.position[k], middle, half, k == 0),
+                f"Lines of the bodies in assembly mode {k + 1}, seen from aside.",
+                "",
+                210,
+            )
+            for k, lines in enumerate(modes.lines[:DRAWN])
+        ),
+        width=200,
+    )
+
+
+def _sketch(
+    lines: tuple[Array, ...], tool: Array, middle: Array, half: float, own: bool
+) -> dict[str, Any]:
+    """Lines seen from aside: of many modes, pictures that turn would be too much for a browser."""
+    traces: list[dict[str, Any]] = []
+    for line in lines:
+        x, y = (1e3 * line @ _VIEW.T).T
+        traces.append(
+            {
+                "type": "scatter",
+                "mode": "lines",
+                "line": {"color": PALETTE[1] if own else PALETTE[0], "width": 3},
+                "hoverinfo": "skip",
+                "showlegend": False,
+                "x": np.round(x, 3).tolist(),
+                "y": np.round(y, 3).tolist(),
+            }
+        )
+    x, y = 1e3 * _VIEW @ tool
+    named = zip("xyz", tool, strict=True)
+    place = ", ".join(f"{axis} {significant(1e3 * float(v))}" for axis, v in named)
+    traces.append(
+        {
+            "type": "scatter",
+            "mode": "markers",
+            "marker": {"size": 8, "color": "#1b2430"},
+            "hovertemplate": f"tool: {place} mm<extra></extra>",
+            "showlegend": False,
+            "x": [round(float(x), 3)],
+            "y": [round(float(y), 3)],
+        }
+    )
+    axes = [
+        {
+            "range": [float(middle[k] - half), float(middle[k] + half)],
+            "visible": False,
+            **({"scaleanchor": "x"} if k else {}),
+        }
+        for k in (0, 1)
+    ]
+    return {
+        "data": traces,
+        "layout": layout(margin={"l": 0, "r": 0, "t": 0, "b": 0}, xaxis=axes[0], yaxis=axes[1]),
+    }
