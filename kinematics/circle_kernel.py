@@ -19,7 +19,9 @@ ROOTS, SAMPLES, DEGREE = 16, 32, 8
 POLISH = 12
 #: Correction, rad, at which a way is polished; size of what is left then, of the largest term.
 SMALL, LEFT = 1e-13, 1e-11
-#: What the distance 23 may leave for a third and fourth pair to be tried.
+#: The same where corrections square.
+QUICK = 1e-7
+#: What the distance 23 may leave for another pair to be tried.
 NEAR = 1e-2
 #: Two ways that differ by less, rad, are one.
 SAME = 1e-6
@@ -56,10 +58,16 @@ def _terms(centre, first, second, radius, distance, i, j, out):  # type: ignore[
 
 
 @jit()
+def _turns(z):  # type: ignore[no-untyped-def]
+    """Cosine and sine of the angle of z = exp(iφ)."""
+    back = np.conj(z) * (1.0 / (z.real * z.real + z.imag * z.imag))
+    return 0.5 * (z + back), -0.5j * (z - back)
+
+
+@jit()
 def _quadratic(t, z):  # type: ignore[no-untyped-def]
     """A, B, C of a distance in the second point's w, the first at z."""
-    c = 0.5 * (z + 1.0 / z)
-    s = -0.5j * (z - 1.0 / z)
+    c, s = _turns(z)
     e0 = t[3] + t[5] * c + t[7] * s
     e1 = t[4] + t[6] * c + t[8] * s
     b = t[0] + t[1] * c + t[2] * s
@@ -81,8 +89,8 @@ def _pair(a, b, c):  # type: ignore[no-untyped-def]
 @jit()
 def _value(t, z, w):  # type: ignore[no-untyped-def]
     """What a distance leaves, the points at z and w."""
-    c, s = 0.5 * (z + 1.0 / z), -0.5j * (z - 1.0 / z)
-    u, v = 0.5 * (w + 1.0 / w), -0.5j * (w - 1.0 / w)
+    c, s = _turns(z)
+    u, v = _turns(w)
     return (
         t[0]
         + t[1] * c
@@ -95,8 +103,8 @@ def _value(t, z, w):  # type: ignore[no-untyped-def]
 @jit()
 def _slopes(t, z, w):  # type: ignore[no-untyped-def]
     """Value, and its derivatives by the two angles."""
-    c, s = 0.5 * (z + 1.0 / z), -0.5j * (z - 1.0 / z)
-    u, v = 0.5 * (w + 1.0 / w), -0.5j * (w - 1.0 / w)
+    c, s = _turns(z)
+    u, v = _turns(w)
     e0, e1 = t[3] + t[5] * c + t[7] * s, t[4] + t[6] * c + t[8] * s
     f0, f1 = t[1] + t[5] * u + t[6] * v, t[2] + t[7] * u + t[8] * v
     value = t[0] + t[1] * c + t[2] * s + e0 * u + e1 * v
@@ -137,7 +145,7 @@ def _laurent(terms, turns, out):  # type: ignore[no-untyped-def]
 @jit()
 def _polished(terms, way):  # type: ignore[no-untyped-def]
     """Newton's method on the three angles, complex; what is left of the largest term."""
-    left = np.inf
+    left = before = np.inf
     for _ in range(POLISH):
         p, pz, pw, ps = _slopes(terms[0], way[0], way[1])
         q, qz, qv, qs = _slopes(terms[1], way[0], way[2])
@@ -158,8 +166,10 @@ def _polished(terms, way):  # type: ignore[no-untyped-def]
         way[0] *= np.exp(-1j * cut * d0)
         way[1] *= np.exp(-1j * cut * d1)
         way[2] *= np.exp(-1j * cut * d2)
-        if size <= SMALL:
-            break
+        # corrections square: what the next one would leave is rounding
+        if size <= SMALL or (size <= QUICK and size <= 1e-2 * before):
+            return 0.0
+        before = size
     return left
 
 
@@ -184,10 +194,14 @@ def _gaps(terms, z, pairs, gaps):  # type: ignore[no-untyped-def]
 def _known(way, some, found):  # type: ignore[no-untyped-def]
     """Whether a way is among those found."""
     for other in range(found):
-        apart = 0.0
+        same = True
         for c in range(3):
-            apart = max(apart, abs(way[c] / some[other, c] - 1.0))
-        if apart <= SAME:
+            gap, size = way[c] - some[other, c], some[other, c]
+            square = gap.real * gap.real + gap.imag * gap.imag
+            if square > SAME * SAME * (size.real * size.real + size.imag * size.imag):
+                same = False
+                break
+        if same:
             return True
     return False
 
@@ -202,11 +216,11 @@ def _all_ways(terms, roots, some):  # type: ignore[no-untyped-def]
         if z == 0.0 or not np.isfinite(z.real + z.imag):
             continue
         _gaps(terms, z, pairs, gaps)
-        # two pairs: where one machine is its mirror image the least alone misses ways; more
-        # where several ways have one angle, as in a machine of equal legs at home
+        # several ways may have one angle, as in a machine that is its own mirror image, or of
+        # equal legs at home: every pair that nearly fits, and the best one
         for attempt in range(4):
             m = int(np.argmin(gaps))
-            if gaps[m] == np.inf or (attempt >= 2 and gaps[m] > NEAR):
+            if gaps[m] == np.inf or (attempt > 0 and gaps[m] > NEAR):
                 break
             gaps[m] = np.inf
             way[0], way[1], way[2] = z, pairs[m, 0], pairs[m, 1]

@@ -87,7 +87,8 @@ def all_roots(poly, roots):  # type: ignore[no-untyped-def]
             for m in range(n):
                 if m != k:
                     gap = x - roots[m]
-                    others += 1.0 / gap if gap != 0.0 else 1e300 + 0j
+                    size = gap.real * gap.real + gap.imag * gap.imag
+                    others += np.conj(gap) * (1.0 / size) if size > 0.0 else 1e300 + 0j
             step = 1.0 / (ratio - others)
             finite = np.isfinite(step.real + step.imag)
             if finite:
