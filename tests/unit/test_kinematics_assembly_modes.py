@@ -124,7 +124,8 @@ def test_the_start_is_among_them(name: str) -> None:
     )
     ways, real, _, _ = ways_of(np.ascontiguousarray(np.concatenate(rows, axis=1)))
     apart = np.abs(ways / np.exp(1j * start)[:, None] - 1).max(axis=-1)
-    assert np.nanmin(apart, axis=1).max() < 1e-8
+    # rounding times the condition of the nearest singular pose; 3e-14 is usual
+    assert np.nanmin(apart, axis=1).max() < 1e-12
     assert real.min() >= 2
 
 
