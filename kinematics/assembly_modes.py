@@ -18,6 +18,10 @@ from strutwork.kinematics.platform_circles import PlatformCircles, platform_circ
 
 Array = NDArray[Any]
 
+#: A pose is a mode where its turn, and its shift of the platform's size, differ by less: what two
+#: tolerant iterations leave, and far less than what parts two modes.
+SAME = 1e-6
+
 
 @dataclass(frozen=True)
 class AssemblyModes:
@@ -79,6 +83,29 @@ class AssemblyModes:
         """The tool in all modes of one pose of the batch, (m)."""
         count = int(self.real[index])
         return Poses(self.position[index][:count], self.rotation[index][:count])
+
+    def which(self, tool: Poses) -> NDArray[np.intp]:
+        """Say in which mode the tool stands, for a pose of each of the batch, (...).
+
+        Parameters
+        ----------
+        tool : Poses
+            (...); as forward kinematics has found it at the same drives.
+
+        Returns
+        -------
+        (...) of int
+            Index among the real modes; −1 where the tool stands in none of them, so that its
+            drives are not those of the modes, or where it is not a number.
+        """
+        shift = np.linalg.norm(self.position - tool.position[..., None, :], axis=-1)
+        size = self.circles.distances.max(axis=-1)
+        turn = np.linalg.norm(self.rotation - tool.rotation[..., None, :, :], axis=(-1, -2))
+        apart = shift / size[..., None] + turn
+        apart = np.where(np.isfinite(apart), apart, np.inf)
+        near = apart.argmin(axis=-1)
+        close = np.take_along_axis(apart, near[..., None], axis=-1)[..., 0] < SAME
+        return np.asarray(np.where(close, near, -1))
 
 
 def assembly_modes(
