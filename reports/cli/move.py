@@ -106,7 +106,8 @@ def _coordinates(model: Model, found: Branches) -> Any:
 def _print_ways(ways: dict[str, Any]) -> None:
     screen = console()
     rows = [
-        (k + 1, *(1e3 * v for v in row[:3]), *np.degrees(row[3:]).tolist())
+        # what is left of rounding, mm and deg, is no place
+        (k + 1, *(np.round([*(1e3 * v for v in row[:3]), *np.degrees(row[3:])], 6) + 0.0).tolist())
         for k, row in enumerate(ways["assembly_modes"])
     ]
     heads = ["mode", "x, mm", "y, mm", "z, mm", "rx, deg", "ry, deg", "rz, deg"]
