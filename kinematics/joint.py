@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
-from math import isfinite
+from math import isfinite, pi
 from types import MappingProxyType
 
 import numpy as np
@@ -22,6 +22,7 @@ JOINT_TYPES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         "revolute": ("x", "y", "z", "rx", "ry"),
         "prismatic": ("x", "y", "rx", "ry", "rz"),
         "cylindrical": ("x", "y", "rx", "ry"),
+        "helical": ("x", "y", "z", "rx", "ry"),
         "universal": ("x", "y", "z", "ry"),
         "spherical": ("x", "y", "z"),
         "planar": ("z", "rx", "ry"),
@@ -65,6 +66,9 @@ class Joint:
         A bushing's full symmetric stiffness in joint axes.
     locks : tuple of directions
         Locked directions in addition to those of the type.
+    pitch : float or None
+        Of a helical joint: along its axis for one right-handed turn, m; negative for a left-hand
+        thread. Its row z holds the way along the axis to that of its turn, and rz is free.
 
     Raises
     ------
@@ -82,6 +86,7 @@ class Joint:
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     matrix: tuple[tuple[float, ...], ...] | None = None
     locks: tuple[str, ...] = ()
+    pitch: float | None = None
 
     def __post_init__(self) -> None:
         part = f"joint {self.name}"
@@ -135,7 +140,35 @@ class Joint:
                 "a bushing without matrix or stiffness or damping.",
                 "Give it a matrix or a stiffness; damping alone makes it a dashpot.",
             )
+        self._check_pitch(part)
         self._check_driven(part)
+
+    @property
+    def lead(self) -> float:
+        """Along the axis for one radian, m; 0 of joints that are not helical."""
+        return 0.0 if self.pitch is None else self.pitch / (2.0 * pi)
+
+    def _check_pitch(self, part: str) -> None:
+        if self.type != "helical":
+            if self.pitch is not None:
+                raise ModelError(
+                    part, f"is {self.type} and has a pitch.", 'Use type = "helical", or drop it.'
+                )
+            return
+        if self.pitch is None or not isfinite(self.pitch) or self.pitch == 0.0:
+            raise ModelError(
+                part,
+                f"is helical with the pitch {self.pitch!r}.",
+                "Give its way along the axis for one turn, m, not zero; negative for a left-hand "
+                "thread.",
+            )
+        tied = [d for d in ("z",) if d in (*self.stiffness, *self.damping, *self.limits)]
+        if tied or "z" in self.driven or "rz" in self.locks:
+            raise ModelError(
+                part,
+                "is helical: z follows rz and takes no stiffness, damping, limit or drive.",
+                "Name rz, which is free; put the nut's stiffness into a bushing beside it.",
+            )
 
     def _check_driven(self, part: str) -> None:
         held = {*JOINT_TYPES[self.type], *self.locks} - set(self.stiffness)

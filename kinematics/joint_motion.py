@@ -117,7 +117,8 @@ class JointMotion:
     @cached_property
     def sliding(self) -> Mask:
         """Joints with a free translation: their first node follows the second, (j,)."""
-        return np.asarray(~self.held[:, :3].all(axis=1))
+        screws = np.array([joint.lead != 0.0 for joint in self.linkage.joints], dtype=bool)
+        return np.asarray(~self.held[:, :3].all(axis=1) | screws)
 
     @cached_property
     def _references(self) -> Array:
@@ -204,8 +205,12 @@ class JointMotion:
         # the ground is −1, the last
         return tuple(turns[:, owner[:, k]] @ self.home.frames for k in (0, 1))
 
-    def residuals(self, bodies: BodyPoses, gaps: Array) -> Array:
-        """What the held directions leave open, m and rad, zero in the others, (p, j, 6)."""
+    def residuals(self, bodies: BodyPoses, gaps: Array, near: Array | None = None) -> Array:
+        """What the held directions leave open, m and rad, zero in the others, (p, j, 6).
+
+        `near`, (p, c) in the order of `names`, says from which coordinates the turns of screws
+        count on; without it they lie within half a turn of home.
+        """
         first, second = self._frames(bodies)
         relative = np.swapaxes(first, -1, -2) @ second
         open_ = np.zeros((len(gaps), len(self.held), 6))
@@ -223,6 +228,13 @@ class JointMotion:
             elif locks.any():
                 (d,) = np.flatnonzero(locks)
                 open_[:, j, 3 + d] = -turn[:, (d + 1) % 3, (d + 2) % 3]
+            lead = self.linkage.joints[j].lead
+            if lead:
+                angle = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
+                if near is not None:
+                    before = near[:, self.names.index((self.linkage.joints[j].name, "rz"))]
+                    angle = before + np.angle(np.exp(1j * (angle - before)))
+                open_[:, j, 2] -= lead * angle
         return np.where(self.held, open_, 0.0)
 
     def reversed(self, bodies: BodyPoses) -> Mask:

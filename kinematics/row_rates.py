@@ -49,6 +49,8 @@ def row_rates(rows: ConstraintRows, references: Array, twists: Array) -> Array:
     shift = rows.direction < 3
     axis = np.where(shift[:, None], rows.axes[..., :3], rows.axes[..., 3:])
     change = _axis_rates(rows, axis, spin)
+    lead = np.array([linkage.joints[j].lead for j in rows.joint])
+    lead = np.where(rows.direction == 2, lead, 0.0)
     result = np.zeros((count, len(rows), bodies, 6))
     apart = owner[:, 0] != owner[:, 1]
     for side, sign in enumerate((-1.0, 1.0)):
@@ -58,6 +60,9 @@ def row_rates(rows: ConstraintRows, references: Array, twists: Array) -> Array:
         result[:, r, owner[r, side], 3:] = cross(arm_rate[side][:, r], e) + cross(
             arm[side][:, r], rate
         )
+        # of a screw its turn too, about the same axis
+        r = np.flatnonzero(apart & (owner[:, side] >= 0) & shift & (lead != 0.0))
+        result[:, r, owner[r, side], 3:] -= sign * lead[r, None] * change[:, r]
         r = np.flatnonzero(apart & (owner[:, side] >= 0) & ~shift)
         result[:, r, owner[r, side], 3:] = sign * change[:, r]
     return result.reshape(count, len(rows), 6 * bodies)

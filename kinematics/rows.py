@@ -38,7 +38,8 @@ class ConstraintRows:
     direction : (r,)
         Index into `DIRECTIONS`.
     axes : (..., r, 6)
-        The direction e in global axes, translation then rotation: (a, 0) or (0, a).
+        The direction e in global axes, translation then rotation: (a, 0) or (0, a), of a screw
+        along its axis (a, −h a), h its lead for one radian.
     """
 
     linkage: Linkage
@@ -126,6 +127,9 @@ def constraint_rows(
     axes = np.zeros((*placement.batch, len(joint), 6), dtype=frames.dtype)
     for r, (j, d) in enumerate(zip(joint, direction, strict=True)):
         axes[..., r, 3 * (d // 3) : 3 * (d // 3) + 3] = frames[..., j, :, d % 3]
+        if d == 2 and linkage.joints[j].lead:
+            # a screw: along the axis less what its turn makes of it
+            axes[..., r, 3:] = -linkage.joints[j].lead * frames[..., j, :, 2]
     return ConstraintRows(linkage, placement, joint, direction, axes)
 
 

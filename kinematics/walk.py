@@ -153,7 +153,8 @@ class Walk:
         matrix = constraint_rows(self.joints.linkage, placement, self.select).on_bodies(
             bodies.position
         )[:, self.order]
-        open_ = self.joints.residuals(bodies, gaps)[:, self.joint, self.direction]
+        residuals = self.joints.residuals(bodies, gaps, self.coordinates[at])
+        open_ = residuals[:, self.joint, self.direction]
         m = len(self.given.joint)
         if m:
             target = share[:, None] * self.given.values[at]

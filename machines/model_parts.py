@@ -160,6 +160,7 @@ def joint_of(table: JointTable) -> Joint:
         driven=table.driven,
         limits=_limits(table),
         matrix=table.matrix,
+        pitch=table.pitch,
     )
 
 

@@ -203,6 +203,7 @@ class JointTable(Table):
         "revolute",
         "prismatic",
         "cylindrical",
+        "helical",
         "universal",
         "spherical",
         "planar",
@@ -216,6 +217,7 @@ class JointTable(Table):
     driven: tuple[Direction, ...] = ()
     limits: LimitsTable = LimitsTable()
     matrix: Annotated[Matrix | None, BeforeValidator(_empty_is_absent)] = None
+    pitch: Length | None = None
 
 
 class SpringTable(Table):

@@ -93,7 +93,8 @@ def spanning_forest(structure: Structure) -> Forest:
         first, second = ends[j]
         if locked[j] == 0:
             continue
-        if root(first) == root(second):
+        if root(first) == root(second) or linkage.joints[j].lead:
+            # a screw moves along and about its axis at once, which is no direction of its frame
             closing.append(j)
             continue
         piece[root(second) + 1] = root(first)

@@ -48,6 +48,9 @@ def compile_program(system: System) -> Program | None:
     linkage = structure.linkage
     if linkage.tool is None or structure.elements or forest.count == 0:
         return None
+    if any(joint.lead for joint in linkage.joints):
+        # a screw's row is along and about its axis at once, the kernel's are one or the other
+        return None
     coordinates, of_vertex = _coordinates(topology)
     tool_node = structure.mesh_index[linkage.tool]
     moves = of_vertex.get(int(structure.vertex_of_node[tool_node]), [])

@@ -319,6 +319,10 @@ def _joints(
     forces = np.zeros((system.poses, len(linkage.joints), 6, m), dtype=displacements.dtype)
     joint, direction = system.row_owner
     forces[:, joint, direction] = -unknowns.multipliers
+    for j, part in enumerate(linkage.joints):
+        if part.lead:
+            # the flank that pushes along the axis turns about it
+            forces[:, j, 5] -= part.lead * forces[:, j, 2]
     energy = np.zeros((system.poses, m), dtype=displacements.dtype)
     index = linkage.node_index
     for j in system.topology.elastic_joints:

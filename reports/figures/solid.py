@@ -36,6 +36,7 @@ JOINT_STYLES: Mapping[str, JointStyle] = MappingProxyType(
         "spherical": JointStyle("spherical joint", "#009e73", "ball"),
         "universal": JointStyle("universal joint", "#b0508a", "ball"),
         "cylindrical": JointStyle("cylindrical joint", "#b37b00", "pin"),
+        "helical": JointStyle("helical joint", "#7a4b00", "pin"),
         "planar": JointStyle("planar joint", "#7a5cc0", "block"),
         "bushing": JointStyle("bushing", "#8c6d1f", "ball"),
         "fixed": JointStyle("fixed joint", "#444444", "block"),
