@@ -22,8 +22,14 @@ GAP = dict(zip(DIRECTIONS, (1e-4, -2e-4, 3e-4, 1e-3, 2e-3, -4e-3), strict=True))
 SOLVED = 1e-9
 
 
+#: Of a steep screw, m.
+PITCH = 0.25
+
+
 def in_line(kind: str, turn: np.ndarray | None = None, **options: Any) -> Model:
     """One cantilever along +x, one along −x; joint axes are the global ones, then all turned."""
+    if kind == "helical":
+        options |= {"pitch": PITCH}
     model = Model("t1")
     model.nodes(r1=(0, 0, 0), t1=(0.5, 0, 0), r2=(0.9, 0, 0))
     model.joint("J", kind, ("t1", "t2"), **options)
@@ -42,8 +48,12 @@ def tip_compliances() -> tuple[np.ndarray, np.ndarray]:
     return first, back @ cantilever_compliance(beams[1], 0.4) @ back
 
 
-def locked(kind: str) -> list[int]:
-    return [DIRECTIONS.index(d) for d in JOINT_TYPES[kind]]
+def held_rows(kind: str) -> np.ndarray:
+    """E, a row for each locked direction; of a screw z less what its turn makes of it."""
+    rows = np.eye(6)[[DIRECTIONS.index(d) for d in JOINT_TYPES[kind]]]
+    if kind == "helical":
+        rows[2, 5] = -PITCH / (2 * np.pi)
+    return rows
 
 
 @pytest.mark.parametrize("turn", [None, Rotation.from_rotvec([1.0, -0.5, 0.3]).as_matrix()])
@@ -52,15 +62,13 @@ def test_force_of_a_misfit(kind: str, turn: np.ndarray | None) -> None:
     gaps = {("J", d): GAP[d] for d in JOINT_TYPES[kind]}
     found = solve(in_line(kind, turn).place(), [LoadCase("gap", gaps=gaps)])
     c1, c2 = tip_compliances()
-    rows = locked(kind)
-    expected = np.zeros(6)
-    expected[rows] = np.linalg.solve(
-        (c1 + c2)[np.ix_(rows, rows)], [GAP[d] for d in JOINT_TYPES[kind]]
-    )
+    rows, gap = held_rows(kind), np.array([GAP[d] for d in JOINT_TYPES[kind]])
+    multipliers = np.linalg.solve(rows @ (c1 + c2) @ rows.T, gap)
+    expected = rows.T @ multipliers
     force = found.joint_force("J", "gap")
     np.testing.assert_allclose(force, expected, rtol=SOLVED, atol=SOLVED * np.abs(expected).max())
     # no energy but that of the forced fit: half force times gap
-    work = 0.5 * expected @ [GAP[d] for d in DIRECTIONS]
+    work = 0.5 * multipliers @ gap
     assert found.strain_energy[0] == pytest.approx(work, rel=1e-8)
 
 
@@ -69,10 +77,9 @@ def test_share_of_a_load_that_crosses_the_joint(kind: str) -> None:
     load = np.array([100.0, 200.0, -300.0, 4.0, 5.0, -6.0])
     found = solve(in_line(kind).place(), [wrench("push", "t1", *load)])
     c1, c2 = tip_compliances()
-    rows = locked(kind)
+    rows = held_rows(kind)
     # the joint closes the gap that the load opens: E (C₁ + C₂) Eᵀ λ = E C₁ F
-    expected = np.zeros(6)
-    expected[rows] = np.linalg.solve((c1 + c2)[np.ix_(rows, rows)], (c1 @ load)[rows])
+    expected = rows.T @ np.linalg.solve(rows @ (c1 + c2) @ rows.T, rows @ c1 @ load)
     force = found.joint_force("J", "push")
     np.testing.assert_allclose(force, expected, rtol=SOLVED, atol=SOLVED * np.abs(expected).max())
     np.testing.assert_allclose(

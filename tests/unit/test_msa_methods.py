@@ -92,23 +92,28 @@ def test_tool_compliance_is_the_same_by_every_method(name: str) -> None:
     example = LIBRARY[name]()
     structure = placed(example)
     program = program_of(system_of(structure))
-    assert program is not None
-    assert (len(program.loops.joint) > 0) == example.loops
+    # a screw's row is no direction of its frame: the kernel leaves it to the others
+    screws = any(joint.lead for joint in structure.structure.linkage.joints)
+    assert (program is None) == screws
+    methods = ("null_space", "condensed", *(() if screws else ("compiled",)))
+    if program is not None:
+        assert (len(program.loops.joint) > 0) == example.loops
     if not example.held:
-        for method in ("saddle_point", "null_space", "condensed", "compiled"):
+        for method in ("saddle_point", *methods):
             with pytest.raises(MechanismError, match="mechanism under its load"):
                 tool_compliance(structure, method)
         return
     weight = np.repeat([1.0, 1.0 / example.length], 3)
     expected = tool_compliance(structure, "saddle_point") * weight[:, None] * weight
     assert np.linalg.eigvalsh(expected).min() >= -1e-12 * np.abs(expected).max()
-    for method in ("null_space", "condensed", "compiled"):
+    for method in methods:
         found = tool_compliance(structure, method) * weight[:, None] * weight
         assert_close(found, expected)
     # the kernel itself vouches for every pose: none is left to another solver
-    alone, again = compiled_compliance(system_of(structure), program)
-    assert not again.any()
-    assert_close(alone * weight[:, None] * weight, expected.reshape(-1, 6, 6))
+    if program is not None:
+        alone, again = compiled_compliance(system_of(structure), program)
+        assert not again.any()
+        assert_close(alone * weight[:, None] * weight, expected.reshape(-1, 6, 6))
     for pose in np.ndindex(*structure.batch):
         found = tool_compliance(structure[pose], "sparse") * weight[:, None] * weight
         assert_close(found, expected[pose])
