@@ -11,6 +11,8 @@ from strutwork.machines.azulay_dynamic import (
 from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from strutwork.machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
 from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
+from strutwork.machines.eclipse_machine import EclipseMachine
+from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit, check_limits, joint_limits
@@ -37,6 +39,8 @@ __all__ = [
     "CatalogueEntry",
     "DynamicSet",
     "Eclipse3PPRS",
+    "EclipseMachine",
+    "EclipsePrototype",
     "Glozman3PRRS",
     "GridMachine",
     "HexelHexapod",

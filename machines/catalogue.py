@@ -12,10 +12,12 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import Mechanism
 from strutwork.machines.alizade_3prps import Alizade3PRPS
 from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
+from strutwork.machines.eclipse_machine import EclipseMachine
+from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit
-from strutwork.machines.literature import AZULAY_2014, SON_2002, Paper
+from strutwork.machines.literature import AZULAY_2014, KIM_2001, SON_2002, Paper
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
@@ -147,6 +149,24 @@ _ENTRIES = (
         HexelHexapod,
         "strutwork.papers.son_2002.hexapod_page:hexapod_chapters",
         around_home={"x": (0.15, 7), "y": (0.15, 7), "z": (0.1, 3)},
+    ),
+    CatalogueEntry(
+        "eclipse-prototype",
+        "Eclipse prototype, one leg from below",
+        "[P circular] [P vertical] R S, hinges driven or not",
+        KIM_2001,
+        EclipsePrototype,
+        "strutwork.papers.kim_2001.pages:machine_chapters",
+        around_home=_UPRIGHT,
+    ),
+    CatalogueEntry(
+        "eclipse-machine",
+        "Eclipse machine, all columns up",
+        "[P circular] [P vertical] R S, hinges driven or not",
+        KIM_2001,
+        EclipseMachine,
+        "strutwork.papers.kim_2001.pages:machine_chapters",
+        around_home={"x": (0.1, 5), "y": (0.1, 5), "z": (0.05, 3)},
     ),
 )
 

@@ -38,3 +38,11 @@ SON_2002 = Paper(
     "Institute of Technology (2002).",
     "strutwork.papers.son_2002.document_page:document_chapters",
 )
+
+KIM_2001 = Paper(
+    "kim-2001",
+    "J. Kim, F. C. Park, S. J. Ryu, J. Kim, J. C. Hwang, C. Park, C. C. Iurascu: Design and "
+    "analysis of a redundantly actuated parallel mechanism for rapid machining. IEEE Transactions "
+    "on Robotics and Automation 17 (2001).",
+    "strutwork.papers.kim_2001.pages:paper_chapters",
+)

@@ -4,16 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 from typing import cast, get_args
 
 from strutwork.errors import ModelError
 from strutwork.machines.azulay_dynamic import DYNAMIC_SETS, DynamicSet, dynamic_machine
 from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
+from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.three_legs import ThreeLegs
 
 #: Between a machine's name and its variant's.
 MARK = ":"
+
+#: Drives of the machines whose hinges may be driven as well.
+_EXTRA_DRIVES: Mapping[str, str] = MappingProxyType(
+    {
+        "6": "carriages and columns are driven",
+        "7a": "the hinge of leg 1 is driven as well",
+        "7b": "the hinge of leg 2 is driven as well",
+        "8": "the hinges of legs 1 and 2 are driven as well",
+    }
+)
 
 
 @dataclass(frozen=True)
@@ -81,6 +93,13 @@ def variants(name: str) -> Mapping[str, Variant]:
     """
     entry = get(name)
     made = entry.factory()
+    if isinstance(made, EclipsePrototype):
+        return MappingProxyType(
+            {
+                which: Variant(which, words, partial(entry.factory, drives=which))
+                for which, words in _EXTRA_DRIVES.items()
+            }
+        )
     if not isinstance(made, ThreeLegs):
         return MappingProxyType({"own": Variant("own", "its only model", entry.factory)})
     legs: ThreeLegs = made

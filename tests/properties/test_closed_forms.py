@@ -20,6 +20,8 @@ RANGES = {
     "prototype-3ppprs": (4e-3, 0.05),
     "mit-ss1": (0.05, 0.2),
     "hexel-hexapod": (0.1, 0.2),
+    "eclipse-prototype": (4e-3, 0.05),
+    "eclipse-machine": (0.02, 0.05),
 }
 MODELS: dict[str, Model] = {}
 

@@ -20,15 +20,17 @@ def test_every_entry_makes_its_machine() -> None:
         "prototype-3ppprs",
         "mit-ss1",
         "hexel-hexapod",
+        "eclipse-prototype",
+        "eclipse-machine",
     ]
     for name, entry in CATALOGUE.items():
         machine = entry.factory()
         assert get(name) is entry
         assert isinstance(machine, Mechanism)
         assert machine.place(machine.home()).reachable
-        assert entry.paper.key == (
-            "son-2002" if name in ("mit-ss1", "hexel-hexapod") else "azulay-2014"
-        )
+        documents = {"mit-ss1": "son-2002", "hexel-hexapod": "son-2002"}
+        documents |= {"eclipse-prototype": "kim-2001", "eclipse-machine": "kim-2001"}
+        assert entry.paper.key == documents.get(name, "azulay-2014")
 
 
 def test_the_factory_takes_other_dimensions() -> None:

@@ -1,0 +1,203 @@
+"""Reports of the two Eclipse machines and of their document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from strutwork.machines.catalogue import get
+from strutwork.machines.literature import KIM_2001
+from strutwork.papers.kim_2001.comparison import (
+    HORIZONTAL,
+    barrier_rows,
+    barriers,
+    least_singular_value,
+    one_link_thin,
+    radius_study,
+    table_2_rows,
+)
+from strutwork.papers.kim_2001.published import BARRIERS, MEASURED, TABLE_2
+from strutwork.papers.published_rows import PublishedRow, file_name
+from strutwork.papers.tables import difference, numbers, rows_file, texts
+from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.content import Chapter, Points, Table, Text
+from strutwork.reports.numbers import significant
+from strutwork.studies.description import parameters, plain
+from strutwork.studies.progress import Teller
+
+Contents = tuple[str, str, tuple[Chapter, ...]]
+
+#: Printed results that are not repeated here, and why.
+LEFT = (
+    "Table I, Newton's method from disturbed starts (99.29 % and 7.33 iterations): how the starts "
+    "are drawn and what counts as converged is not printed. Not reproducible.",
+    "Joint compliance of Table II: it depends on stiffnesses of drives that are not printed. "
+    "Not reproducible.",
+    "Order of sensitivity to the links (Fig. 14): printed as the first link at tilt 0 and the "
+    "other two at tilt 90; ours stands in the table of thin links. Not reproducible.",
+    "Workspaces (Figs 8 and 9): axes of the ball sockets and strokes are not printed. "
+    "Not reproducible.",
+)
+
+
+def machine_chapters(name: str, progress: Teller | None = None) -> Contents:
+    """Title, subtitle and chapters that the document adds to a machine's report."""
+    entry = get(name)
+    machine = entry.factory()
+    chapters = [measured_chapter()]
+    if name == "eclipse-prototype":
+        chapters = [published_chapter(), barriers_chapter(), radius_chapter(), *chapters]
+    content = {"parameters": parameters(machine)}
+    chapters.append(closing_chapter(name, {"machine": name}, content, chapters))
+    return entry.title, KIM_2001.citation, tuple(chapters)
+
+
+def paper_chapters(progress: Teller | None = None) -> Contents:
+    """Title, subtitle and chapters of the document's own page."""
+    chapters = [
+        published_chapter(),
+        barriers_chapter(),
+        radius_chapter(),
+        measured_chapter(),
+        Chapter("left", "What is not repeated", (Points(LEFT),)),
+    ]
+    content: dict[str, Any] = {"rows": plain([r.to_dict() for r in (*table_2_rows(),)])}
+    chapters.append(closing_chapter(KIM_2001.key, {"document": KIM_2001.key}, content, chapters))
+    return (
+        "A redundantly actuated machine on a circular guide: published and ours",
+        KIM_2001.citation,
+        tuple(chapters),
+    )
+
+
+def published_chapter() -> Chapter:
+    """Table II and the singular tilt angles beside ours."""
+    groups = ((TABLE_2, table_2_rows()), (BARRIERS, barrier_rows()))
+    return Chapter(
+        "published",
+        "Beside the published numbers",
+        (
+            Text(
+                "The document prints neither the link's length nor the platform's radius, the "
+                "place of the tool or the columns' section. These four were fitted to the numbers "
+                "below, so that all rows are calibrated and none is a prediction. Drives and "
+                "joints are rigid; compliance is taken at the platform's centre, singular tilts "
+                "with the tool on the guide's axis."
+            ),
+            *(_table(t.title, file_name(t.key), rows) for t, rows in groups),
+            Text(TABLE_2.note),
+        ),
+        tuple(rows_file(file_name(t.key), t.title, rows) for t, rows in groups),
+    )
+
+
+def _table(title: str, file: str, rows: Sequence[PublishedRow]) -> Table:
+    columns = (
+        *texts("quantity", "unit"),
+        *numbers("published", "ours", "difference"),
+        *texts("status", "note"),
+    )
+    lines = [
+        [
+            r.quantity,
+            r.unit,
+            significant(r.published, 4),
+            significant(r.computed, 4),
+            difference(r),
+            r.status,
+            r.note,
+        ]
+        for r in rows
+    ]
+    return Table(title, columns, lines, file)
+
+
+def barriers_chapter() -> Chapter:
+    """Singular tilts by spindle angle, and what extra drives remove."""
+    tilts = np.arange(0.5, 85.0, 0.5)
+    angles = [
+        [f"{roll:g}", ", ".join(f"{t:.1f}" for t in barriers(roll)) or "none"]
+        for roll in (0.0, 10.0, 20.0, 30.0)
+    ]
+    words = {"6": "none", "7a": "hinge of leg 1", "7b": "hinge of leg 2", "8": "both hinges"}
+    margins = [
+        [
+            text,
+            significant(least_singular_value(drives, np.array([0.0]), tilts), 2),
+            significant(least_singular_value(drives, np.arange(-30.0, 31.0, 5.0), tilts), 2),
+        ]
+        for drives, text in words.items()
+    ]
+    return Chapter(
+        "barriers",
+        "Singular tilts and extra drives",
+        (
+            Text(
+                "With six drives the platform cannot be tilted from vertical to horizontal "
+                "without passing poses in which the drives do not hold it. Each extra drive "
+                "alone leaves one of them; both together leave none for spindle angles up to "
+                "30° to either side."
+            ),
+            Table(
+                "Singular tilts with six drives",
+                texts("spindle angle, deg", "singular tilts, deg"),
+                angles,
+            ),
+            Table(
+                "Smallest singular value of the drives' rows over tilts of 0 to 85 deg, lengths "
+                "scaled by the platform's radius",
+                (
+                    *texts("extra drives"),
+                    *numbers("spindle angle 0", "spindle angles -30 to 30 deg"),
+                ),
+                margins,
+            ),
+        ),
+    )
+
+
+def radius_chapter() -> Chapter:
+    """Compliance by the radius of the links."""
+    upright, lying = radius_study(0.0), radius_study(HORIZONTAL)
+    thin = zip(one_link_thin(0.0), one_link_thin(HORIZONTAL), strict=True)
+    return Chapter(
+        "radius",
+        "Radius of the links",
+        (
+            Text(
+                "Norm of the compliance of the tool's position. The document finds it flat from "
+                "35 mm on, and chose 33 mm; so does ours."
+            ),
+            Table(
+                "All links, relative to rigid ones",
+                numbers("radius, mm", "tilt 0", "tilt 90 deg"),
+                [
+                    [f"{1e3 * r:g}", f"{a:.3f}", f"{b:.3f}"]
+                    for (r, a), (_, b) in zip(upright, lying, strict=True)
+                ],
+            ),
+            Table(
+                "One link of 15 mm, relative to all of 33 mm",
+                (*texts("thin link"), *numbers("tilt 0", "tilt 90 deg")),
+                [[f"leg {i}", f"{a:.3f}", f"{b:.3f}"] for i, (a, b) in enumerate(thin, 1)],
+            ),
+        ),
+    )
+
+
+def measured_chapter() -> Chapter:
+    """Measured stiffness, as data."""
+    return Chapter(
+        "measured",
+        "Stiffness as measured",
+        (
+            Text(MEASURED.note),
+            Table(
+                MEASURED.title,
+                (*texts("machine", "direction"), *numbers("stiffness", unit="N/µm")),
+                [[v.row, v.quantity, f"{v.value:g}"] for v in MEASURED],
+            ),
+        ),
+    )
