@@ -31,18 +31,26 @@ Contents = tuple[str, str, tuple[Chapter, ...]]
 
 #: Printed results that are not repeated here, and why.
 LEFT = (
-    "Table I, Newton's method from disturbed starts (99.29 % and 7.33 iterations): how the starts "
-    "are drawn and what counts as converged is not printed. Not reproducible.",
-    "Joint compliance of Table II: it depends on stiffnesses of drives that are not printed. "
-    "Not reproducible.",
-    "Order of sensitivity to the links (Fig. 14): printed as the first link at tilt 0 and the "
-    "other two at tilt 90; ours stands in the table of thin links. Not reproducible.",
-    "Workspaces (Figs 8 and 9): axes of the ball sockets and strokes are not printed. "
-    "Not reproducible.",
+    (
+        "Table I, Newton's method from disturbed starts (99.29 % and 7.33 iterations): how the "
+        "starts are drawn and what counts as converged is not printed. Not reproducible."
+    ),
+    (
+        "Joint compliance of Table II: it depends on stiffnesses of drives that are not printed. "
+        "Not reproducible."
+    ),
+    (
+        "Order of sensitivity to the links (Fig. 14): printed as the first link at tilt 0 and the "
+        "other two at tilt 90; ours stands in the table of thin links. Not reproducible."
+    ),
+    (
+        "Workspaces (Figs 8 and 9): axes of the ball sockets and strokes are not printed. "
+        "Not reproducible."
+    ),
 )
 
 
-def machine_chapters(name: str, progress: Teller | None = None) -> Contents:
+def machine_chapters(name: str, _progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters that the document adds to a machine's report."""
     entry = get(name)
     machine = entry.factory()
@@ -54,7 +62,7 @@ def machine_chapters(name: str, progress: Teller | None = None) -> Contents:
     return entry.title, KIM_2001.citation, tuple(chapters)
 
 
-def paper_chapters(progress: Teller | None = None) -> Contents:
+def paper_chapters(_progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters of the document's own page."""
     chapters = [
         published_chapter(),
@@ -136,9 +144,11 @@ def barriers_chapter() -> Chapter:
         (
             Text(
                 "With six drives the platform cannot be tilted from vertical to horizontal "
-                "without passing poses in which the drives do not hold it. Each extra drive "
-                "alone leaves one of them; both together leave none for spindle angles up to "
-                "30° to either side."
+                "without passing poses in which the drives do not hold it. At spindle angle 0 "
+                "each extra drive alone leaves one of them, that of leg 1 the lower and that of "
+                "leg 2 the higher; both together leave none for spindle angles up to 30° to "
+                "either side. The second barrier is gone beyond spindle angles of about 25° "
+                "in any case, the first is not."
             ),
             Table(
                 "Singular tilts with six drives",
