@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import Body, Joint, Poses, angle, tangent_rotation
 from strutwork.kinematics.frames import dot
+from strutwork.machines.dimensions import check_proportions
 from strutwork.machines.legs import Leg, LegPlacement, square_root
 from strutwork.machines.radial import Radial
 from strutwork.machines.three_legs import TOOL, ThreeLegs
@@ -106,6 +107,13 @@ class EclipsePrototype(ThreeLegs):
                 "Give a length that is not negative, m.",
             )
         super().__post_init__()
+        # zero is a choice of either: the tool at the platform's centre, that in the guide's plane
+        places = {name: abs(getattr(self, name)) for name in ("tool_below", "pole_height")}
+        check_proportions(
+            type(self).__name__,
+            {name: getattr(self, name) for name in self.dimensions}
+            | {name: value for name, value in places.items() if value > 0.0},
+        )
 
     @property
     def lengths(self) -> tuple[str, ...]:

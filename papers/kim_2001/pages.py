@@ -11,8 +11,10 @@ from strutwork.machines.catalogue import get
 from strutwork.machines.literature import KIM_2001
 from strutwork.papers.kim_2001.comparison import (
     HORIZONTAL,
+    at_plate,
     barrier_rows,
     barriers,
+    ellipsoid,
     least_singular_value,
     one_link_thin,
     radius_study,
@@ -22,7 +24,8 @@ from strutwork.papers.kim_2001.published import BARRIERS, MEASURED, TABLE_2
 from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.tables import difference, numbers, rows_file, texts
 from strutwork.reports.chapters.closing import closing_chapter
-from strutwork.reports.content import Chapter, Points, Table, Text
+from strutwork.reports.content import Chapter, Figure, Points, Row, Table, Text
+from strutwork.reports.figures.ellipsoid import compliance_ellipsoid
 from strutwork.reports.numbers import significant
 from strutwork.studies.description import parameters, plain
 from strutwork.studies.progress import Teller
@@ -96,8 +99,21 @@ def published_chapter() -> Chapter:
             ),
             *(_table(t.title, file_name(t.key), rows) for t, rows in groups),
             Text(TABLE_2.note),
+            Row(tuple(_drawn(name, tilt) for name, tilt in (("0", 0.0), ("90", HORIZONTAL)))),
         ),
         tuple(rows_file(file_name(t.key), t.title, rows) for t, rows in groups),
+    )
+
+
+def _drawn(name: str, tilt: float) -> Figure:
+    found = ellipsoid(at_plate(), tilt)
+    return Figure(
+        f"ellipsoid-{name}",
+        f"Compliance ellipsoid at tilt {name} deg: how far and where a unit force moves the tool.",
+        compliance_ellipsoid((found.axes * found.magnitudes) @ found.axes.T),
+        f"Compliance ellipsoid at tilt {name} degrees, semi-axes "
+        + ", ".join(f"{1e6 * m:.3g}" for m in found.magnitudes)
+        + " micrometres per newton",
     )
 
 

@@ -19,7 +19,7 @@ from strutwork.msa import tube
 NAMES = list(CATALOGUE)
 
 #: Numbers that are not a size of the machine: stiffnesses, masses, angles and the model's own.
-NO_SIZE = ("shortest_first_link", "apparent_pole_height", "guide_range")
+NO_SIZE = ("shortest_first_link", "shortest_column", "apparent_pole_height", "guide_range")
 
 
 def sizes(machine: Any) -> list[str]:
