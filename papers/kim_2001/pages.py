@@ -32,6 +32,47 @@ from strutwork.studies.progress import Teller
 
 Contents = tuple[str, str, tuple[Chapter, ...]]
 
+#: Statements of the document that are no number of a table: what is printed, ours, status, test.
+STATEMENTS = (
+    (
+        "two extra drives are needed against singular tilts",
+        "at spindle angle 0 each one alone leaves a barrier, both leave none",
+        "calibrated",
+        "test_each_extra_drive_leaves_one_barrier",
+    ),
+    (
+        "compliance is flat from a link radius of 35 mm on",
+        "2.4 % above rigid links at 35 mm and tilt 0",
+        "calibrated",
+        "test_radius_of_the_links",
+    ),
+    (
+        "at tilt 0 the first link matters most, at tilt 90 the other two",
+        "the other way about",
+        "not reproducible",
+        "test_the_printed_order_of_sensitivity_does_not_come_out",
+    ),
+    (
+        "section V: the compliance of a determinate machine from its rods",
+        "agrees with the frame solution to 1e-9",
+        "predicted",
+        "test_the_frame_solution_is_castiglianos",
+    ),
+    (
+        "section V is a reasonable analysis of the machine with eight drives",
+        "the largest compliance at tilt 0 is less than half as large with eight",
+        "not reproducible",
+        "test_eight_drives_are_another_structure",
+    ),
+    (
+        "eq. 3: P_z = h + L sin φ",
+        "holds on all legs with φ < 0 where the carriage stands above; the sentence about signs "
+        "beside it contradicts it",
+        "predicted",
+        "test_height_of_a_hinge",
+    ),
+)
+
 #: Printed results that are not repeated here, and why.
 LEFT = (
     (
@@ -72,6 +113,7 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
         barriers_chapter(),
         radius_chapter(),
         measured_chapter(),
+        statements_chapter(),
         Chapter("left", "What is not repeated", (Points(LEFT),)),
     ]
     content: dict[str, Any] = {"rows": plain([r.to_dict() for r in (*table_2_rows(),)])}
@@ -209,6 +251,22 @@ def radius_chapter() -> Chapter:
                 (*texts("thin link"), *numbers("tilt 0", "tilt 90 deg")),
                 [[f"leg {i}", f"{a:.3f}", f"{b:.3f}"] for i, (a, b) in enumerate(thin, 1)],
             ),
+        ),
+    )
+
+
+def statements_chapter() -> Chapter:
+    """What the document says in words, and the test that holds ours."""
+    columns = texts("printed", "ours", "status", "test")
+    return Chapter(
+        "statements",
+        "Statements beside ours",
+        (
+            Text(
+                "Tests stand in tests/verification/kim_2001; Table II is held by test_table_2, "
+                "the singular tilts by test_barriers."
+            ),
+            Table("Statements of the document", columns, STATEMENTS),
         ),
     )
 

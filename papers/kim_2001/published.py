@@ -32,7 +32,7 @@ TABLE_2 = PublishedTable(
 BARRIERS = PublishedTable(
     "kim-2001-barriers",
     KIM_2001,
-    "Tilt angles of the actuator singularities that one spindle angle after the other keeps",
+    "Tilt angles of the actuator singularities with six drives",
     (
         PublishedValue(PROTOTYPE, "first barrier", "deg", 30.0, "printed as approximate"),
         PublishedValue(PROTOTYPE, "second barrier", "deg", 60.0, "printed as approximate"),
