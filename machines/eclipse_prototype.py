@@ -181,15 +181,10 @@ class EclipsePrototype(ThreeLegs):
     @cached_property
     def structure(self) -> Structure:
         """The linkage with its flexible links and the platform's mass."""
-        inertia = self.platform_mass * self.platform_radius**2
-        return replace(
-            super().structure,
-            masses=(
-                PointMass(
-                    TOOL, self.platform_mass, np.diag([inertia / 4, inertia / 4, inertia / 2])
-                ),
-            ),
-        )
+        across = self.platform_mass * self.platform_radius**2 / 4.0
+        disc = ((across, 0.0, 0.0), (0.0, across, 0.0), (0.0, 0.0, 2.0 * across))
+        mass = PointMass(TOOL, self.platform_mass, disc, offset=(0.0, 0.0, self.tool_below))
+        return replace(super().structure, masses=(mass,))
 
     @cached_property
     def seats(self) -> Array:

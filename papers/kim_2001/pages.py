@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from strutwork.machines.catalogue import get
+from strutwork.machines.eclipse_prototype import Drives
 from strutwork.machines.literature import KIM_2001
 from strutwork.papers.kim_2001.comparison import (
     HORIZONTAL,
@@ -24,7 +25,7 @@ from strutwork.papers.kim_2001.published import BARRIERS, MEASURED, TABLE_2
 from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.tables import difference, numbers, rows_file, texts
 from strutwork.reports.chapters.closing import closing_chapter
-from strutwork.reports.content import Chapter, Figure, Points, Row, Table, Text
+from strutwork.reports.content import Cell, Chapter, Figure, Points, Row, Table, Text
 from strutwork.reports.figures.ellipsoid import compliance_ellipsoid
 from strutwork.reports.numbers import significant
 from strutwork.studies.description import parameters, plain
@@ -66,8 +67,7 @@ STATEMENTS = (
     ),
     (
         "eq. 3: P_z = h + L sin φ",
-        "holds on all legs with φ < 0 where the carriage stands above; the sentence about signs "
-        "beside it contradicts it",
+        "holds on all legs with φ < 0 where the carriage stands above; the text has it otherwise",
         "predicted",
         "test_height_of_a_hinge",
     ),
@@ -165,7 +165,7 @@ def _table(title: str, file: str, rows: Sequence[PublishedRow]) -> Table:
         *numbers("published", "ours", "difference"),
         *texts("status", "note"),
     )
-    lines = [
+    lines: list[list[str | Cell]] = [
         [
             r.quantity,
             r.unit,
@@ -187,7 +187,12 @@ def barriers_chapter() -> Chapter:
         [f"{roll:g}", ", ".join(f"{t:.1f}" for t in barriers(roll)) or "none"]
         for roll in (0.0, 10.0, 20.0, 30.0)
     ]
-    words = {"6": "none", "7a": "hinge of leg 1", "7b": "hinge of leg 2", "8": "both hinges"}
+    words: dict[Drives, str] = {
+        "6": "none",
+        "7a": "hinge of leg 1",
+        "7b": "hinge of leg 2",
+        "8": "both hinges",
+    }
     margins = [
         [
             text,
@@ -205,7 +210,7 @@ def barriers_chapter() -> Chapter:
                 "without passing poses in which the drives do not hold it. At spindle angle 0 "
                 "each extra drive alone leaves one of them, that of leg 1 the lower and that of "
                 "leg 2 the higher; both together leave none for spindle angles up to 30° to "
-                "either side. The second barrier is gone beyond spindle angles of about 25° "
+                "either side. The second barrier is gone beyond spindle angles of about 30° "
                 "in any case, the first is not."
             ),
             Table(

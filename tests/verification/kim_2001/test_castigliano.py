@@ -81,7 +81,9 @@ def castigliano(machine: EclipsePrototype, poses: Poses) -> tuple[Array, Array]:
                 for f in (along, tangent)
             ]
             h = np.stack(loads, axis=-1)
-            energy += h.T @ rod_compliance(np.linalg.norm(start - end), size, young, shear) @ h
+            energy += (
+                h.T @ rod_compliance(float(np.linalg.norm(start - end)), size, young, shear) @ h
+            )
         blocks[2 * i : 2 * i + 2, 2 * i : 2 * i + 2] = energy
         arm = point - poses.position
         columns += [np.concatenate([np.cross(arm, f), f]) for f in (along, tangent)]
