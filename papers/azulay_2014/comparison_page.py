@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from strutwork.machines.literature import AZULAY_2014
+from strutwork.papers.azulay_2014.chapters.barrier import regions_chapter
 from strutwork.papers.azulay_2014.chapters.comparison import (
+    SHORT,
     assumptions_chapter,
     budget_chapter,
     drawings_chapter,
@@ -39,6 +41,9 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         published_chapter(study),
         reasons_chapter(study),
         maps_chapter(study),
+        regions_chapter(
+            {SHORT[name]: study.barred[name, "spherical"] for name in study.names}, "machine"
+        ),
         budget_chapter(study),
         poses_chapter(study),
         comparison_vibration(study.names),
