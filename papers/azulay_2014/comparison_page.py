@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from strutwork.machines.literature import AZULAY_2014
@@ -25,6 +26,8 @@ from strutwork.papers.azulay_2014.machine_study import (
     Comparison,
     study_comparison,
 )
+from strutwork.papers.azulay_2014.statements import statements
+from strutwork.papers.statements import count_text, statements_chapter, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter
 from strutwork.studies.description import parameters, plain
@@ -47,6 +50,7 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         budget_chapter(study),
         poses_chapter(study),
         comparison_vibration(study.names),
+        _statements(study),
         assumptions_chapter(study),
     ]
     chapters.append(closing_chapter("azulay-2014", _settings(), _content(study), chapters))
@@ -55,6 +59,14 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         AZULAY_2014.citation,
         tuple(chapters),
     )
+
+
+def _statements(study: Comparison) -> Chapter:
+    """Every result of the document, with its file."""
+    said = statements(study)
+    chapter = statements_chapter("statements", "Every statement", said)
+    file = statements_file(AZULAY_2014.key, said)
+    return replace(chapter, blocks=(count_text(said), *chapter.blocks), files=(file,))
 
 
 def _settings() -> dict[str, Any]:

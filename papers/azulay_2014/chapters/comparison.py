@@ -106,7 +106,8 @@ def summary_chapter(study: Comparison) -> Chapter:
             "Mean difference to Table 4",
             f"{_mean_difference(study, 'spherical'):.0f} %",
             "",
-            f"of the twelve means, ranges of revolute joints alone; {_mean_difference(study, 'apparent'):.0f} % with the model that "
+            f"of the twelve means, ranges of revolute joints alone; "
+            f"{_mean_difference(study, 'apparent'):.0f} % with the model that "
             "the paper's numbers suggest",
         )
     )
