@@ -14,8 +14,8 @@ from strutwork.papers.azulay_2014.barrier import RADIUS, signed, tilted
 
 Array = NDArray[Any]
 
-#: Steps of tilt to 120°, half a degree each, and of roll over a whole turn.
-TILTS, ROLLS = 241, 144
+#: Steps of tilt to 180°, half a degree each, and of roll over a whole turn.
+TILTS, ROLLS = 361, 144
 
 
 @dataclass(frozen=True)
@@ -53,16 +53,16 @@ def tilts(machine: ThreeLegs, radius: float = RADIUS) -> Tilts:
     Tilts
         Zero where not even the pole counts.
     """
-    tilt = np.linspace(0.0, np.radians(120.0), TILTS)
+    tilt = np.linspace(0.0, np.pi, TILTS)
     roll = np.arange(ROLLS) * (2.0 * np.pi / ROLLS)
     poses = tilted(machine, tilt[:, None], roll, radius)
     inside = check_limits(machine.limits, machine.place(poses)).reachable
     s = signed(machine, poses)
     same = inside & (np.sign(s) == np.sign(s[0, 0]))
     return Tilts(
-        _farthest(tilt, inside.any(axis=1)),
-        _farthest(tilt, _from_the_pole(inside).any(axis=1)),
-        _farthest(tilt, _from_the_pole(same).any(axis=1)),
+        _farthest(tilt, inside),
+        _farthest(tilt, _from_the_pole(inside)),
+        _farthest(tilt, _from_the_pole(same)),
     )
 
 
@@ -75,4 +75,4 @@ def _from_the_pole(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
 
 
 def _farthest(tilt: Array, good: NDArray[np.bool_]) -> float:
-    return float(tilt[good].max(initial=0.0))
+    return float(tilt[np.any(good, axis=1)].max(initial=0.0))
