@@ -12,13 +12,13 @@ from strutwork.papers.azulay_2014.chapters.comparison import (
     assumptions_chapter,
     budget_chapter,
     drawings_chapter,
-    maps_chapter,
     poses_chapter,
     published_chapter,
     rankings_chapter,
     reasons_chapter,
     summary_chapter,
 )
+from strutwork.papers.azulay_2014.chapters.comparison_maps import maps_chapter
 from strutwork.papers.azulay_2014.chapters.vibration import comparison_vibration
 from strutwork.papers.azulay_2014.machine_study import (
     FILTERS,

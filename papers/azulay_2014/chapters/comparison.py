@@ -13,7 +13,6 @@ from strutwork.papers.azulay_2014.chapters.assumptions import (
     method_table,
     models_table,
 )
-from strutwork.papers.azulay_2014.chapters.barrier import ring_text
 from strutwork.papers.azulay_2014.chapters.machine import DRAWING, drawing_file, machine_figure
 from strutwork.papers.azulay_2014.chapters.published import READING, published_table
 from strutwork.papers.azulay_2014.comparison import Model, published_ranking
@@ -22,15 +21,11 @@ from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_4
 from strutwork.reports.chapters.budget import PART_COLOURS, budget_file, by_kind
 from strutwork.reports.chapters.stiffness import (
     AXES,
-    axis_values,
     dropped_table,
-    map_figure,
-    map_files,
     pose_columns,
     pose_rows,
 )
 from strutwork.reports.content import (
-    Block,
     Cell,
     Chapter,
     Column,
@@ -43,7 +38,6 @@ from strutwork.reports.content import (
     Table,
     Text,
 )
-from strutwork.reports.data_files import DataFile
 from strutwork.reports.figures.charts import Bars, grouped, stacked_shares
 from strutwork.reports.numbers import micro, significant
 
@@ -289,47 +283,6 @@ def reasons_chapter(study: Comparison) -> Chapter:
         "What cannot be reproduced, and why",
         (Points((variances, tables, magnitudes, fitted, points)),),
     )
-
-
-def maps_chapter(study: Comparison) -> Chapter:
-    """Small discs, one for each machine and axis, with one scale an axis."""
-    blocks: list[Block] = [
-        Text(
-            "True spherical joints, seen from above; the middle of a disc is the pole, its rim the "
-            "equator of the hemisphere. The four machines of a row share one scale. ▽ marks the "
-            "worst point, ▲ the best, × points where no pose counts."
-        ),
-        ring_text({SHORT[name]: study.barred[name, "spherical"] for name in study.names}),
-    ]
-    files: list[DataFile] = []
-    for axis in AXES:
-        values = [axis_values(study.azulay.maps[n, "spherical"], axis) for n in study.names]
-        limits = (
-            min(float(np.nanmin(v)) for v in values),
-            max(float(np.nanmax(v)) for v in values),
-        )
-        figures = tuple(
-            map_figure(
-                study.azulay.maps[name, "spherical"],
-                axis,
-                f"map-{name}-{axis}",
-                SHORT[name],
-                f"stiffness-map-{name}-spherical.csv",
-                limits,
-                small=True,
-                ring=study.barred[name, "spherical"].ring.extent,
-            )
-            for name in study.names
-        )
-        blocks.append(Row(figures, 200))
-    for name in study.names:
-        for model, label in MODEL_NAMES.items():
-            files += map_files(
-                study.azulay.maps[name, model],
-                f"stiffness-map-{name}-{model}",
-                f"stiffness map of the {SHORT[name]} machine, {label}",
-            )
-    return Chapter("maps", "Stiffness over the hemisphere", tuple(blocks), tuple(files))
 
 
 def budget_chapter(study: Comparison) -> Chapter:
