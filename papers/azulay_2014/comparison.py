@@ -13,7 +13,7 @@ from strutwork.errors import ModelError
 from strutwork.machines import Machine, Proposed3PPRS, ThreeLegs, get
 from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
 from strutwork.papers.azulay_2014.link_lengths import LINK_LENGTHS
-from strutwork.papers.azulay_2014.notes import STATUS, note_of
+from strutwork.papers.azulay_2014.notes import note_of, status_of
 from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_4
 from strutwork.papers.published_rows import PublishedRow
 from strutwork.papers.published_table import PublishedTable
@@ -222,7 +222,7 @@ def published_rows(
                 entry.unit,
                 entry.value,
                 computed,
-                STATUS,
+                status_of(entry),
                 note_of(entry, model),
             )
         )

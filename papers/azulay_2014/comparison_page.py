@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from strutwork.machines.literature import AZULAY_2014
+from strutwork.papers.azulay_2014.chapters.barrier import regions_chapter
 from strutwork.papers.azulay_2014.chapters.comparison import (
+    SHORT,
     assumptions_chapter,
     budget_chapter,
     drawings_chapter,
-    maps_chapter,
     poses_chapter,
     published_chapter,
     rankings_chapter,
     reasons_chapter,
     summary_chapter,
 )
+from strutwork.papers.azulay_2014.chapters.comparison_maps import maps_chapter
 from strutwork.papers.azulay_2014.chapters.vibration import comparison_vibration
 from strutwork.papers.azulay_2014.machine_study import (
     FILTERS,
@@ -23,6 +26,8 @@ from strutwork.papers.azulay_2014.machine_study import (
     Comparison,
     study_comparison,
 )
+from strutwork.papers.azulay_2014.statements import statements
+from strutwork.papers.statements import count_text, statements_chapter, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter
 from strutwork.studies.description import parameters, plain
@@ -39,9 +44,13 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         published_chapter(study),
         reasons_chapter(study),
         maps_chapter(study),
+        regions_chapter(
+            {SHORT[name]: study.barred[name, "spherical"] for name in study.names}, "machine"
+        ),
         budget_chapter(study),
         poses_chapter(study),
         comparison_vibration(study.names),
+        _statements(study),
         assumptions_chapter(study),
     ]
     chapters.append(closing_chapter("azulay-2014", _settings(), _content(study), chapters))
@@ -50,6 +59,14 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         AZULAY_2014.citation,
         tuple(chapters),
     )
+
+
+def _statements(study: Comparison) -> Chapter:
+    """Every result of the document, with its file."""
+    said = statements(study)
+    chapter = statements_chapter("statements", "Every statement", said)
+    file = statements_file(AZULAY_2014.key, said)
+    return replace(chapter, blocks=(count_text(said), *chapter.blocks), files=(file,))
 
 
 def _settings() -> dict[str, Any]:

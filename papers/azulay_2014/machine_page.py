@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from strutwork.papers.azulay_2014.chapters.barrier import regions_chapter
 from strutwork.papers.azulay_2014.chapters.budget import budget_chapter
 from strutwork.papers.azulay_2014.chapters.lengths import lengths_chapter
 from strutwork.papers.azulay_2014.chapters.machine import (
@@ -45,6 +46,9 @@ def machine_chapters(
         published_chapter(study),
         map_chapter(study),
         distribution_chapter(study),
+        regions_chapter(
+            {label: study.barred[model] for model, label in MODEL_NAMES.items()}, "model"
+        ),
         budget_chapter(study),
         poses_chapter(study),
     ]

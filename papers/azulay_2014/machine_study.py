@@ -17,6 +17,7 @@ from strutwork.papers.azulay_2014.comparison import (
 )
 from strutwork.papers.azulay_2014.comparison import machines as published_machines
 from strutwork.papers.azulay_2014.filters import AS_IN_AZULAY
+from strutwork.papers.azulay_2014.regions import Barred, barred
 from strutwork.papers.published_rows import PublishedRow
 from strutwork.studies import Filters, Summary, budget_map, summary
 from strutwork.studies.progress import Teller
@@ -48,6 +49,8 @@ class MachineStudy:
     lengths : mapping of (row of Table 2, model) to Summary
         Empty but for the proposed machine.
     rows : mapping of (table key, model) to tuple of PublishedRow
+    barred : mapping of model to Barred
+        What the singular ring and the machine's own joint ranges leave.
     """
 
     name: str
@@ -59,6 +62,7 @@ class MachineStudy:
     budgets: Mapping[Model, xr.Dataset]
     lengths: Mapping[tuple[str, Model], Summary]
     rows: Mapping[tuple[str, Model], tuple[PublishedRow, ...]]
+    barred: Mapping[Model, Barred]
 
     def __repr__(self) -> str:
         return f"<MachineStudy of {self.name}: {len(self.maps)} models>"
@@ -85,6 +89,7 @@ def study_machine(name: str, progress: Teller | None = None) -> MachineStudy:
         {model: budget_map(machines[model], maps[model]) for model in MODEL_NAMES},
         {key: one for key, one in found.summaries.items() if key[0] != name},
         found.rows,
+        {model: barred(machines[model], maps[model]) for model in MODEL_NAMES},
     )
 
 
@@ -97,11 +102,13 @@ class Comparison:
     azulay : AzulayComparison
     machines : mapping of (name, model) to ThreeLegs
     budgets : mapping of (name, model) to Dataset
+    barred : mapping of (name, model) to Barred
     """
 
     azulay: AzulayComparison
     machines: Mapping[tuple[str, Model], ThreeLegs]
     budgets: Mapping[tuple[str, Model], xr.Dataset]
+    barred: Mapping[tuple[str, Model], Barred]
 
     def __repr__(self) -> str:
         return f"<Comparison of {', '.join(self.names)}>"
@@ -125,4 +132,5 @@ def study_comparison(progress: Teller | None = None) -> Comparison:
         for model in MODEL_NAMES
     }
     budgets = {key: budget_map(machine, azulay.maps[key]) for key, machine in machines.items()}
-    return Comparison(azulay, machines, budgets)
+    parted = {key: barred(machine, azulay.maps[key]) for key, machine in machines.items()}
+    return Comparison(azulay, machines, budgets, parted)

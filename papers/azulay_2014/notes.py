@@ -28,9 +28,17 @@ _MODEL: Mapping[str, str] = MappingProxyType(
     }
 )
 
-#: Every row has a dimension or a model behind it that was chosen by these tables, however near or
+#: Every mean has a dimension or a model behind it that was chosen by these tables, however near or
 #: far its number came: none is a prediction.
 STATUS: Status = "calibrated"
+#: To a variance nothing was fitted; together they do not come out, with either joint model, and
+#: the one or the other that comes near is no prediction.
+VARIANCE_STATUS: Status = "not reproducible"
+
+
+def status_of(entry: PublishedValue) -> Status:
+    """Status of a row of Table 2 or 4: it depends on what was chosen, not on how near it came."""
+    return VARIANCE_STATUS if entry.quantity.endswith("variance") else STATUS
 
 
 def note_of(entry: PublishedValue, model: str) -> str:
@@ -46,7 +54,8 @@ def note_of(entry: PublishedValue, model: str) -> str:
         notes.append(f"fitted to the means of Table 4: {_FITTED[machine]}")
     if entry.quantity.endswith("variance"):
         notes.append(
-            "nothing was fitted to a variance: it follows from what was fitted to the means"
+            "nothing was fitted to a variance: it follows from what was fitted to the means, and "
+            "the variances as a whole do not come out"
         )
     if machine == _PROPOSED and not _other_length(entry.row) and entry.quantity == "Kzz mean":
         notes.append(

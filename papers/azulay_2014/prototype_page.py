@@ -8,6 +8,7 @@ from strutwork.machines import Prototype3PPPRS, get
 from strutwork.papers.azulay_2014.chapters.machine import DRAWING, drawing_file, machine_figure
 from strutwork.papers.azulay_2014.chapters.measurement import measurement_chapter
 from strutwork.papers.azulay_2014.machine_study import FILTERS
+from strutwork.papers.azulay_2014.regions import OWN_RANGES
 from strutwork.papers.tables import assumed
 from strutwork.reports.chapters.budget import budget_file, by_kind
 from strutwork.reports.chapters.closing import closing_chapter
@@ -50,12 +51,13 @@ def prototype_chapters(
         machine, filters=FILTERS, progress=progress(NAME) if progress else silent
     )
     blocked, free = summary(dataset), summary(dataset, "free")
+    own = summary(stiffness_map(machine, filters=OWN_RANGES))
     budget = budget_map(machine, dataset)
     categories, shares = by_kind(budget)
     vibration = study_machine_vibration(f"vibration-{NAME}", entry.title, machine)
     csv = "stiffness-map.csv"
     chapters = [
-        _summary(entry.title, entry.topology, blocked, vibration),
+        _summary(entry.title, entry.topology, blocked, own, vibration),
         Chapter(
             "drawing",
             "The machine",
@@ -146,9 +148,17 @@ def prototype_chapters(
     )
 
 
-def _summary(title: str, topology: str, found: Summary, vibration: VibrationStudy) -> Chapter:
+def _summary(
+    title: str, topology: str, wide: Summary, own: Summary, vibration: VibrationStudy
+) -> Chapter:
     facts = [
-        Fact(f"Mean K{a * 2}", micro(found.axis(a).statistics.mean), "N/µm", "over the hemisphere")
+        Fact(
+            f"Mean K{a * 2}",
+            micro(own.axis(a).statistics.mean),
+            "N/µm",
+            f"at {own.points_kept} points; without the ranges of slides and spherical joints "
+            f"{micro(wide.axis(a).statistics.mean)} at {wide.points_kept}",
+        )
         for a in AXES
     ]
     first = float(vibration.modes.frequencies[0])
@@ -165,8 +175,10 @@ def _summary(title: str, topology: str, found: Summary, vibration: VibrationStud
     )
     text = (
         f"{title}: three legs, each, from the guide up, {topology}; nine drives move six freedoms. "
-        f"The curvilinear stages are locked. Static stiffness at {found.points_kept} of "
-        f"{found.points} check points of a hemisphere; vibration at home."
+        f"The curvilinear stages are locked. Static stiffness at the {own.points_kept} of "
+        f"{own.points} check points of a hemisphere that the machine's own joint ranges leave; the "
+        f"maps below keep the ranges of revolute joints alone, which leave {wide.points_kept}. "
+        "Vibration at home."
     )
     return Chapter("summary", "Summary", (Text(text), Facts(tuple(facts)), Note(UNPRINTED)))
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file
-from strutwork.reports.figures.theme import PALETTE, axis, layout
+from strutwork.reports.figures.theme import PALETTE, axis, layout, rounded
 from strutwork.reports.numbers import share, significant
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import pose_text
@@ -145,8 +145,8 @@ def _figure(study: ReversalStudy, names: tuple[str, ...]) -> Figure:
                 "name": name,
                 "legendgroup": name,
                 "showlegend": not any(t["name"] == name for t in traces),
-                "x": shown[:, 0].tolist(),
-                "y": shown[:, 1].tolist(),
+                "x": rounded(shown[:, 0]),
+                "y": rounded(shown[:, 1]),
                 "line": {"color": colour, "width": 2, **style},
                 "hovertemplate": name + "<extra></extra>",
             }
@@ -172,8 +172,8 @@ def _figure(study: ReversalStudy, names: tuple[str, ...]) -> Figure:
                     "type": "scatter",
                     "mode": "markers",
                     "name": f"{kind} point",
-                    "x": shown[:, 0].tolist(),
-                    "y": shown[:, 1].tolist(),
+                    "x": rounded(shown[:, 0]),
+                    "y": rounded(shown[:, 1]),
                     "marker": {"symbol": symbol, "size": 9, "color": "#d55e00"},
                     "hovertemplate": "%{x:.4g}, %{y:.4g}<extra>" + kind + "</extra>",
                 }

@@ -32,8 +32,9 @@ def map_figure(
     data: str,
     limits: tuple[float, float] | None = None,
     small: bool = False,
+    ring: tuple[float, float] | None = None,
 ) -> Figure:
-    """The blocked stiffness along one axis over the check points, N/µm."""
+    """The blocked stiffness along one axis over the check points, N/µm; a ring as in the map."""
     values = axis_values(dataset, axis)
     position, normal = dataset["position"].to_numpy(), dataset["normal"].to_numpy()
     roll = np.degrees(dataset["roll"].to_numpy())
@@ -54,7 +55,7 @@ def map_figure(
     return Figure(
         key,
         f"K{axis * 2}, {label}: {significant(low)} to {significant(high)} N/µm.",
-        hemisphere_map(position, values, f"K{axis * 2} (N/µm)", hover, limits, small),
+        hemisphere_map(position, values, f"K{axis * 2} (N/µm)", hover, limits, small, ring),
         f"Disc seen from above of K{axis * 2} over {len(values)} check points about "
         f"x {middle[0]:.0f}, y {middle[1]:.0f} mm, from {low:.2f} to {high:.2f} N/µm; {label}.",
         data,

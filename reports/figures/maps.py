@@ -19,6 +19,7 @@ def hemisphere_map(
     hover: list[str],
     limits: tuple[float, float] | None = None,
     small: bool = False,
+    ring: tuple[float, float] | None = None,
 ) -> dict[str, Any]:
     """A coloured disc: one cell for every check point, the worst and the best one marked.
 
@@ -36,6 +37,8 @@ def hemisphere_map(
         Ends of the colour scale; default those of the values.
     small : bool
         One of many: no axis titles, a thin colour bar.
+    ring : (float, float), optional
+        Radii of two circles about the points' middle between which poses are singular, m.
     """
     x, y = 1e3 * positions[:, 0], 1e3 * positions[:, 1]
     across, column = np.unique(np.round(x, 9), return_inverse=True)
@@ -79,6 +82,8 @@ def hemisphere_map(
         _marks(x[[worst]], y[[worst]], "worst", "triangle-down", 15, "#ffffff", [hover[worst]]),
         _marks(x[[best]], y[[best]], "best", "triangle-up", 15, "#000000", [hover[best]]),
     ]
+    if ring is not None:
+        marks += _circles(float(x.mean()), float(y.mean()), ring)
     bare: dict[str, Any] = {"showgrid": False, "zeroline": False}
     if small:
         bare |= {"visible": False}
@@ -95,6 +100,25 @@ def hemisphere_map(
             showlegend=not small,
         ),
     }
+
+
+def _circles(x: float, y: float, ring: tuple[float, float]) -> list[dict[str, Any]]:
+    """Two dashed circles on a pale one, to be seen on every colour; m."""
+    turn = np.linspace(0.0, 2.0 * np.pi, 121)
+    marks: list[dict[str, Any]] = []
+    for first, radius in enumerate(ring):
+        common = {
+            "type": "scatter",
+            "mode": "lines",
+            "x": rounded(x + 1e3 * radius * np.cos(turn)),
+            "y": rounded(y + 1e3 * radius * np.sin(turn)),
+            "hoverinfo": "skip",
+            "name": "singular ring",
+        }
+        pale, dark = {"color": "#ffffff", "width": 4}, {"color": INK, "width": 1.8, "dash": "dash"}
+        marks.append(common | {"line": pale, "showlegend": False})
+        marks.append(common | {"line": dark, "showlegend": not first})
+    return marks
 
 
 def _marks(

@@ -18,10 +18,10 @@ Rows = Mapping[Model, tuple[PublishedRow, ...]]
 
 READING = (
     "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
-    "other five directions are held. This is the meaning that agrees with the paper. All rows "
+    "other five directions are held. This is the meaning that agrees with the paper. All means "
     "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
-    "were chosen with the means of these tables in view, and the variances follow from that. "
-    "Nothing is rescaled."
+    "were chosen with the means of these tables in view. To the variances nothing was fitted; as "
+    "a whole they do not come out and are called not reproducible. Nothing is rescaled."
 )
 
 

@@ -6,6 +6,7 @@ import json
 
 import numpy as np
 
+from strutwork.papers.azulay_2014.chapters.barrier import ring_text
 from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES, MachineStudy
 from strutwork.papers.tables import numbers, texts
 from strutwork.reports.chapters.stiffness import (
@@ -27,14 +28,22 @@ from strutwork.reports.figures.charts import distributions
 
 def map_chapter(study: MachineStudy) -> Chapter:
     """A disc for each axis and joint model."""
-    blocks: list[Block] = [Text(VIEW)]
+    named = {label: study.barred[model] for model, label in MODEL_NAMES.items()}
+    blocks: list[Block] = [Text(VIEW), ring_text(named)]
     files: list[DataFile] = []
     for model, label in MODEL_NAMES.items():
         name = f"stiffness-map-{model}"
         blocks.append(
             Row(
                 tuple(
-                    map_figure(study.maps[model], axis, f"map-{model}-{axis}", label, f"{name}.csv")
+                    map_figure(
+                        study.maps[model],
+                        axis,
+                        f"map-{model}-{axis}",
+                        label,
+                        f"{name}.csv",
+                        ring=study.barred[model].ring.extent,
+                    )
                     for axis in AXES
                 )
             )

@@ -163,15 +163,19 @@ def test_near_singular_poses_lie_in_the_ring_of_figure_4(comparison: AzulayCompa
 def test_no_row_is_called_a_prediction(comparison: AzulayComparison) -> None:
     # heights, lengths and the model of the drives were chosen with these tables in view: a status
     # depends on that, not on how near a number came
-    found = {row.status for rows in comparison.rows.values() for row in rows}
-    assert found == {"calibrated"}
+    rows_of_all = [row for rows in comparison.rows.values() for row in rows]
+    means = {row.status for row in rows_of_all if row.quantity.endswith("mean")}
+    assert means == {"calibrated"}
     variances = [
         row
         for rows in comparison.rows.values()
         for row in rows
         if row.quantity.endswith("variance")
     ]
-    assert variances
+    assert len(variances) == len(rows_of_all) // 2
+    # never fitted, and as a whole they miss: most by more than the 15 % that counts as fair
+    assert {row.status for row in variances} == {"not reproducible"}
+    assert np.median([abs(row.difference_percent) for row in variances]) > 15.0
     assert all("nothing was fitted to a variance" in row.note for row in variances)
 
 
