@@ -175,4 +175,7 @@ def _direction(vector: Array) -> str:
     largest = int(np.argmax(np.abs(unit)))
     if abs(unit[largest]) > 1 - 1e-9:
         return AXES[largest]
-    return f"({', '.join(f'{v:.3g}' for v in np.round(unit, 9) + 0.0)})"
+    # a line has no sense: the first entry that counts is positive, whatever rounding has made of it
+    first = unit[int(np.argmax(np.abs(unit) > 1e-6))]
+    shown = np.round(unit * np.sign(first), 9) + 0.0
+    return f"({', '.join(f'{v:.3g}' for v in shown)})"

@@ -125,7 +125,7 @@ def _figures(modes: MachineModes) -> Row:
                 f"Mode {k + 1}{', the machine as it is' if k == 0 else ''}.",
                 _sketch(lines, modes.tool.position[k], middle, half, k == 0),
                 f"Lines of the bodies in assembly mode {k + 1}, seen from aside.",
-                "",
+                "assembly-modes.csv",
                 210,
             )
             for k, lines in enumerate(modes.lines[:DRAWN])

@@ -38,9 +38,12 @@ CHAPTERS = (
     "motion",
     "workspace-size",
     "singularities",
+    "assembly-modes",
+    "reversals",
     "tool",
     "budget",
     "workspace-stiffness",
+    "dynamics",
     "files",
 )
 
