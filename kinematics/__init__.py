@@ -1,5 +1,10 @@
 """Kinematics: joints, linkages, placements, their constraint rows and what follows from them."""
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from strutwork.kinematics.forward import FoundPoses, forward_kinematics
 from strutwork.kinematics.frames import (
     angle,
@@ -26,25 +31,77 @@ from strutwork.kinematics.rows import (
     constraint_rows,
 )
 
+if TYPE_CHECKING:
+    from strutwork.kinematics.assembly_modes import AssemblyModes
+    from strutwork.kinematics.branches import Branches
+    from strutwork.kinematics.capability import Zonotope, force_zonotope, velocity_zonotope
+    from strutwork.kinematics.capsules import Capsule, Interference
+    from strutwork.kinematics.drive_forces import Forces, inverse_dynamics
+    from strutwork.kinematics.dynamics import Dynamics, PlacedDynamics
+    from strutwork.kinematics.error_transmission import ErrorTransmission
+    from strutwork.kinematics.inverse_survey import InverseSurvey
+    from strutwork.kinematics.largest_shape import LargestShape
+    from strutwork.kinematics.margins import Margins
+    from strutwork.kinematics.motion import Motion, Moved
+    from strutwork.kinematics.regions import Regions
+    from strutwork.kinematics.reversals import Reversals
+    from strutwork.kinematics.singularities import (
+        Singularity,
+        singularities_on_line,
+        singularity_distance,
+    )
+    from strutwork.kinematics.singularity_curves import (
+        SingularCurve,
+        SingularPlane,
+        singularities_in_plane,
+    )
+    from strutwork.kinematics.task_grid import TaskGrid
+    from strutwork.kinematics.tool_drive_space import ToolDriveSpace
+    from strutwork.kinematics.trajectory import Trajectory, roughness
+    from strutwork.kinematics.transmission import Ellipsoids, force_ellipsoids, velocity_ellipsoids
+
 __all__ = [
     "DIRECTIONS",
     "GROUND",
     "JOINT_TYPES",
+    "AssemblyModes",
     "Body",
+    "Branches",
+    "Capsule",
     "ConstraintRows",
+    "Dynamics",
+    "Ellipsoids",
+    "ErrorTransmission",
+    "Forces",
     "FoundPoses",
     "FreeMotion",
+    "Interference",
+    "InverseSurvey",
     "Jacobians",
     "Joint",
+    "LargestShape",
     "Linkage",
+    "Margins",
     "Mechanism",
     "Mobility",
+    "Motion",
+    "Moved",
     "NearMechanism",
+    "PlacedDynamics",
     "Placement",
     "Poses",
+    "Regions",
+    "Reversals",
     "SelfStress",
+    "SingularCurve",
+    "SingularPlane",
+    "Singularity",
     "State",
+    "TaskGrid",
+    "ToolDriveSpace",
+    "Trajectory",
     "VelocityEllipsoid",
+    "Zonotope",
     "angle",
     "axes_frame",
     "body_references",
@@ -54,13 +111,72 @@ __all__ = [
     "constraint_rows",
     "cross_matrix",
     "drive_values",
+    "force_ellipsoids",
+    "force_zonotope",
     "forward_kinematics",
+    "inverse_dynamics",
     "jacobians",
     "mobility",
     "near_motions",
     "rotation_x",
     "rotation_y",
     "rotation_z",
+    "roughness",
+    "singularities_in_plane",
+    "singularities_on_line",
+    "singularity_distance",
     "tangent_rotation",
     "velocity_ellipsoid",
+    "velocity_ellipsoids",
+    "velocity_zonotope",
 ]
+
+#: Files of names that are read when first asked for: compiled code and its libraries more than
+#: double the time of an import. No name of a file stands here, since Python puts the file itself
+#: in the place of such a name once it is read.
+_LATER = {
+    "AssemblyModes": "assembly_modes",
+    "Branches": "branches",
+    "Capsule": "capsules",
+    "Dynamics": "dynamics",
+    "Ellipsoids": "transmission",
+    "ErrorTransmission": "error_transmission",
+    "Forces": "drive_forces",
+    "Interference": "capsules",
+    "InverseSurvey": "inverse_survey",
+    "LargestShape": "largest_shape",
+    "Margins": "margins",
+    "Motion": "motion",
+    "Moved": "motion",
+    "PlacedDynamics": "dynamics",
+    "Regions": "regions",
+    "Reversals": "reversals",
+    "SingularCurve": "singularity_curves",
+    "SingularPlane": "singularity_curves",
+    "Singularity": "singularities",
+    "TaskGrid": "task_grid",
+    "ToolDriveSpace": "tool_drive_space",
+    "Trajectory": "trajectory",
+    "Zonotope": "capability",
+    "force_ellipsoids": "transmission",
+    "force_zonotope": "capability",
+    "inverse_dynamics": "drive_forces",
+    "roughness": "trajectory",
+    "singularities_in_plane": "singularity_curves",
+    "singularities_on_line": "singularities",
+    "singularity_distance": "singularities",
+    "velocity_ellipsoids": "transmission",
+    "velocity_zonotope": "capability",
+}
+
+
+def __getattr__(name: str) -> object:
+    if name not in _LATER:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    found: object = getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -91,6 +91,16 @@ def test_a_small_model_keeps_the_ceiling(command: str) -> None:
             "tests/cases/uff/frf_computed.uff",
             "tests/cases/uff/frf_computed.uff",
         ),
+        ("move", "proposed-3pprs", "--pose", "x=2mm"),
+        ("workspace", "proposed-3pprs", "--over", "x=-30mm..30mm:21,y=-30mm..30mm:21"),
+        (
+            *("singularities", "hexel-hexapod", "--plane", "rx,ry", "--steps", "31"),
+            *("--from", "rx=-60deg,ry=-60deg", "--to", "rx=60deg,ry=60deg"),
+            *("--ranges", "none", "--length", "100mm"),
+        ),
+        ("reversals", "hexel-hexapod", "--over", "x=-350mm..350mm:9,y=-350mm..350mm:9"),
+        ("accuracy", "hexel-hexapod", "--over", "x=-50mm..50mm:3", "--drive-error", "5um"),
+        ("trajectory", "examples/machines/6-ups.toml", "examples/09_circle.csv"),
     ],
     ids=lambda arguments: arguments[0],
 )
