@@ -45,6 +45,16 @@ def test_the_largest_box_about_home(strutwork: Program) -> None:
     assert big["reason"] in found["border"]
 
 
+def test_the_largest_box_keeps_the_bounds(strutwork: Program) -> None:
+    ask = ("workspace", "proposed-3pprs", *OVER, "--largest", "box", "--around", "x=0mm,y=0mm")
+    sizes = []
+    for options in ((), ("--stiffness", "20 N/um"), ("--amplification", "0.1..1.4")):
+        big = strutwork(*ask, *options, "--json").result["largest"]
+        sizes.append(big["measure"])
+        print(options, big)
+    assert sizes[1] < sizes[0]
+
+
 def test_tilts_shrink_it(strutwork: Program) -> None:
     measures = [
         strutwork("workspace", "proposed-3pprs", *OVER, *options, "--json").result["measure"]
