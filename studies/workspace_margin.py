@@ -19,6 +19,7 @@ from strutwork.kinematics.turns import rotation_matrix
 from strutwork.machines.limits import Limit
 from strutwork.machines.model import Model
 from strutwork.msa import Structure
+from strutwork.studies.margin_bounds import Bound
 
 Array = NDArray[Any]
 
@@ -129,6 +130,8 @@ class MachineMargin:
         Least reciprocal condition number of the drives, as a share of that at home.
     told : callable or None
         Of poses that are followed.
+    bounds : tuple of Bound
+        What else a pose must keep, as an amplification or a stiffness.
 
     Raises
     ------
@@ -144,6 +147,7 @@ class MachineMargin:
     interference: Interference | None = None
     conditioning: float | None = None
     told: Callable[[int, int], None] | None = None
+    bounds: tuple[Bound, ...] = ()
 
     def __post_init__(self) -> None:
         self.model.require_tool()
@@ -240,6 +244,11 @@ class MachineMargin:
         slacks = placement_slacks(placement, self.ranges, self.interference)
         if self.conditioning is not None:
             slacks[CONDITIONING] = self._conditioning(placement)
+        good = np.flatnonzero(placement.reachable)
+        for bound in self.bounds if good.size else ():
+            for words, slack in bound(placement[good]).items():
+                slacks[words] = np.ones(placement.batch)
+                slacks[words][good] = slack
         return of_slacks(slacks)
 
     def _conditioning(self, placement: Placement) -> Array:

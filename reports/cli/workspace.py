@@ -24,6 +24,7 @@ from strutwork.reports.cli.progress import shown
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words
 from strutwork.stages import stage
+from strutwork.studies.margin_bounds import AmplificationBound, Bound, StiffnessBound
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_files import write_workspace
 from strutwork.studies.workspace_margin import (
@@ -34,7 +35,7 @@ from strutwork.studies.workspace_margin import (
     interference_of,
     tilted,
 )
-from strutwork.units import ANGLE, LENGTH, quantity
+from strutwork.units import ANGLE, LENGTH, STIFFNESS, quantity
 
 Array = NDArray[Any]
 
@@ -59,6 +60,8 @@ class Asked:
     radius: str | None
     interference: bool
     conditioning: float | None
+    amplification: str | None = None
+    stiffness: str | None = None
 
 
 @dataclass(frozen=True)
@@ -86,6 +89,7 @@ def run(
         _spare(asked),
         _interference(model, asked),
         asked.conditioning,
+        bounds=_bounds(model, asked),
     )
     shape = _shape(wanted, axes)
     with shown() as started:
@@ -154,6 +158,25 @@ def _interference(model: Model, asked: Asked) -> Any:
     if asked.radius is not None:
         return interference_of(model, quantity(_number(asked.radius), LENGTH, "--radius"))
     return interference_of(model, None) if asked.interference else None
+
+
+def _bounds(model: Model, asked: Asked) -> tuple[Bound, ...]:
+    found: list[Bound] = []
+    if asked.amplification is not None:
+        low, dots, high = asked.amplification.partition("..")
+        try:
+            ends = (float(low), float(high)) if dots else (0.0, float(low))
+        except ValueError:
+            raise ModelError(
+                "--amplification",
+                f'"{asked.amplification}" is no bound.',
+                "Write it as in 3, or 0.33..3.",
+            ) from None
+        found.append(AmplificationBound(model, *ends))
+    if asked.stiffness is not None:
+        least = quantity(_number(asked.stiffness), STIFFNESS, "--stiffness")
+        found.append(StiffnessBound(model, least))
+    return tuple(found)
 
 
 def _shape(wanted: Wanted, axes: Mapping[str, Array]) -> InscribedShape | None:

@@ -73,6 +73,19 @@ def workspace(
         float | None,
         typer.Option(help="Least 1/condition of the drives, as a share of that at home."),
     ] = None,
+    amplification: Annotated[
+        str | None,
+        typer.Option(
+            metavar="HIGH|LOW..HIGH",
+            help="Bounds of the tool's velocity, m/s, for drive rates of 1 m/s in all, as 0.33..3.",
+        ),
+    ] = None,
+    stiffness: Annotated[
+        str | None,
+        typer.Option(
+            metavar="STIFFNESS", help="Least at the tool in its softest direction, as '10 N/um'."
+        ),
+    ] = None,
     largest: Annotated[Inscribed | None, typer.Option(help="Find the largest one inside.")] = None,
     proportions: Annotated[
         str | None,
@@ -116,6 +129,8 @@ def workspace(
             radius=radius,
             interference=interference,
             conditioning=conditioning,
+            amplification=amplification,
+            stiffness=stiffness,
         ),
         work.Wanted(None if largest is None else largest.value, proportions, around),
         out,

@@ -45,6 +45,14 @@ def test_the_largest_box_about_home(strutwork: Program) -> None:
     assert big["reason"] in found["border"]
 
 
+def test_a_bound_on_stiffness_shrinks_it(strutwork: Program) -> None:
+    ask = ("workspace", "proposed-3pprs", *OVER, "--json")
+    free = strutwork(*ask).result
+    held = strutwork(*ask, "--stiffness", "0.26 N/um").result
+    assert 0.0 < held["measure"] < free["measure"]
+    assert any(words.startswith("stiffness in the softest") for words in held["border"])
+
+
 def test_tilts_shrink_it(strutwork: Program) -> None:
     measures = [
         strutwork("workspace", "proposed-3pprs", *OVER, *options, "--json").result["measure"]
@@ -76,6 +84,8 @@ def test_a_direction_with_one_value_is_where_the_tool_is_put(strutwork: Program)
         ((*OVER, "--largest", "box", "--around", "z=0mm"), "--around"),
         ((*OVER, "--radius", "200mm"), "interfere at home"),
         ((*OVER, "--conditioning", "2"), "conditioning"),
+        ((*OVER, "--amplification", "3..x"), "--amplification"),
+        ((*OVER, "--stiffness", "20 N/um"), "home does not keep"),
     ],
 )
 def test_what_cannot_be_asked(strutwork: Program, options: tuple[str, ...], words: str) -> None:
