@@ -35,7 +35,7 @@ def waves(seed: int) -> tuple[Array, Array, Array, Array]:
 def slope(patch: tuple[Array, Array, Array, Array], points: Array) -> Array:
     """Gradient of the patch's height at points (p, 2), (p, 2)."""
     size, way, phase, plane = patch
-    return plane - (size * np.sin(points @ way.T + phase)) @ way
+    return np.asarray(plane - (size * np.sin(points @ way.T + phase)) @ way)
 
 
 def turns(patch: tuple[Array, Array, Array, Array]) -> tuple[int, float]:

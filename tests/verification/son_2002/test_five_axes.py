@@ -40,7 +40,7 @@ def asked() -> tuple[Array, Array]:
 
 def turned(drives: Array, vectors: Array) -> Array:
     """Vectors of the workpiece in the machine's axes: the table turns by θ₅ = −a about x."""
-    return Rotation.from_rotvec(drives[:, 4:] * [1.0, 0.0, 0.0]).apply(vectors)
+    return np.asarray(Rotation.from_rotvec(drives[:, 4:] * [1.0, 0.0, 0.0]).apply(vectors))
 
 
 def test_tool_axis_is_the_turned_normal(asked: tuple[Array, Array]) -> None:
