@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -96,6 +96,15 @@ class SolidElement:
     def positions(self) -> Array:
         """Of the nodes, (k, 3), global axes, m."""
         return np.asarray(self.reduced.positions @ self.rotation.T + self.translation)
+
+    def scaled(self, factor: float) -> SolidElement:
+        """The same solid of the same material, `factor` times as large, from the same origin."""
+        return replace(
+            self,
+            reduced=self.reduced.scaled(factor),
+            translation=factor * self.translation,
+            points=factor * self.points,
+        )
 
     def stiffness(self, at: PlacedStructure) -> Array:
         """Stiffness in global axes, (..., 6 k, 6 k)."""

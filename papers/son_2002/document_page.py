@@ -14,12 +14,15 @@ from strutwork.studies.progress import Teller
 #: Chapters of the page: key, title, and the places of the thesis that begin it.
 _PARTS = (
     ("manipulability", "How well do drives move a hexapod?", ("section 2.2",)),
-    ("scale", "What does size do?", ("eqs 14, 15", "eq. 24")),
+    ("scale", "What does size do?", ("eqs 14, 15", "eq. 24", "Fig. 9")),
     ("reversals", "Where do drives turn back?", ("eq. 34", "section 4")),
     (
         "planar",
         "How does the planar machine move, and how stiff is it?",
-        ("section 6.4", "Fig. 34 (b), (c)", "section 6.1", "section 6.3", "section 6.2"),
+        (
+            *("section 6.4", "Fig. 34 (b), (c)", "section 6.1"),
+            *("eqs 43 to 45", "section 6.3", "section 6.2"),
+        ),
     ),
     ("table-2", "Which forces lock in?", ("Table 2",)),
     ("targets", "Does it meet its targets?", ("chapter 7",)),

@@ -9,13 +9,14 @@ import pytest
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, UnreachableError
-from strutwork.kinematics import Poses, angle, drive_values, rotation_y
+from strutwork.kinematics import Poses, drive_values
 from strutwork.kinematics.drive_fields import FormulaField, MotionField
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.reversals import reversals
 from strutwork.kinematics.task_surfaces import Dome, Plane, sphere
 from strutwork.machines import HexelHexapod, MitSS1, WorkTable
 from strutwork.machines.load import load
+from strutwork.papers.son_2002.five_axes import five_axes_field
 
 Array = NDArray[Any]
 
@@ -108,20 +109,14 @@ def bumpy(points: Array) -> tuple[Array, Array, Array]:
 
 def test_strong_less_weak_points_are_the_winding_with_the_tool_normal() -> None:
     """All four drives that the normal orientation moves on the struts' side and the slide."""
-    machine, table = MitSS1(), WorkTable()
 
-    def values(points: Array) -> Array:
+    def surface(points: Array) -> tuple[Array, Array]:
         z, slope_x, slope_y = bumpy(points)
-        size = np.sqrt(1 + slope_x * slope_x + slope_y * slope_y)
-        n = np.stack([-slope_x, -slope_y, 1 + 0 * z], axis=-1) / size[:, None]
-        a = -angle(n[:, 1], n[:, 2])
-        b = angle(n[:, 0], np.sqrt(n[:, 1] ** 2 + n[:, 2] ** 2))
-        work = np.stack([points[:, 0], points[:, 1], z], axis=-1)
-        tip = table.tool_position(work, a) - np.array([0, 0, 0.2])
-        struts = drive_values(machine, machine.place(Poses(tip, rotation_y(b))))
-        return np.concatenate([struts, table.drive_values(work, a)[:, :1]], axis=-1)
+        normal = np.stack([-slope_x, -slope_y, 1 + 0 * z], axis=-1)
+        return np.stack([points[:, 0], points[:, 1], z], axis=-1), normal
 
-    field = FormulaField(("strut 1", "strut 2", "strut 3", "slide"), stepped(values))
+    whole = five_axes_field(surface)
+    field = FormulaField(whole.drives[:4], lambda points: whole.gradient(points)[:, :4])
     found = reversals(field, np.linspace(-0.05, 0.045, 33), np.linspace(-0.04, 0.055, 33))
     assert [d.complete for d in found.singular] == [True] * 4
     assert all(d.strong + d.weak > 0 for d in found.singular)

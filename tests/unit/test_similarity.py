@@ -17,6 +17,9 @@ from strutwork.fea.solid_matrices import solid_matrices
 from strutwork.fea.superelement import Superelement, superelement
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement
 from strutwork.machines import MitSS1
+from strutwork.machines.model_file import parse_model
+from strutwork.machines.model_solid_element import SolidElement
+from strutwork.machines.model_templates import template
 from strutwork.meshes import block
 from strutwork.msa import (
     Beam,
@@ -175,6 +178,19 @@ def test_a_superelement_scaled_is_that_of_the_larger_solid() -> None:
     assert modes(ours, 6).frequencies == pytest.approx(modes(theirs, 6).frequencies, rel=1e-8)
     one, other = tool_compliance(ours), tool_compliance(theirs)
     assert np.abs(one - other).max() < 1e-9 * np.abs(other).max()
+
+
+def test_a_solid_of_a_model_file_grows_from_the_origin() -> None:
+    """Its nodes and its surface stand factor times as far, of the node that the machine has."""
+    model = parse_model(template("gantry"))
+    (bed,) = (e for e in model.placed.structure.elements if isinstance(e, SolidElement))
+    grown = bed.scaled(2.5)
+    assert grown.positions == pytest.approx(2.5 * bed.positions, abs=1e-12)
+    assert grown.points == pytest.approx(2.5 * bed.points, abs=1e-12)
+    mass, centre = bed.weighed
+    # by the rigid body's mass matrix: rounding, and what the reduction leaves of it
+    assert grown.weighed[0] == pytest.approx(2.5**3 * mass, rel=1e-9)
+    assert grown.weighed[1] == pytest.approx(2.5 * centre, abs=1e-9)
 
 
 class Block:

@@ -14,6 +14,7 @@ from strutwork.papers.son_2002.assembly_map import FORCES
 from strutwork.papers.son_2002.chapters.plane import axes, extremes, plane_file
 from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study, degrees_text
 from strutwork.papers.son_2002.published import MACHINE, MANIPULABILITY
+from strutwork.papers.son_2002.working_modes import free_modes, working_modes
 from strutwork.papers.tables import numbers, rows_file, texts
 from strutwork.reports.content import (
     Block,
@@ -111,6 +112,7 @@ def kinematics_chapter(study: MitSS1Study) -> Chapter:
             ],
             "report.json",
         ),
+        _working_modes(study),
         Text(
             "Within the nominal workspace there is none: the determinant of the struts' rows stays "
             f"between {significant(float(found['determinant'].min()))} and "
@@ -119,6 +121,40 @@ def kinematics_chapter(study: MitSS1Study) -> Chapter:
         ),
     ]
     return Chapter("kinematics", "Kinematics", tuple(blocks), tuple(_kinematics_files(study)))
+
+
+def _modes_over(study: MitSS1Study) -> xr.Dataset:
+    """The eight modes on the grid of the chapter's maps."""
+    found = study.kinematics
+    return working_modes(study.machine, found["x"], found["b"])
+
+
+def _working_modes(study: MitSS1Study) -> Table:
+    found = _modes_over(study)
+    free = free_modes(found)
+    values = found["determinant"].to_numpy()
+    rows: list[list[str | Cell]] = [
+        [
+            str(name),
+            percent(100.0 * float(np.isfinite(v).mean())).lstrip("+"),
+            significant(float(np.nanmin(v))),
+            significant(float(np.nanmax(v))),
+            Cell("none", "good") if keeps else Cell("within", "poor"),
+        ]
+        for name, v, keeps in zip(found["mode"].to_numpy(), values, free, strict=True)
+    ]
+    return Table(
+        "Working modes: each block above (+) or below (−) its joint on the housing; the machine's "
+        "own first",
+        (
+            *texts("blocks"),
+            Column("workspace reached", "", True),
+            *numbers("least determinant", "largest", unit="m"),
+            *texts("actuator singularity"),
+        ),
+        rows,
+        "working-modes.csv",
+    )
 
 
 def condition_rows(kinematics: xr.Dataset) -> tuple[PublishedRow, ...]:
@@ -164,11 +200,24 @@ def _kinematics_files(study: MitSS1Study) -> list[DataFile]:
     maps = {f"block{k + 1}_m": found["drive"].to_numpy()[..., k] for k in range(3)}
     maps |= {"condition": found["condition"].to_numpy()}
     maps |= {"determinant_m": found["determinant"].to_numpy()}
+    modes = _modes_over(study)
+    determinants = {
+        f"determinant {name} [m]": values
+        for name, values in zip(
+            modes["mode"].to_numpy(), modes["determinant"].to_numpy(), strict=True
+        )
+    }
     return [
         plane_file(
             "kinematics.csv", "drives, condition number, determinant over x, b", found, maps
         ),
         netcdf_file("kinematics.nc", "the same as a dataset", found),
+        plane_file(
+            "working-modes.csv",
+            "determinant of every working mode over x, b",
+            found,
+            determinants,
+        ),
         rows_file(
             file_name(MANIPULABILITY.key),
             "manipulability of the thesis beside ours",
