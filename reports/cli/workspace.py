@@ -77,6 +77,12 @@ def run(
     target: str, over: Sequence[str], asked: Asked, wanted: Wanted, out: str | None, *, json: bool
 ) -> None:
     """Find the workspace of a machine and print what it is."""
+    if wanted.kind is not None and (asked.amplification or asked.stiffness):
+        raise ModelError(
+            "--largest",
+            "is not sought under --amplification or --stiffness: it would solve too many poses.",
+            "Leave one of them out; in Python strutwork.kinematics.largest_shape takes any bound.",
+        )
     model = load(target)
     axes, put = _axes(target, model, over)
     model = at_pose(model, put)
