@@ -39,7 +39,7 @@ class AssemblyModes:
         How many there are, 16 in general; fewer where ways coincide. −1 where they were not all
         found.
     home : (...) of int
-        Which of the real ones the machine stands in.
+        Which of the real ones the machine stands in; −1 where that was not found.
     position, rotation : (..., 16, 3) and (..., 16, 3, 3)
         Of the tool in the real ones, m; not a number past the last of them.
     """
@@ -159,7 +159,7 @@ def assembly_modes(
         angles,
         real,
         whole.reshape(batch),
-        np.asarray(near.argmin(axis=-1)),
+        np.asarray(np.where(near.min(axis=-1) < SAME, near.argmin(axis=-1), -1)),
         np.zeros(0),
         np.zeros(0),
     )

@@ -162,8 +162,7 @@ class Joint:
                 "Give its way along the axis for one turn, m, not zero; negative for a left-hand "
                 "thread.",
             )
-        tied = [d for d in ("z",) if d in (*self.stiffness, *self.damping, *self.limits)]
-        if tied or "z" in self.driven or "rz" in self.locks:
+        if "z" in (*self.stiffness, *self.damping, *self.limits, *self.driven):
             raise ModelError(
                 part,
                 "is helical: z follows rz and takes no stiffness, damping, limit or drive.",

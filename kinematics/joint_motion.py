@@ -231,8 +231,10 @@ class JointMotion:
             lead = self.linkage.joints[j].lead
             if lead:
                 angle = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
-                if near is not None:
-                    before = near[:, self.names.index((self.linkage.joints[j].name, "rz"))]
+                turn_of = (self.linkage.joints[j].name, "rz")
+                # a turn that is held stays within half a turn of home
+                if near is not None and turn_of in self.names:
+                    before = near[:, self.names.index(turn_of)]
                     angle = before + np.angle(np.exp(1j * (angle - before)))
                 open_[:, j, 2] -= lead * angle
         return np.where(self.held, open_, 0.0)

@@ -128,11 +128,7 @@ class Subject:
             return "it has no tool: add [tool] with tcp"
         if self.model.workspace is None:
             return "the file names no poses to look at: add [workspace] with ranges of the tool"
-        try:
-            _ = self.stiffness_survey
-        except StrutworkError as error:
-            return visible(str(error).replace("\n", " ")).rstrip(".")
-        return ""
+        return self._reason(lambda: self.stiffness_survey)
 
     @cached_property
     def stiffness_survey(self) -> xr.Dataset:
@@ -189,11 +185,7 @@ class Subject:
     @cached_property
     def unsingular(self) -> str:
         """Why singularities are not looked for; empty where they are."""
-        try:
-            _ = self.singular_distance, self.singular_plane
-        except StrutworkError as error:
-            return visible(str(error).replace("\n", " ")).rstrip(".")
-        return ""
+        return self._reason(lambda: (self.singular_distance, self.singular_plane))
 
     @cached_property
     def singular_distance(self) -> PoseDistance:
@@ -219,11 +211,7 @@ class Subject:
     @cached_property
     def unbounded(self) -> str:
         """Why its workspace has no size; empty where it has one."""
-        try:
-            _ = self.workspace
-        except StrutworkError as error:
-            return visible(str(error).replace("\n", " ")).rstrip(".")
-        return ""
+        return self._reason(lambda: self.workspace)
 
     @cached_property
     def workspace(self) -> Workspace:

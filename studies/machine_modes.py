@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics.assembly_modes import AssemblyModes, assembly_modes
 from strutwork.kinematics.branches import Branches, branches
+from strutwork.kinematics.circle_kernel import ROOTS
 from strutwork.kinematics.mechanism import Poses
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.placement import Placement
@@ -33,12 +34,10 @@ class MachineModes:
         (m)
     lines : tuple of tuple of (k, 3)
         What to draw of each mode, m.
-    every : bool
-        Whether there are no others: else they are those that several starts have found.
     ways : int
         Of an elimination all ways, complex ones too; else the starts that closed.
     starts : int
-        0 of an elimination.
+        0 of an elimination, which finds all.
     apart : float
         Largest turn of a leg to the nearest other mode, rad; not a number where it is not known.
     moves : bool
@@ -47,7 +46,6 @@ class MachineModes:
 
     tool: Poses
     lines: tuple[tuple[Array, ...], ...]
-    every: bool
     ways: int
     starts: int
     apart: float
@@ -55,6 +53,11 @@ class MachineModes:
 
     def __repr__(self) -> str:
         return f"<MachineModes: {len(self)}, {'all' if self.every else 'found from starts'}>"
+
+    @property
+    def every(self) -> bool:
+        """Whether there are no others: else they are those that several starts have found."""
+        return self.starts == 0
 
     def __len__(self) -> int:
         return len(self.tool.position)
@@ -84,10 +87,13 @@ def machine_modes(
     if not linkage.driven:
         raise ModelError("drives", "are none.", "Name driven directions of joints.")
     here = model.placement if placement is None else placement
-    circles = platform_circles(linkage, here)
-    if isinstance(circles, str):
+    if isinstance(platform_circles(linkage, here), str):
         return _found(model.motion, placement, starts)
-    return _every(assembly_modes(linkage, here, _rotation(model, placement)))
+    modes = assembly_modes(linkage, here, _rotation(model, placement))
+    # of fewer ways some coincide or were lost, and which is not known
+    if int(modes.count) < ROOTS or int(modes.home) < 0:
+        return _found(model.motion, placement, starts)
+    return _every(modes)
 
 
 def _rotation(model: Model, placement: Placement | None) -> Array:
@@ -114,7 +120,6 @@ def _every(modes: AssemblyModes) -> MachineModes:
     return MachineModes(
         Poses(modes.position[order], modes.rotation[order]),
         lines,
-        bool(modes.count > 0),
         int(modes.count),
         0,
         float(modes.apart),
@@ -133,7 +138,6 @@ def _found(motion: Motion, placement: Placement | None, starts: int) -> MachineM
     return MachineModes(
         found.tool,
         _skeletons(motion, found),
-        every=False,
         ways=found.closed,
         starts=found.starts,
         apart=float("nan"),

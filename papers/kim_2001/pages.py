@@ -214,13 +214,13 @@ def barriers_chapter() -> Chapter:
                 "in any case, the first is not."
             ),
             Table(
-                "Singular tilts with six drives",
+                "Singular tilts with six drives, by the calibrated dimensions",
                 texts("spindle angle, deg", "singular tilts, deg"),
                 angles,
             ),
             Table(
                 "Smallest singular value of the drives' rows over tilts of 0 to 85 deg, lengths "
-                "scaled by the platform's radius",
+                "scaled by the platform's radius; by the calibrated dimensions",
                 (
                     *texts("extra drives"),
                     *numbers("spindle angle 0", "spindle angles -30 to 30 deg"),
@@ -241,10 +241,10 @@ def radius_chapter() -> Chapter:
         (
             Text(
                 "Norm of the compliance of the tool's position. The document finds it flat from "
-                "35 mm on, and chose 33 mm; so does ours."
+                "35 mm on, and chose 33 mm; so does ours, with its calibrated dimensions."
             ),
             Table(
-                "All links, relative to rigid ones",
+                "All links, relative to rigid ones; calibrated",
                 numbers("radius, mm", "tilt 0", "tilt 90 deg"),
                 [
                     [f"{1e3 * r:g}", f"{a:.3f}", f"{b:.3f}"]
@@ -252,7 +252,7 @@ def radius_chapter() -> Chapter:
                 ],
             ),
             Table(
-                "One link of 15 mm, relative to all of 33 mm",
+                "One link of 15 mm, relative to all of 33 mm; calibrated",
                 (*texts("thin link"), *numbers("tilt 0", "tilt 90 deg")),
                 [[f"leg {i}", f"{a:.3f}", f"{b:.3f}"] for i, (a, b) in enumerate(thin, 1)],
             ),

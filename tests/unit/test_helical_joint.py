@@ -208,3 +208,25 @@ def test_a_pitch_belongs_to_a_screw() -> None:
         Joint("pin", "revolute", ("a", "b"), pitch=0.01)
     with pytest.raises(ModelError, match="pitch"):
         replace(Joint("nut", "helical", ("a", "b"), pitch=0.01), pitch=None)
+
+
+def test_a_screw_whose_turn_is_held_by_a_spring_stays() -> None:
+    """Elastic directions are held in motion: the screw is a rigid part of what moves."""
+    nodes = ("g", "a", "b", "n")
+    linkage = Linkage(
+        nodes,
+        (Body("ground", ("g",)), Body("rod", ("a", "b")), Body("nut", ("n",))),
+        (
+            Joint("pin", "revolute", ("g", "a")),
+            Joint("thread", "helical", ("b", "n"), {"rz": 100.0}, pitch=0.005),
+        ),
+        "n",
+    )
+    positions = np.array([[0, 0, 0], [0, 0, 0], [0.2, 0, 0], [0.2, 0, 0]])
+    motion = Motion(linkage, Placement(positions, np.tile(np.eye(3), (2, 1, 1)), np.zeros(0)))
+    moved = motion.move(joints={("pin", "rz"): [1.0]})
+    assert moved.reached.all()
+    assert moved.tool is not None
+    np.testing.assert_allclose(
+        moved.tool.position[0], [0.2 * np.cos(1), 0.2 * np.sin(1), 0], atol=1e-12
+    )

@@ -91,7 +91,8 @@ def summary_chapter(study: Comparison) -> Chapter:
                 micro(parted.mean(axis, True)),
                 "N/µm",
                 f"mean K{axis * 2}, calibrated, at the {parted.kept(True)} points of its own joint "
-                f"ranges; with those of revolute joints alone {micro(found.statistics.mean)} at "
+                "ranges; with those of revolute joints alone, which leave more rolls, "
+                f"{micro(found.statistics.mean)} at "
                 f"{parted.kept(False)}; published {significant(published, 4)}",
             )
         )
