@@ -1,13 +1,17 @@
-"""Inverse kinematics per second: closed form, Newton leg by leg, Newton on all bodies.
+"""Inverse kinematics per second: closed form, Newton leg by leg, on all bodies, and Pinocchio.
 
 Run `python -m benchmarks.inverse_speed`; with `--write` its table goes to
 docs/performance-inverse.md. It stops with an error where two of them disagree, or where the legs
-are not faster than all bodies by `LEAST`.
+are not faster than all bodies by `LEAST`. Pinocchio (the extra `bench`) is left out where it is
+not installed; `--compile` takes it from C++ too, which takes minutes to compile.
 """
 
 from __future__ import annotations
 
+import tempfile
 from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,6 +20,8 @@ from numpy.typing import NDArray
 from benchmarks.kinematics_speed import poses_around
 from benchmarks.measure import (
     DOCUMENTS,
+    installed,
+    left_out,
     machine_line,
     one_thread,
     parsed,
@@ -24,7 +30,9 @@ from benchmarks.measure import (
     require,
     shown,
 )
-from strutwork.kinematics.inverse_survey import inverse_survey
+from benchmarks.pinocchio_compiled import CompiledLegs, compiled, missing
+from benchmarks.pinocchio_peer import Answer, PinocchioLegs
+from strutwork.kinematics.inverse_survey import InverseSurvey, inverse_survey
 from strutwork.kinematics.motion import Motion
 from strutwork.machines import HexelHexapod, Machine, Proposed3PPRS
 from strutwork.machines.load import machine_model
@@ -48,12 +56,15 @@ FEW = 512
 
 @dataclass(frozen=True)
 class Rates:
-    """Poses per second of processor time."""
+    """Poses per second of processor time; of a peer that is left out, None."""
 
     closed: float
     legs: float
     bodies: float
     gap: float
+    python: float | None = None
+    cpp: float | None = None
+    peers_gap: float = 0.0
 
 
 class _AllBodies(Motion):
@@ -62,8 +73,18 @@ class _AllBodies(Motion):
     legs = None
 
 
-def measured(machine: Machine, count: int) -> Rates:
+def measured(machine: Machine, count: int, peer: bool, library: Path | None) -> Rates:
     """Rates of one machine: coordinates, joint ranges and singularity margin of every pose.
+
+    Parameters
+    ----------
+    machine : Machine
+    count : int
+        Poses.
+    peer : bool
+        Whether Pinocchio is asked too.
+    library : Path or None
+        Its compiled legs.
 
     Raises
     ------
@@ -81,12 +102,32 @@ def measured(machine: Machine, count: int) -> Rates:
     gap = float(np.abs(one.margin - other.margin)[both].max())
     require(gap < AGREEMENT, f"{name}: margins differ by {gap:.1e}")
     slow = _AllBodies(motion.linkage, motion.home, motion.rotation)
+    # one after the other, so that what else the machine does falls on all alike
+    peers: list[PinocchioLegs | CompiledLegs] = [PinocchioLegs(motion)] if peer else []
+    if library is not None:
+        peers.append(CompiledLegs(motion, library))
+    gaps = [_apart(motion, other, each.survey(poses, other.length)) for each in peers]
+    require(max(gaps, default=0.0) < AGREEMENT, f"{name}: Pinocchio differs by {gaps}")
+    rates = [rate(lambda each=each: each.survey(poses, other.length), count) for each in peers]
     return Rates(
         rate(lambda: inverse_survey(machine, poses), count),
         rate(lambda: inverse_survey(motion, poses), count),
         rate(lambda: inverse_survey(slow, few), len(few.position), 3),
         gap,
+        *[*rates, None, None][:2],
+        max(gaps, default=0.0),
     )
+
+
+def _apart(motion: Motion, ours: InverseSurvey, theirs: Answer) -> float:
+    """How far drives and margins are apart, m, rad and 1; the same poses must be good."""
+    if not np.array_equal(ours.reachable, theirs.good):
+        return float("inf")
+    home = dict(zip(motion.joints.names, motion.home_values, strict=True))
+    zero = np.array([home[name] for name in motion.linkage.driven])
+    good = theirs.good
+    drives = np.abs(ours.values - zero - theirs.drives)[good].max()
+    return float(max(drives, np.abs(ours.margin - theirs.margin)[good].max()))
 
 
 def table(found: dict[str, Rates]) -> str:
@@ -103,7 +144,7 @@ def table(found: dict[str, Rates]) -> str:
     lines = [
         "# Performance of inverse kinematics",
         "",
-        "Made by `python -m benchmarks.inverse_speed --write`: read ratios. One thread,",
+        "Made by `python -m benchmarks.inverse_speed --compile --write`: read ratios. One thread,",
         "processor time.",
         machine_line(),
         "",
@@ -120,16 +161,67 @@ def table(found: dict[str, Rates]) -> str:
         f"{r.closed / r.legs:.1f} | {r.legs / r.bodies:.0f} | {r.gap:.0e} |"
         for name, r in found.items()
     ]
-    return "\n".join([*lines, ""])
+    return "\n".join([*lines, *beside(found), ""])
+
+
+def beside(found: dict[str, Rates]) -> list[str]:
+    """The part of the page with Pinocchio."""
+    if all(r.python is None for r in found.values()):
+        return []
+    head = (
+        "",
+        "legs, poses/s",
+        "Pinocchio from Python, poses/s",
+        "Pinocchio in C++, poses/s",
+        "legs : from Python",
+        "legs : in C++",
+        "largest difference",
+    )
+    lines = [
+        "",
+        "## Beside Pinocchio",
+        "",
+        f"Pinocchio {version('pin')} in the same run, for the same: drives, joint ranges, Jacobian",
+        "and margin, each leg closed to 1e-12 m. The legs are branches of one tree, everything is",
+        "allocated once, and Newton's method begins at home. *From Python*, one call of",
+        "`computeJointJacobians` a pose and step, and NumPy solves the equations of 512 poses at",
+        "once; *in C++*, the whole is one compiled call on Pinocchio's headers",
+        "(`-O3 -march=native`). Both take their margins from our singular values, which are faster",
+        "than NumPy's. Newton's method alone may end in another working mode than home's, and",
+        "tells the drives only; *legs* walks where it must, keeps the mode, says which joint ends",
+        "the way, and places all bodies.",
+        "",
+        f"| {' | '.join(head)} |",
+        "|---|---:|---:|---:|---:|---:|---:|",
+    ]
+    for name, r in found.items():
+        theirs = [f"{x:,.0f}" if x else "not asked" for x in (r.python, r.cpp)]
+        ratios = [f"{r.legs / x:.2g}" if x else "" for x in (r.python, r.cpp)]
+        lines.append(
+            f"| {' | '.join([name, f'{r.legs:,.0f}', *theirs, *ratios])} | {r.peers_gap:.0e} |"
+        )
+    return lines
 
 
 def main() -> None:
     """Measure, print and perhaps write the table."""
     options = parser(__doc__, DOCUMENT)
     options.add_argument("--poses", type=int, default=20_000)
+    options.add_argument("--compile", action="store_true", help="Pinocchio from C++ too")
     arguments = parsed(options)
     poses = 64 if arguments.smallest else arguments.poses
-    found = {name: measured(machine, poses) for name, machine in MACHINES.items()}
+    peer = installed("pinocchio", "Pinocchio")
+    with tempfile.TemporaryDirectory() as folder:
+        library = None
+        if peer and arguments.compile:
+            lacks = missing()
+            if lacks:
+                left_out(f"Pinocchio in C++ lacks {lacks}, which")
+            else:
+                library = compiled(Path(folder))
+        found = {
+            name: measured(machine, poses, peer, library) for name, machine in MACHINES.items()
+        }
     shown(table(found), DOCUMENT, arguments)
     if not arguments.smallest:
         slow = [name for name, r in found.items() if r.legs < LEAST * r.bodies]
