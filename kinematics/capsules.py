@@ -1,4 +1,4 @@
-"""Links as capsules, segments with a radius: how far apart bodies are that no joint joins."""
+"""Links as capsules, segments with a radius, or meshes: how far apart bodies are unjoined."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.linkage import GROUND, Linkage
+from strutwork.kinematics.mesh_gaps import MeshGaps, PlacedPart
+from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.segments import segment_distances
 
 Array = NDArray[Any]
-
-#: Squared lengths below this share of the largest are points, and sines below its root parallel.
-FLAT = 1e-24
 
 
 @dataclass(frozen=True)
@@ -52,56 +52,78 @@ class Capsule:
 
 @dataclass(frozen=True)
 class Interference:
-    """Capsules of a linkage, and the pairs of them that may collide.
+    """Parts of a linkage, capsules and meshes, and the pairs of them that may collide.
 
-    Two capsules are a pair where they lie on different bodies that neither a joint joins nor a
-    body between them, without a capsule and with two joints, such as the cross of a universal
+    Two parts are a pair where they lie on different bodies that neither a joint joins nor a
+    body between them, without a part and with two joints, such as the cross of a universal
     joint.
 
     Parameters
     ----------
     linkage : Linkage
     capsules : tuple of Capsule
+    shapes : tuple of MeshShape
+        After the capsules in the numbers of `pairs`.
 
     Raises
     ------
     ModelError
-        A capsule names an unknown node, or nodes of two bodies.
+        A part names an unknown node, or nodes of two bodies; meshes without their library.
     """
 
     linkage: Linkage
     capsules: tuple[Capsule, ...]
+    shapes: tuple[MeshShape, ...] = ()
 
     def __post_init__(self) -> None:
         index, owner = self.linkage.node_index, self.linkage.body_of_node
-        for capsule in self.capsules:
-            for node in capsule.nodes:
+        for part, nodes in zip(self._parts, self._ends, strict=True):
+            for node in nodes:
                 if node not in index:
                     raise ModelError(
-                        capsule.name, f'names the unknown node "{node}".', "Define the node."
+                        part.name, f'names the unknown node "{node}".', "Define the node."
                     )
-            if len({int(owner[index[node]]) for node in capsule.nodes}) > 1:
+            if len({int(owner[index[node]]) for node in nodes}) > 1:
                 raise ModelError(
-                    capsule.name,
+                    part.name,
                     "has its ends on two bodies.",
                     "Give each body capsules of its own.",
                 )
+        if self.shapes:
+            _ = self._meshes
 
     def __repr__(self) -> str:
-        return f"<Interference: {len(self.capsules)} capsules, {len(self.pairs)} pairs>"
+        meshes = f", {len(self.shapes)} meshes" if self.shapes else ""
+        return f"<Interference: {len(self.capsules)} capsules{meshes}, {len(self.pairs)} pairs>"
+
+    @property
+    def _parts(self) -> tuple[Capsule | MeshShape, ...]:
+        return (*self.capsules, *self.shapes)
+
+    @property
+    def _ends(self) -> list[tuple[str, str]]:
+        return [*(c.nodes for c in self.capsules), *((s.node, s.node) for s in self.shapes)]
+
+    @cached_property
+    def _meshes(self) -> MeshGaps:
+        return MeshGaps()
 
     @cached_property
     def _nodes(self) -> NDArray[np.intp]:
         index = self.linkage.node_index
-        rows = [[index[n] for n in c.nodes] for c in self.capsules]
+        rows = [[index[n] for n in nodes] for nodes in self._ends]
         return np.asarray(rows, dtype=np.intp).reshape(-1, 2)
 
     @cached_property
+    def _bodies(self) -> NDArray[np.intp]:
+        return np.asarray(self.linkage.body_of_node[self._nodes[:, 0]], dtype=np.intp)
+
+    @cached_property
     def pairs(self) -> NDArray[np.intp]:
-        """Indices of two capsules each, (q, 2)."""
-        body = self.linkage.body_of_node[self._nodes[:, 0]]
+        """Indices of two parts each, (q, 2)."""
+        body = self._bodies
         joined = _joined(self.linkage, set(body.tolist()))
-        first, second = np.triu_indices(len(self.capsules), 1)
+        first, second = np.triu_indices(len(body), 1)
         free = [
             body[i] != body[k] and frozenset((int(body[i]), int(body[k]))) not in joined
             for i, k in zip(first, second, strict=True)
@@ -110,23 +132,83 @@ class Interference:
 
     @cached_property
     def reach(self) -> Array:
-        """Sum of the radii of each pair, m, (q,)."""
-        radius = np.array([c.radius for c in self.capsules])
+        """What the gap of each pair is measured by, m, (q,).
+
+        The sum of the radii; of a mesh half its least extent.
+        """
+        radius = np.array([c.radius for c in self.capsules] + [s.half for s in self.shapes])
         return np.asarray(radius[self.pairs].sum(axis=-1))
 
     def words(self, pair: int) -> str:
         """The two parts of a pair."""
-        first, second = (self.capsules[i].name for i in self.pairs[pair])
+        first, second = (self._parts[i].name for i in self.pairs[pair])
         return f"{first} and {second}"
 
-    def gaps(self, placement: Placement) -> Array:
-        """Distance between the surfaces of each pair, m, negative where they overlap, (..., q)."""
+    def gaps(self, placement: Placement, within: float | None = None) -> Array:
+        """Distance between the surfaces of each pair, m, negative where they overlap, (..., q).
+
+        Of meshes the depth is a least one: that of the deepest pair of triangles that cross; of
+        a part inside a mesh, its distance from the surface and its own least extent; of a
+        capsule whose axis meets a mesh, its radius.
+
+        Parameters
+        ----------
+        placement : Placement
+        within : float, optional
+            Of a mesh: gaps from this on, m, are only told to be as large at least. Default:
+            those that exceed the pair's `reach`.
+
+        Raises
+        ------
+        ModelError
+            Poses of a mesh whose placement does not say how bodies have turned.
+        """
+        if not self.shapes:
+            return self._capsule_gaps(placement)
+        if (
+            placement.turns is None
+            and placement.batch
+            and (self._bodies[len(self.capsules) :] >= 0).any()
+        ):
+            raise ModelError(
+                self.shapes[0].name,
+                "has a mesh, and the placement does not say how its body has turned.",
+                "Place the machine by its motion (`Motion.move`).",
+            )
+        flat = placement.flat()
+        found = np.empty((len(flat.positions), len(self.pairs)))
+        parts = [self._placed(flat, k) for k in range(len(self._parts))]
+        for q, (i, k) in enumerate(self.pairs):
+            most = float(self.reach[q]) if within is None else within
+            if parts[i].shape is None and parts[k].shape is None:
+                ends = parts[i].ends, parts[k].ends
+                found[:, q] = segment_distances(*ends) - self.reach[q]
+            else:
+                found[:, q] = self._meshes.gaps(parts[i], parts[k], most)
+        return found.reshape(*placement.batch, len(self.pairs))
+
+    def _capsule_gaps(self, placement: Placement) -> Array:
         ends = placement.positions[..., self._nodes, :]
         found = np.empty((*placement.batch, len(self.pairs)))
         # pair by pair: all pairs of a large batch at once would not fit
         for q, (i, k) in enumerate(self.pairs):
             found[..., q] = segment_distances(ends[..., i, :, :], ends[..., k, :, :])
         return found - self.reach
+
+    def _placed(self, placement: Placement, part: int) -> PlacedPart:
+        if part < len(self.capsules):
+            ends = placement.positions[:, self._nodes[part], :]
+            return PlacedPart(ends, self.capsules[part].radius)
+        shape = self.shapes[part - len(self.capsules)]
+        body = int(self._bodies[part])
+        origin = placement.positions[:, self._nodes[part, 0]]
+        rotation = np.broadcast_to(np.eye(3), (len(origin), 3, 3))
+        if body >= 0 and placement.turns is not None:
+            rotation = placement.turns[:, body]
+        ends, radius = shape.around
+        return PlacedPart(
+            origin[:, None] + ends @ np.swapaxes(rotation, -1, -2), radius, shape, origin, rotation
+        )
 
     def check(self, home: Placement) -> Interference:
         """Return itself where nothing overlaps at home.
@@ -141,49 +223,16 @@ class Interference:
         ModelError
             Names the two parts that overlap most, and by how much.
         """
-        gaps = self.gaps(home)
+        gaps = self.gaps(home, 0.0)
         if gaps.size and gaps.min() < 0.0:
             worst = int(gaps.argmin())
+            least = "" if self.pairs[worst].max() < len(self.capsules) else "at least "
             raise ModelError(
                 self.words(worst),
-                f"interfere at home: they overlap by {-1e3 * gaps[worst]:.3g} mm.",
-                "Give a smaller radius, correct the nodes, or join the bodies by a joint.",
+                f"interfere at home: they overlap by {least}{-1e3 * gaps[worst]:.3g} mm.",
+                "Give a smaller radius or shape, correct the nodes, or join the bodies by a joint.",
             )
         return self
-
-
-def segment_distances(first: Array, second: Array) -> Array:
-    """Distances between segments.
-
-    The squared distance is a convex function of the two places: it is least inside both, or at
-    the end of one of them (Ericson 2005, Real-Time Collision Detection, section 5.1.9).
-
-    Parameters
-    ----------
-    first, second : (..., 2, 3)
-        Ends, m.
-
-    Returns
-    -------
-    distance : (...)
-        m.
-    """
-    a, b = first[..., 0, :], second[..., 0, :]
-    u, v = first[..., 1, :] - a, second[..., 1, :] - b
-    found = np.minimum(
-        np.minimum(_to_point(a, b, v), _to_point(a + u, b, v)),
-        np.minimum(_to_point(b, a, u), _to_point(b + v, a, u)),
-    )
-    uu, vv, uv = (u * u).sum(axis=-1), (v * v).sum(axis=-1), (u * v).sum(axis=-1)
-    across = uu * vv - uv**2
-    skew = across > FLAT**0.5 * uu * vv
-    safe = np.where(skew, across, 1.0)
-    apart = a - b
-    au, av = (apart * u).sum(axis=-1), (apart * v).sum(axis=-1)
-    s, t = (uv * av - vv * au) / safe, (uu * av - uv * au) / safe
-    inside = skew & (s > 0.0) & (s < 1.0) & (t > 0.0) & (t < 1.0)
-    between = np.linalg.norm(apart + s[..., None] * u - t[..., None] * v, axis=-1)
-    return np.asarray(np.where(inside, np.minimum(between, found), found))
 
 
 def outlines(linkage: Linkage, radius: float, bodies: Iterable[str] | None = None) -> list[Capsule]:
@@ -214,16 +263,8 @@ def _part(name: str, sides: Sequence[tuple[str, str]], k: int) -> str:
     return name if len(sides) == 1 else f"{name} ({' to '.join(sides[k])})"
 
 
-def _to_point(point: Array, start: Array, along: Array) -> Array:
-    """Distance of points from segments, (...)."""
-    squared = (along * along).sum(axis=-1)
-    share = ((point - start) * along).sum(axis=-1) / np.where(squared > 0.0, squared, 1.0)
-    share = np.clip(share, 0.0, 1.0)
-    return np.asarray(np.linalg.norm(point - start - share[..., None] * along, axis=-1))
-
-
 def _joined(linkage: Linkage, solid: set[int]) -> set[frozenset[int]]:
-    """Pairs of bodies that a joint joins, or a body without a capsule that has two joints."""
+    """Pairs of bodies that a joint joins, or a body without a part that has two joints."""
     owner, index = linkage.body_of_node, linkage.node_index
     near: dict[int, list[int]] = {}
     pairs: set[frozenset[int]] = set()

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError, ModelWarning
 from strutwork.fea import preloaded
 from strutwork.kinematics import Placement, Poses
+from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.drives import Drive
@@ -88,6 +89,8 @@ class Model:
     solids : tuple of SolidElement
         Its elements that are solids. Their monitors, nodes inside a solid, are nodes of the
         linkage and none of the file.
+    shapes : tuple of MeshShape
+        Of bodies, for interference.
     """
 
     title: str
@@ -109,6 +112,7 @@ class Model:
     drives: tuple[Drive, ...] = ()
     rotation: Array = field(default_factory=lambda: np.eye(3))
     closed_form: Callable[[Poses], Placement] | None = None
+    shapes: tuple[MeshShape, ...] = ()
 
     def __repr__(self) -> str:
         return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"

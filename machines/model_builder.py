@@ -8,9 +8,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Damping, Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
@@ -42,7 +44,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     ----------
     tables : ModelTable
     folder : Path
-        Where names of solids' files begin.
+        Where names of solids' and shapes' files begin.
 
     Returns
     -------
@@ -117,6 +119,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         task=task,
         workspace=workspace_of(tables, task),
         drives=drives_of(tables, {j.name: j for j in joints}),
+        shapes=_shapes(tables, folder, linkage, positions),
     )
     if model.preload is not None:
         model.case(model.preload)
@@ -272,6 +275,17 @@ def _solids(tables: ModelTable, folder: Path) -> tuple[SolidElement, ...]:
                     "Rename the node.",
                 )
     return solids
+
+
+def _shapes(
+    tables: ModelTable, folder: Path, linkage: Linkage, positions: Sequence[ArrayLike]
+) -> tuple[MeshShape, ...]:
+    if not tables.shapes:
+        return ()
+    # only such files wait for what it imports
+    from strutwork.machines.model_shapes import shapes_of  # noqa: PLC0415
+
+    return shapes_of(tables, folder, linkage, dict(zip(linkage.nodes, positions, strict=True)))
 
 
 def _bodies(

@@ -48,7 +48,7 @@ from strutwork.machines.model_motion_schema import (
     TaskTable,
     WorkspaceTable,
 )
-from strutwork.machines.model_solid_schema import SolidTable
+from strutwork.machines.model_solid_schema import ShapeTable, SolidTable
 
 #: A beam may be divided into this many elements at most.
 MAX_ELEMENTS = 1000
@@ -344,6 +344,7 @@ class ModelTable(Table):
     nodes: dict[Name, Point]
     beams: tuple[BeamTable, ...] = ()
     solids: tuple[SolidTable, ...] = ()
+    shapes: tuple[ShapeTable, ...] = ()
     bodies: tuple[BodyTable, ...] = ()
     masses: tuple[MassTable, ...] = ()
     joints: tuple[JointTable, ...] = ()

@@ -1,4 +1,4 @@
-"""The tables of solids in the model file."""
+"""The tables of solids and of shapes in the model file."""
 
 from __future__ import annotations
 
@@ -50,3 +50,15 @@ class SolidTable(Table):
     axis: Vector = (0.0, 0.0, 1.0)
     second_axis: Vector | None = None
     interfaces: tuple[InterfaceTable, ...] = ()
+
+
+class ShapeTable(Table):
+    """The outline of a body, for interference."""
+
+    body: Name
+    surface: FileName
+    name: Name | None = None
+    unit: Literal["m", "mm"] | None = None
+    position: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    axis: Vector = (0.0, 0.0, 1.0)
+    second_axis: Vector | None = None

@@ -33,7 +33,7 @@ from strutwork.studies.reversal_study import ReversalStudy, reversal_study
 from strutwork.studies.standard_motion import StandardMotion, standard_motion
 from strutwork.studies.survey import survey
 from strutwork.studies.workspace import Workspace, workspace
-from strutwork.studies.workspace_margin import MachineMargin
+from strutwork.studies.workspace_margin import MachineMargin, interference_of
 
 Array = NDArray[Any]
 
@@ -217,10 +217,13 @@ class Subject:
     def workspace(self) -> Workspace:
         """All poses that it reaches about those of its stated workspace, up to three directions.
 
+        Where the model has shapes, its parts must not collide.
+
         Raises
         ------
         ModelError
-            Too large a grid, or no direction to look along.
+            Too large a grid, or no direction to look along; shapes that collide at home, or
+            that lack their library.
         """
         wide = [(d, v) for d, v in self.grid.axes.items() if len(v) > 1][:3]
         points = SIZED.get(len(wide), 2)
@@ -229,7 +232,8 @@ class Subject:
             middle, half = 0.5 * (values[0] + values[-1]), 0.5 * SPREAD * (values[-1] - values[0])
             axes[direction] = np.linspace(middle - half, middle + half, points)
         step = np.array([axis[1] - axis[0] for axis in axes.values()])
-        margin = MachineMargin(self.model, tuple(axes), step)
+        safe = interference_of(self.model, None) if self.model.shapes else None
+        margin = MachineMargin(self.model, tuple(axes), step, interference=safe)
         return workspace(margin, axes, progress=self._told("size of the workspace"))
 
     @cached_property

@@ -88,6 +88,8 @@ def beam_capsules(structure: Structure) -> list[Capsule]:
 def interference_of(model: Model, radius: float | None) -> Interference:
     """Links that may collide, free of one another at home.
 
+    A body with shapes is looked at as these, another as capsules.
+
     Parameters
     ----------
     model : Model
@@ -97,15 +99,32 @@ def interference_of(model: Model, radius: float | None) -> Interference:
     Raises
     ------
     ModelError
-        No beam whose section has an outer size, or two parts that overlap at home.
+        No shape and no beam whose section has an outer size; two parts that overlap at home;
+        shapes of a machine that is placed by its own formulas, or without their library.
     """
     linkage = model.structure.linkage
-    found = beam_capsules(model.structure) if radius is None else outlines(linkage, radius)
-    if not found:
+    if model.shapes and model.closed_form is not None:
         raise ModelError(
-            "interference", "finds no beam with a known outer size.", "Give a radius of the links."
+            "interference",
+            "of meshes needs bodies whose turns are known; the machine's own formulas tell none.",
+            "Take the same model without its `closed_form`.",
         )
-    return Interference(linkage, tuple(found)).check(model.placement)
+    owner, index = linkage.body_of_node, linkage.node_index
+    shaped = {int(owner[index[shape.node]]) for shape in model.shapes}
+    found = [
+        capsule
+        for capsule in (
+            beam_capsules(model.structure) if radius is None else outlines(linkage, radius)
+        )
+        if int(owner[index[capsule.nodes[0]]]) not in shaped
+    ]
+    if not found and not model.shapes:
+        raise ModelError(
+            "interference",
+            "finds no beam with a known outer size and no shape.",
+            "Give a radius of the links, or [[shapes]] of bodies.",
+        )
+    return Interference(linkage, tuple(found), model.shapes).check(model.placement)
 
 
 @dataclass(eq=False)

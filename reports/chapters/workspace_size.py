@@ -60,12 +60,14 @@ def write(subject: Subject) -> Chapter:
                 f"away, at {pose_text(place)}: {_minus(near.reason)}",
             )
         )
+    shapes = len(subject.model.shapes)
+    apart = f" and without a collision of its {count(shapes, 'shape')} and beams" if shapes else ""
     blocks: list[Block] = [
         Text(
             f"All poses over {', '.join(directions)} that the machine reaches within its joint "
-            f"ranges, the other directions at home, looked for in {SPREAD:g} times the ranges "
-            "that this report looks over. Borders are refined between the poses of a grid; the "
-            "error is that from a grid half as fine."
+            f"ranges{apart}, the other directions at home, looked for in {SPREAD:g} times the "
+            "ranges that this report looks over. Borders are refined between the poses of a grid; "
+            "the error is that from a grid half as fine."
         ),
         Facts(tuple(facts)),
     ]
@@ -132,8 +134,8 @@ def _figure(found: Workspace) -> Figure | None:
     )
     return Figure(
         "workspace-margin",
-        "Margin of the poses: the least slack of reach and joint ranges, 0 at the border. Blank: "
-        "out of the workspace.",
+        "Margin of the poses: the least slack of reach, joint ranges and shapes, 0 at the border. "
+        "Blank: out of the workspace.",
         spec,
         f"Map of the margin over {' and '.join(directions)}.",
         f"{STEM}.nc",

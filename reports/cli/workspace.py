@@ -263,7 +263,11 @@ def _result(
         },
         "interference": None
         if safe is None
-        else {"capsules": len(safe.capsules), "pairs": len(safe.pairs)},
+        else {
+            "capsules": len(safe.capsules),
+            "shapes": len(safe.shapes),
+            "pairs": len(safe.pairs),
+        },
         "largest": None if inside is None else _inside(directions, inside),
         "data": [],
     }
@@ -310,8 +314,8 @@ def _print(result: Mapping[str, Any]) -> None:
     if result["interference"] is not None:
         safe = result["interference"]
         out.print(
-            f"Interference: {safe['capsules']} capsules, {safe['pairs']} pairs that may collide; "
-            "shapes of solids are not looked at",
+            f"Interference: {_counted(safe)}, {safe['pairs']} pairs that may collide; solids are "
+            "looked at where they have [[shapes]]",
             markup=False,
             soft_wrap=True,
         )
@@ -337,6 +341,12 @@ def _print(result: Mapping[str, Any]) -> None:
         )
     for path in result["data"]:
         out.print(visible(path), markup=False, soft_wrap=True)
+
+
+def _counted(safe: Mapping[str, int]) -> str:
+    """Capsules and meshes that are there, in words."""
+    kinds = (("capsules", safe["capsules"]), ("meshes", safe["shapes"]))
+    return " and ".join(f"{count} {kind}" for kind, count in kinds if count)
 
 
 def _what(unit: str) -> str:

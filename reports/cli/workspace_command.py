@@ -67,7 +67,10 @@ def workspace(
     ] = None,
     interference: Annotated[
         bool,
-        typer.Option("--interference", help="Beams, as thick as their sections, must not collide."),
+        typer.Option(
+            "--interference",
+            help="Shapes of the file, and beams as thick as their sections, must not collide.",
+        ),
     ] = False,
     conditioning: Annotated[
         float | None,

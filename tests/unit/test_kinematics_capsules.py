@@ -7,7 +7,8 @@ import pytest
 from scipy.optimize import minimize
 
 from strutwork.errors import ModelError
-from strutwork.kinematics.capsules import Capsule, Interference, outlines, segment_distances
+from strutwork.kinematics.capsules import Capsule, Interference, outlines
+from strutwork.kinematics.segments import segment_distances
 from tests.linkages import chain, gough
 
 
