@@ -17,6 +17,7 @@ from strutwork.kinematics.mesh_gaps import MeshGaps, PlacedPart
 from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.segments import segment_distances
+from strutwork.kinematics.sliding import fixed_nodes
 
 Array = NDArray[Any]
 
@@ -88,6 +89,14 @@ class Interference:
                     part.name,
                     "has its ends on two bodies.",
                     "Give each body capsules of its own.",
+                )
+        fixed = fixed_nodes(self.linkage) if self.shapes else np.zeros(0, dtype=bool)
+        for shape in self.shapes:
+            if owner[index[shape.node]] >= 0 and not fixed[index[shape.node]]:
+                raise ModelError(
+                    shape.name,
+                    f'its mesh is held by the node "{shape.node}", which slides along the body.',
+                    "Give another node of the body.",
                 )
         if self.shapes:
             _ = self._meshes
@@ -201,7 +210,10 @@ class Interference:
             return PlacedPart(ends, self.capsules[part].radius)
         shape = self.shapes[part - len(self.capsules)]
         body = int(self._bodies[part])
-        origin = placement.positions[:, self._nodes[part, 0]]
+        # nodes of the ground may slide with what they carry
+        origin = np.broadcast_to(shape.place, (len(placement.positions), 3))
+        if body >= 0:
+            origin = placement.positions[:, self._nodes[part, 0]]
         rotation = np.broadcast_to(np.eye(3), (len(origin), 3, 3))
         if body >= 0 and placement.turns is not None:
             rotation = placement.turns[:, body]

@@ -20,6 +20,7 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.rows import body_references
+from strutwork.kinematics.sliding import sliding_joints
 from strutwork.kinematics.turns import rotation_vector
 
 Array = NDArray[Any]
@@ -117,8 +118,7 @@ class JointMotion:
     @cached_property
     def sliding(self) -> Mask:
         """Joints with a free translation: their first node follows the second, (j,)."""
-        screws = np.array([joint.lead != 0.0 for joint in self.linkage.joints], dtype=bool)
-        return np.asarray(~self.held[:, :3].all(axis=1) | screws)
+        return sliding_joints(self.linkage)
 
     @cached_property
     def _references(self) -> Array:

@@ -179,7 +179,7 @@ class MeshGaps:
     def _tree(self, shape: MeshShape) -> Any:
         if id(shape) not in self._trees:
             # the shape is kept with its tree: its id may not be another's
-            self._trees[id(shape)] = shape, self._built(shape.points, shape.triangles)
+            self._trees[id(shape)] = shape, self._built(shape.local, shape.triangles)
         return self._trees[id(shape)][1]
 
     def _segment(self, length: float) -> Any:

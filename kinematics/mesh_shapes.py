@@ -28,9 +28,11 @@ class MeshShape:
     name : str
         Of the part, for messages.
     node : str
-        A node of the body, or of the ground.
+        A node of the body that does not slide along it, or any of the ground.
+    place : (3,)
+        Where that node stands when the body has not turned, m.
     points : (n, 3)
-        m, from that node, in global axes where the body has not turned.
+        m, in global axes at that moment.
     triangles : (t, 3) of int
         Counter-clockwise seen from outside; closed, of one body. `strutwork.meshes` reads and
         checks such surfaces.
@@ -43,16 +45,19 @@ class MeshShape:
 
     name: str
     node: str
+    place: Array
     points: Array
     triangles: NDArray[np.int64]
 
     def __post_init__(self) -> None:
         points = np.ascontiguousarray(self.points, dtype=float)
+        place = np.asarray(self.place, dtype=float)
         triangles = np.ascontiguousarray(self.triangles, dtype=np.int64)
+        object.__setattr__(self, "place", place)
         object.__setattr__(self, "points", points)
         object.__setattr__(self, "triangles", triangles)
         shaped = points.ndim == triangles.ndim == 2 and points.shape[1] == triangles.shape[1] == 3
-        if not shaped or not len(triangles) or not np.isfinite(points).all():
+        if not shaped or not len(triangles) or not np.isfinite([*points.ravel(), *place]).all():
             raise ModelError(
                 self.name,
                 "its shape has no triangles, or points that are not finite.",
@@ -73,14 +78,19 @@ class MeshShape:
         return f"<MeshShape {self.name}: {len(self.triangles)} triangles, on {self.node}>"
 
     @cached_property
+    def local(self) -> Array:
+        """Points from the node, m, (n, 3)."""
+        return np.asarray(self.points - self.place)
+
+    @cached_property
     def corners(self) -> Array:
-        """Corners of the triangles, (t, 3, 3), m."""
-        return np.asarray(self.points[self.triangles])
+        """Corners of the triangles from the node, (t, 3, 3), m."""
+        return np.asarray(self.local[self.triangles])
 
     @cached_property
     def _principal(self) -> Array:
         """Principal axes of the points as columns, the longest extent first, (3, 3)."""
-        used = self.points[np.unique(self.triangles)]
+        used = self.local[np.unique(self.triangles)]
         axes = np.linalg.eigh(np.cov(used.T) + 0.0)[1] if len(used) > 1 else np.eye(3)
         order = np.argsort(-np.ptp(used @ axes, axis=0), kind="stable")
         return np.asarray(axes[:, order])
@@ -94,13 +104,13 @@ class MeshShape:
         normals = np.unique(np.round(normals / np.where(length > 0.0, length, 1.0), 12), axis=0)
         # a triangle without area has no normal, and no extent across it
         normals = normals[np.abs(normals).max(axis=-1) > 0.0]
-        used = self.points[np.unique(self.triangles)]
+        used = self.local[np.unique(self.triangles)]
         return float(0.5 * np.ptp(used @ np.vstack([normals, self._principal.T]).T, axis=0).min())
 
     @cached_property
     def around(self) -> tuple[Array, float]:
-        """Ends (2, 3) and radius of a capsule that holds the shape, along its longest extent."""
-        used = self.points[np.unique(self.triangles)] @ self._principal
+        """Ends from the node (2, 3) and radius of a capsule that holds the shape, lengthwise."""
+        used = self.local[np.unique(self.triangles)] @ self._principal
         middle = 0.5 * (used.min(axis=0) + used.max(axis=0))
         aside = np.linalg.norm(used[:, 1:] - middle[1:], axis=1)
         radius = float(aside.max())

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from strutwork.errors import ModelError
 from strutwork.kinematics import GROUND, Linkage, axes_frame
 from strutwork.kinematics.mesh_shapes import MeshShape
+from strutwork.kinematics.sliding import fixed_nodes
 from strutwork.machines.model_parts import unknown
 from strutwork.machines.model_schema import ModelTable
 from strutwork.machines.model_solid_mesh import at_field, part_file
@@ -46,7 +47,7 @@ def shapes_of(
             f"are {len(tables.shapes)}; at most {MOST_SHAPES} are taken.",
             "Join those of one body.",
         )
-    nodes = _first_nodes(tables, linkage)
+    nodes = _nodes(tables, linkage)
     found: dict[str, MeshShape] = {}
     for i, table in enumerate(tables.shapes):
         name, field = table.name or table.body, f"shapes[{i}]"
@@ -66,15 +67,31 @@ def shapes_of(
             check_closed(surface)
             check_one_body(surface)
         rotation = axes_frame(table.axis, table.second_axis, field)
-        node = nodes[table.body]
-        origin = np.asarray(places[node], dtype=float)
-        points = surface.points @ rotation.T + np.asarray(table.position) - origin
+        node = _held(linkage, nodes[table.body], f"{field}.body")
+        points = surface.points @ rotation.T + np.asarray(table.position)
         with at_field(f"{field}.surface"):
-            found[name] = MeshShape(name, node, points, surface.triangles)
+            place = np.asarray(places[node], dtype=float)
+            found[name] = MeshShape(name, node, place, points, surface.triangles)
     return tuple(found.values())
 
 
-def _first_nodes(tables: ModelTable, linkage: Linkage) -> dict[str, str]:
+def _held(linkage: Linkage, node: str, field: str) -> str:
+    """A node of the same body that stays where it is on it."""
+    body = linkage.body_of_node[linkage.node_index[node]]
+    if body < 0:
+        return node
+    mine = np.flatnonzero((linkage.body_of_node == body) & fixed_nodes(linkage))
+    if not len(mine):
+        raise ModelError(
+            field,
+            "has no node that stays where it is on the body: each is the first of a joint that "
+            "slides.",
+            "Give the body one more node.",
+        )
+    return linkage.nodes[int(mine[0])]
+
+
+def _nodes(tables: ModelTable, linkage: Linkage) -> dict[str, str]:
     """A node of every part that may have a shape."""
     named = {
         **{t.name: t.nodes[0] for t in tables.bodies},

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.cli.conftest import Program
+from tests.shaped_arm import written
 
 OVER = ("--over", "x=-30mm..30mm:9,y=-30mm..30mm:9")
 
@@ -104,3 +105,12 @@ def test_options_that_exclude_each_other(strutwork: Program) -> None:
     run = strutwork("workspace", "proposed-3pprs", *OVER, "--tilt", "1deg", "--dexterous", "2deg")
     assert run.status == 2
     assert "not both" in run.err
+
+
+def test_shapes_of_a_file_are_looked_at(strutwork: Program, tmp_path: Path) -> None:
+    path = written(tmp_path)
+    ask = ("workspace", path, "--over", "x=-100mm..200mm:11,y=-100mm..100mm:11", "--interference")
+    found = strutwork(*ask, "--json").result
+    assert found["interference"] == {"capsules": 1, "shapes": 1, "pairs": 1}
+    assert "interference of arm and post" in found["border"]
+    assert "1 capsules and 1 meshes, 1 pairs that may collide" in strutwork(*ask).out

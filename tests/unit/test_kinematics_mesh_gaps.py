@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,7 +26,7 @@ EXACT = 1e-12
 
 
 def shape(made: Any, name: str = "part", node: str = "n") -> MeshShape:
-    return MeshShape(name, node, np.asarray(made.vertices), np.asarray(made.faces))
+    return MeshShape(name, node, np.zeros(3), np.asarray(made.vertices), np.asarray(made.faces))
 
 
 def box(*sides: float) -> MeshShape:
@@ -51,7 +52,6 @@ def turns(count: int, seed: int = 5) -> Array:
 
 @pytest.fixture(scope="module")
 def gaps() -> MeshGaps:
-    pytest.importorskip("fcl", reason="needs the extra `interference`")
     return MeshGaps()
 
 
@@ -159,7 +159,7 @@ def test_the_capsule_about_a_shape_holds_it() -> None:
     random = np.random.default_rng(4)
     for sides in ((1, 0.1, 0.1), (0.3, 0.3, 0.3), (0.5, 0.4, 0.01)):
         turned = box(*sides).points @ turns(1, 3)[0].T + random.normal(size=3)
-        mesh = MeshShape("part", "n", turned, box(*sides).triangles)
+        mesh = MeshShape("part", "n", np.zeros(3), turned, box(*sides).triangles)
         (a, b), radius = mesh.around
         share = np.clip((turned - a) @ (b - a) / max((b - a) @ (b - a), 1e-30), 0.0, 1.0)
         off = np.linalg.norm(turned - a - share[:, None] * (b - a), axis=1)
@@ -204,7 +204,7 @@ def test_depths_of_triangles_and_hulls() -> None:
 )
 def test_shapes_that_are_none(points: Any, triangles: Any, words: str) -> None:
     with pytest.raises(ModelError, match=words):
-        MeshShape("part", "n", points, triangles)
+        MeshShape("part", "n", np.zeros(3), points, triangles)
 
 
 def four_bars() -> tuple[Any, Any, Capsule, MeshShape, MeshShape]:
@@ -212,9 +212,10 @@ def four_bars() -> tuple[Any, Any, Capsule, MeshShape, MeshShape]:
     linkage, home = chain([[0, 0, 0], [0, 1, 0], [3, 2, 0], [3, 0, 0]], [[0, 0, 1.0]] * 4)
     nodes = {b.name: b.nodes for b in linkage.bodies}
     cube = box(0.2, 0.5, 0.2)
-    made = [
-        MeshShape(name, nodes[name][0], cube.points, cube.triangles) for name in ("bar1", "bar3")
-    ]
+    made = []
+    for name in ("bar1", "bar3"):
+        at = home.positions[linkage.node_index[nodes[name][0]]]
+        made.append(MeshShape(name, nodes[name][0], at, at + cube.points, cube.triangles))
     # a body without a part would join its neighbours
     return linkage, home, Capsule("bar2", nodes["bar2"], 0.01), made[0], made[1]
 
@@ -242,7 +243,7 @@ def test_pairs_of_meshes_and_capsules_of_a_linkage() -> None:
 @pytest.mark.usefixtures("gaps")
 def test_meshes_that_collide_at_home_are_named() -> None:
     linkage, home, between, first, third = four_bars()
-    wide = MeshShape("bar1", first.node, first.points * [40.0, 8.0, 1.0], first.triangles)
+    wide = replace(first, points=first.place + first.local * [40.0, 8.0, 1.0])
     with pytest.raises(ModelError, match=r"bar1 and bar3: interfere at home: .* at least \d+"):
         Interference(linkage, (between,), (wide, third)).check(home)
 
