@@ -23,6 +23,7 @@ from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words
+from strutwork.reports.numbers import count as counted
 from strutwork.stages import stage
 from strutwork.studies.margin_bounds import AmplificationBound, Bound, StiffnessBound
 from strutwork.studies.workspace import Workspace, workspace
@@ -314,8 +315,8 @@ def _print(result: Mapping[str, Any]) -> None:
     if result["interference"] is not None:
         safe = result["interference"]
         out.print(
-            f"Interference: {_counted(safe)}, {safe['pairs']} pairs that may collide; solids are "
-            "looked at where they have [[shapes]]",
+            f"Interference: {_counted(safe)}, {counted(safe['pairs'], 'pair')} that may collide; "
+            "solids are looked at where they have [[shapes]]",
             markup=False,
             soft_wrap=True,
         )
@@ -345,8 +346,8 @@ def _print(result: Mapping[str, Any]) -> None:
 
 def _counted(safe: Mapping[str, int]) -> str:
     """Capsules and meshes that are there, in words."""
-    kinds = (("capsules", safe["capsules"]), ("meshes", safe["shapes"]))
-    return " and ".join(f"{count} {kind}" for kind, count in kinds if count)
+    kinds = ((safe["capsules"], "capsule", "capsules"), (safe["shapes"], "mesh", "meshes"))
+    return " and ".join(counted(n, one, many) for n, one, many in kinds if n)
 
 
 def _what(unit: str) -> str:

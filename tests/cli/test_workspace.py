@@ -113,4 +113,4 @@ def test_shapes_of_a_file_are_looked_at(strutwork: Program, tmp_path: Path) -> N
     found = strutwork(*ask, "--json").result
     assert found["interference"] == {"capsules": 1, "shapes": 1, "pairs": 1}
     assert "interference of arm and post" in found["border"]
-    assert "1 capsules and 1 meshes, 1 pairs that may collide" in strutwork(*ask).out
+    assert "Interference: 1 capsule and 1 mesh, 1 pair that may collide" in strutwork(*ask).out

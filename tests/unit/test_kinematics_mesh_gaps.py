@@ -96,6 +96,18 @@ def test_a_part_inside_another_overlaps_by_its_way_out_at_least(gaps: MeshGaps) 
         np.testing.assert_allclose(gaps.gaps(*pair, np.inf), wanted, atol=EXACT)
 
 
+def test_a_part_in_the_cavity_of_another_is_free_until_it_touches(gaps: MeshGaps) -> None:
+    outer, hollow = trimesh.creation.box((1, 1, 1)), trimesh.creation.box((0.8, 0.8, 0.8))
+    hollow.invert()
+    at = np.array([[0.0, 0, 0], [0.349, 0.01, 0], [0.36, 0.01, 0.02], [0.9, 0.0, 0.0]])
+    large = placed(shape(trimesh.util.concatenate([outer, hollow])), np.zeros((4, 3)))
+    small = placed(box(0.1, 0.1, 0.1), at)
+    for pair in ((large, small), (small, large)):
+        np.testing.assert_allclose(gaps.gaps(*pair, np.inf), [0.35, 0.001, -0.01, 0.35], atol=EXACT)
+    rod = capsule(at, at + np.array([0.0, 0.0, 0.1]), 0.05)
+    assert np.all(gaps.gaps(large, rod, np.inf)[[0, 3]] > 0.0)
+
+
 def test_a_capsule_beside_a_cube(gaps: MeshGaps) -> None:
     x = np.array([0.6, 0.56, 0.54, 0.501, 0.45, 0.2, -0.45])
     start = np.stack([x, np.full(7, 0.1), np.full(7, -0.2)], axis=-1)
