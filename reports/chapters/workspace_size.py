@@ -61,7 +61,8 @@ def write(subject: Subject) -> Chapter:
             )
         )
     shapes = len(subject.model.shapes)
-    apart = f" and without a collision of its {count(shapes, 'shape')} and beams" if shapes else ""
+    meshes = count(shapes, "mesh", "meshes")
+    apart = f" and without a collision of beams and shapes ({meshes})" if shapes else ""
     blocks: list[Block] = [
         Text(
             f"All poses over {', '.join(directions)} that the machine reaches within its joint "
@@ -71,7 +72,9 @@ def write(subject: Subject) -> Chapter:
         ),
         Facts(tuple(facts)),
     ]
-    figure = _figure(found)
+    figure = _figure(
+        found, "reach, joint ranges and shapes" if shapes else "reach and joint ranges"
+    )
     if figure is not None:
         blocks.append(figure)
     rows = [[_minus(words), share(part)] for words, part in found.shares.items()]
@@ -101,7 +104,7 @@ def shown_unit(unit: str) -> tuple[float, str]:
     return known.get(unit, (1.0, unit))
 
 
-def _figure(found: Workspace) -> Figure | None:
+def _figure(found: Workspace, slacks: str) -> Figure | None:
     directions = found.grid.directions
     if len(directions) == 3 and not any(d.startswith("r") for d in directions):
         triangles = found.border.facets
@@ -134,7 +137,7 @@ def _figure(found: Workspace) -> Figure | None:
     )
     return Figure(
         "workspace-margin",
-        "Margin of the poses: the least slack of reach, joint ranges and shapes, 0 at the border. "
+        f"Margin of the poses: the least slack of {slacks}, 0 at the border. "
         "Blank: out of the workspace.",
         spec,
         f"Map of the margin over {' and '.join(directions)}.",

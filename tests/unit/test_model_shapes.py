@@ -151,7 +151,7 @@ def test_the_chapter_says_what_was_looked_at(tmp_path: Path) -> None:
     subject = Subject(load(str(written(tmp_path))), "arm", "arm")
     assert workspace_size.missing(subject) == ""
     blocks = " ".join(str(block) for block in workspace_size.write(subject).blocks)
-    assert "without a collision of its 1 shape and beams" in blocks
+    assert "without a collision of beams and shapes (1 mesh)" in blocks
     assert "interference of arm and post" in blocks
 
 
