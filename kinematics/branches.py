@@ -170,7 +170,7 @@ def _power(count: int) -> int:
 
 def _common_axis(walk: Walk) -> Array | None:
     """The direction of all hinges where they share one, else None."""
-    j, d = np.nonzero(~walk.joints.held[:, 3:])
+    j, d = np.nonzero(~walk.joints.still[:, 3:])
     if not len(j):
         return None
     axes = walk.joints.home.frames[j, :, d]

@@ -186,5 +186,6 @@ def home_rows(motion: Motion, coordinates: Coordinates) -> tuple[Array, Array]:
             continue
         select = np.zeros_like(joints.held)
         select[linkage.joint_index[joint], turned[k]] = True
-        asked[k] = constraint_rows(linkage, placement, select).on_bodies(bodies.position)[0, 0]
+        own = constraint_rows(linkage, placement, select, coupled=False)
+        asked[k] = own.on_bodies(bodies.position)[0, 0]
     return first, scaled(asked, turned)

@@ -155,7 +155,7 @@ def _check_coordinate(joints: JointMotion, pair: tuple[str, str]) -> None:
         joint = joints.linkage.joints[joints.linkage.joint_index[name]]
         if (
             direction.startswith("r")
-            and not joints.held[joints.linkage.joint_index[name], 3:].any()
+            and not joints.still[joints.linkage.joint_index[name], 3:].any()
         ):
             raise ModelError(
                 f"joint {name}",

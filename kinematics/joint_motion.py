@@ -70,14 +70,19 @@ class JointMotion:
 
     @cached_property
     def held(self) -> Mask:
-        """Joint directions that do not move: locked or elastic, and not driven, (j, 6)."""
+        """Joint directions with a row that holds them, those that follow others too, (j, 6)."""
         return np.asarray(self.linkage.elastic_or_locked() & ~self.linkage.driven_mask())
+
+    @cached_property
+    def still(self) -> Mask:
+        """Those that do not move at all: the others have coordinates, (j, 6)."""
+        return self.linkage.still_mask()
 
     @cached_property
     def names(self) -> tuple[tuple[str, str], ...]:
         """Joint and direction of every coordinate, in joint order."""
         joints = self.linkage.joints
-        return tuple((joints[j].name, DIRECTIONS[d]) for j, d in np.argwhere(~self.held))
+        return tuple((joints[j].name, DIRECTIONS[d]) for j, d in np.argwhere(~self.still))
 
     @cached_property
     def nodes(self) -> NDArray[np.intp]:
@@ -107,7 +112,7 @@ class JointMotion:
         slides[nodes[self.sliding, 0]] = True
         used = np.bincount(nodes.ravel(), minlength=len(owner))
         ground = nodes[:, 0]
-        clamp = self.held.all(axis=1) & slides[nodes[:, 1]]
+        clamp = self.still.all(axis=1) & slides[nodes[:, 1]]
         return np.flatnonzero(clamp & (owner[ground] < 0) & (used[ground] == 1))
 
     def _carry_clamps(self, positions: Array) -> None:
@@ -189,7 +194,7 @@ class JointMotion:
 
     @cached_property
     def _locks(self) -> Mask:
-        return np.asarray(self.held[:, 3:])
+        return np.asarray(self.still[:, 3:])
 
     @cached_property
     def _turning(self) -> NDArray[np.intp]:
@@ -208,12 +213,12 @@ class JointMotion:
     def residuals(self, bodies: BodyPoses, gaps: Array, near: Array | None = None) -> Array:
         """What the held directions leave open, m and rad, zero in the others, (p, j, 6).
 
-        `near`, (p, c) in the order of `names`, says from which coordinates the turns of screws
-        count on; without it they lie within half a turn of home.
+        `near`, (p, c) in the order of `names`, says from which coordinates the turns of
+        couplings and screws count on; without it they lie within half a turn of home.
         """
         first, second = self._frames(bodies)
         relative = np.swapaxes(first, -1, -2) @ second
-        open_ = np.zeros((len(gaps), len(self.held), 6))
+        open_ = np.zeros((len(gaps), len(self.still), 6))
         open_[..., :3] = np.einsum("pjik,pji->pjk", first, gaps)
         for j, locks in enumerate(self._locks):
             turn = relative[:, j]
@@ -228,15 +233,13 @@ class JointMotion:
             elif locks.any():
                 (d,) = np.flatnonzero(locks)
                 open_[:, j, 3 + d] = -turn[:, (d + 1) % 3, (d + 2) % 3]
-            lead = self.linkage.joints[j].lead
-            if lead:
-                angle = np.arctan2(turn[:, 1, 0], turn[:, 0, 0])
-                turn_of = (self.linkage.joints[j].name, "rz")
-                # a turn that is held stays within half a turn of home
-                if near is not None and turn_of in self.names:
-                    before = near[:, self.names.index(turn_of)]
-                    angle = before + np.angle(np.exp(1j * (angle - before)))
-                open_[:, j, 2] -= lead * angle
+        if self.linkage.ties:
+            values = self.coordinates(bodies, gaps, near)
+            for tie in self.linkage.ties:
+                open_[:, tie.joint, tie.direction] = (
+                    values[:, tie.joint, tie.direction]
+                    - tie.ratio * values[:, tie.other_joint, tie.other_direction]
+                )
         return np.where(self.held, open_, 0.0)
 
     def reversed(self, bodies: BodyPoses) -> Mask:
@@ -251,10 +254,11 @@ class JointMotion:
             found |= np.einsum("pi,pi->p", first[:, j, :, e], second[:, j, :, e]) < 0.0
         return found
 
-    def coordinates(self, bodies: BodyPoses, gaps: Array) -> Array:
-        """Joint coordinates, m and rad, zero at home and in held directions, (p, j, 6).
+    def coordinates(self, bodies: BodyPoses, gaps: Array, near: Array | None = None) -> Array:
+        """Joint coordinates, m and rad, zero at home and where nothing moves, (p, j, 6).
 
-        A turn is between −π and π; three free rotations are a rotation vector.
+        A turn is between −π and π, or within half a turn of `near`, (p, c) in the order of
+        `names`; three free rotations are a rotation vector.
         """
         first, second = self._frames(bodies)
         relative = np.swapaxes(first, -1, -2) @ second
@@ -273,7 +277,14 @@ class JointMotion:
                 e, f = (d + 1) % 3, (d + 2) % 3
                 value[:, j, 3 + e] = np.arctan2(turn[:, d, f], turn[:, f, f])
                 value[:, j, 3 + f] = np.arctan2(turn[:, e, d], turn[:, e, e])
-        return np.where(self.held, 0.0, value)
+        if near is not None:
+            owner, direction = np.nonzero(~self.still)
+            turns = direction >= 3
+            at = owner[turns], direction[turns]
+            before = near[:, turns]
+            ahead = value[:, at[0], at[1]] - before
+            value[:, at[0], at[1]] = before + np.angle(np.exp(1j * ahead))
+        return np.where(self.still, 0.0, value)
 
 
 def _crossed(first: Array, second: Array, locked: int) -> Array:

@@ -65,8 +65,8 @@ def leg_paths(linkage: Linkage) -> list[list[tuple[int, int]]] | None:
     list of list of (joint, sign), or None
         The sign is 1 where the leg goes through the joint from its first node to its second.
     """
-    if any(joint.lead for joint in linkage.joints):
-        # a screw's way along its axis is no coordinate of its own
+    if linkage.ties:
+        # a coordinate that follows another is none of its leg's own
         return None
     owner, index = linkage.body_of_node, linkage.node_index
     platform = linkage.tool_body

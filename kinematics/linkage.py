@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.kinematics.coupling import Coupling, Tie, ties_of
 from strutwork.kinematics.joint import DIRECTIONS, Joint, State
 
 #: Name of the body that does not move.
@@ -40,22 +41,26 @@ class Linkage:
         The joints, in the order in which placements give their frames.
     tool : str or None
         The node of the tool centre point.
+    couplings : tuple of Coupling
+        Joint coordinates that follow others.
 
     Raises
     ------
     ModelError
-        A repeated or unknown name, or a node in two bodies.
+        A repeated or unknown name, a node in two bodies, or a coupling that cannot be.
     """
 
     nodes: tuple[str, ...]
     bodies: tuple[Body, ...]
     joints: tuple[Joint, ...]
     tool: str | None = None
+    couplings: tuple[Coupling, ...] = ()
 
     def __post_init__(self) -> None:
         _unique("node", self.nodes)
         _unique("body", (body.name for body in self.bodies))
         _unique("joint", (joint.name for joint in self.joints))
+        _unique("coupling", (coupling.name for coupling in self.couplings))
         known = set(self.nodes)
         for body in self.bodies:
             _known(f"body {body.name}", body.nodes, known)
@@ -73,6 +78,7 @@ class Linkage:
                         "Leave it in one of them, or merge the bodies.",
                     )
                 owner[node] = body.name
+        _ = self.ties
 
     def __repr__(self) -> str:
         return (
@@ -128,6 +134,11 @@ class Linkage:
             raise ModelError("linkage", "has no tool.", "Name the tool centre point's node.")
         return int(self.body_of_node[self.node_index[self.tool]])
 
+    @cached_property
+    def ties(self) -> tuple[Tie, ...]:
+        """What couplings and helical joints tie, in the order of their rows."""
+        return ties_of(self.joints, self.joint_index, self.couplings)
+
     @property
     def driven(self) -> tuple[tuple[str, str], ...]:
         """Driven directions as (joint name, direction), in joint order."""
@@ -136,8 +147,17 @@ class Linkage:
         )
 
     def states(self) -> NDArray[np.int8]:
-        """`State` of every joint direction in statics, (j, 6)."""
-        return np.asarray([j.states for j in self.joints], dtype=np.int8).reshape(-1, 6)
+        """`State` of every joint direction in statics, (j, 6); what follows others is locked."""
+        found = np.asarray([j.states for j in self.joints], dtype=np.int8).reshape(-1, 6)
+        found[self.tied_mask()] = State.LOCKED
+        return found
+
+    def tied_mask(self) -> NDArray[np.bool_]:
+        """True where a joint coordinate follows another, (j, 6)."""
+        found = np.zeros((len(self.joints), 6), dtype=bool)
+        for tie in self.ties:
+            found[tie.joint, tie.direction] = True
+        return found
 
     def driven_mask(self) -> NDArray[np.bool_]:
         """True where a joint direction is driven, (j, 6)."""
@@ -148,6 +168,10 @@ class Linkage:
     def elastic_or_locked(self) -> NDArray[np.bool_]:
         """True where a joint direction resists motion in statics, (j, 6)."""
         return np.asarray(self.states() != State.FREE)
+
+    def still_mask(self) -> NDArray[np.bool_]:
+        """True where a joint's own parts let nothing move, whatever couplings ask, (j, 6)."""
+        return np.asarray(self.elastic_or_locked() & ~self.driven_mask() & ~self.tied_mask())
 
 
 def _unique(kind: str, names: Iterable[str]) -> None:

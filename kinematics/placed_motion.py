@@ -13,7 +13,7 @@ from strutwork.kinematics.frames import cross, turned
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.row_rates import row_rates
-from strutwork.kinematics.rows import ConstraintRows, constraint_rows
+from strutwork.kinematics.rows import ConstraintRows, constraint_rows, row_selection
 from strutwork.kinematics.turns import rotation_vector, vector_rates, velocity_rates
 
 if TYPE_CHECKING:
@@ -60,11 +60,17 @@ class PlacedMotion:
         ]
         return self.position + np.stack(arms, axis=1) if arms else self.position
 
-    def rows(self, select: NDArray[np.bool_]) -> ConstraintRows:
+    def rows(self, select: NDArray[np.bool_], *, coupled: bool = True) -> ConstraintRows:
         """Rows of joint directions, whose shifts are along axes of the joint's first body."""
-        rows = constraint_rows(self.of.motion.linkage, self.placement, select)
+        return self._along(
+            constraint_rows(self.of.motion.linkage, self.placement, select, coupled=coupled)
+        )
+
+    def _along(self, rows: ConstraintRows) -> ConstraintRows:
+        if rows.tied is not None:
+            rows = replace(rows, tied=replace(rows.tied, others=self._along(rows.tied.others)))
         joints = self.of.motion.joints
-        two = (~joints.held[:, 3:]).sum(axis=1) == 2
+        two = (~joints.still[:, 3:]).sum(axis=1) == 2
         shifts = np.flatnonzero(two[rows.joint] & joints.sliding[rows.joint] & (rows.direction < 3))
         if not shifts.size:
             return rows
@@ -100,13 +106,10 @@ class PlacedMotion:
     def _joints(self) -> tuple[ConstraintRows, NDArray[np.intp]]:
         """Rows of the given joint coordinates, and where each of ours is among them."""
         linkage = self.of.motion.linkage
-        select = np.zeros_like(self.of.motion.joints.held)
-        pairs = [(linkage.joint_index[j], DIRECTIONS.index(d)) for j, d in self._asked_joints]
-        for pair in pairs:
-            select[pair] = True
-        rank = np.cumsum(select.ravel()) - 1
-        order = np.array([rank[6 * j + d] for j, d in pairs], dtype=np.intp)
-        return self.rows(select), order
+        joint = np.array([linkage.joint_index[j] for j, _ in self._asked_joints], dtype=np.intp)
+        turn = np.array([DIRECTIONS.index(d) for _, d in self._asked_joints], dtype=np.intp)
+        select, order = row_selection((len(linkage.joints), 6), joint, turn)
+        return self.rows(select, coupled=False), order
 
     @property
     def _asked_joints(self) -> tuple[tuple[str, str], ...]:

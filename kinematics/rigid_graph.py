@@ -38,6 +38,9 @@ class RigidGraph:
         Reference points of the bodies, m.
     length : float
         Of a block that has none of its own, m.
+    tied : tuple of ((t,) rows, (t,) ratios, RigidGraph)
+        Rows that hold a second pair of bodies too, and what they take off there, by the rows of
+        another graph.
     """
 
     axes: Array
@@ -46,6 +49,7 @@ class RigidGraph:
     second: Ints
     references: Array
     length: float
+    tied: tuple[Ints, Array, RigidGraph] | None = None
 
     @property
     def bodies(self) -> int:
@@ -151,7 +155,16 @@ def _rank(values: Array, tolerance: float) -> int:
 
 
 def decompose(graph: RigidGraph) -> Blocks:
-    """Hold together what six rows hold, then decompose block by block."""
+    """Hold together what six rows hold, then decompose block by block.
+
+    Where rows tie two pairs of bodies the graph is one block, for it has no edges.
+    """
+    if graph.tied is not None:
+        every = np.arange(graph.bodies, dtype=np.intp)
+        rows = np.arange(len(graph.axes), dtype=np.intp)
+        block = _decomposed(graph, rows, every, [graph.first, graph.second], -1, every)
+        alone = {int(b): every[b : b + 1] for b in every}
+        return Blocks(graph, every, (), rows[:0], (block,), (alone,))
     group, tree = _grouped(graph)
     ends = [np.where(side >= 0, group[side], -1) for side in (graph.first, graph.second)]
     used = np.concatenate([rows for rows, _, _ in tree]) if tree else np.zeros(0, dtype=np.intp)
@@ -181,18 +194,37 @@ def _decomposed(
     length = float(np.linalg.norm(points - centre, axis=1).max())
     if length == 0:
         length = graph.length
+    matrix, size = _spread(graph, rows, groups, ends, carrier, (centre, length))
+    if graph.tied is not None:
+        at, ratio, other = graph.tied
+        mine = np.arange(len(at), dtype=np.intp)
+        away = [other.first, other.second]
+        more, sizes = _spread(other, mine, groups, away, carrier, (centre, length))
+        matrix[at] -= ratio[:, None] * more
+        size[at] = np.hypot(size[at], ratio * sizes)
+    matrix /= size[:, None]
+    # with more rows than columns the left vectors are many and nobody reads them
+    _, values, right = np.linalg.svd(matrix, full_matrices=len(rows) < matrix.shape[1])
+    return Block(rows, groups, values, right, matrix, size, centre, length)
+
+
+def _spread(
+    graph: RigidGraph,
+    rows: Ints,
+    groups: Ints,
+    ends: list[Ints],
+    carrier: int,
+    place: tuple[Array, float],
+) -> tuple[Array, Array]:
+    """Rows on twists of groups about a centre, rotations at a length, (k, 6 g), and sizes (k)."""
+    centre, length = place
     wrenches = graph.wrenches(rows, centre)
     wrenches[:, 3:] /= length
-    size = np.linalg.norm(wrenches, axis=1)
-    wrenches /= size[:, None]
     spread = np.zeros((len(rows), len(groups), 6))
     for side, sign in zip(ends, (-1.0, 1.0), strict=True):
         moves = np.flatnonzero(side != carrier)
         spread[moves, np.searchsorted(groups, side[moves])] += sign * wrenches[moves]
-    matrix = spread.reshape(len(rows), 6 * len(groups))
-    # with more rows than columns the left vectors are many and nobody reads them
-    _, values, right = np.linalg.svd(matrix, full_matrices=len(rows) < matrix.shape[1])
-    return Block(rows, groups, values, right, matrix, size, centre, length)
+    return spread.reshape(len(rows), 6 * len(groups)), np.linalg.norm(wrenches, axis=1)
 
 
 def _grouped(graph: RigidGraph) -> tuple[Ints, tuple[tuple[Ints, int, int], ...]]:

@@ -21,6 +21,9 @@ ROUNDING = 1e-9
 def rigid_graph(rows: ConstraintRows, length: float) -> RigidGraph:
     """The graph of rows of a single pose."""
     linkage, positions = rows.linkage, rows.placement.positions
+    tied = None
+    if rows.tied is not None:
+        tied = rows.tied.rows, rows.tied.ratio, rigid_graph(rows.tied.others, length)
     nodes = rows.nodes
     owner = linkage.body_of_node[nodes]
     return RigidGraph(
@@ -30,6 +33,7 @@ def rigid_graph(rows: ConstraintRows, length: float) -> RigidGraph:
         owner[:, 1],
         body_references(linkage, rows.placement),
         length,
+        tied,
     )
 
 

@@ -49,8 +49,6 @@ def row_rates(rows: ConstraintRows, references: Array, twists: Array) -> Array:
     shift = rows.direction < 3
     axis = np.where(shift[:, None], rows.axes[..., :3], rows.axes[..., 3:])
     change = _axis_rates(rows, axis, spin)
-    lead = np.array([linkage.joints[j].lead for j in rows.joint])
-    lead = np.where(rows.direction == 2, lead, 0.0)
     result = np.zeros((count, len(rows), bodies, 6))
     apart = owner[:, 0] != owner[:, 1]
     for side, sign in enumerate((-1.0, 1.0)):
@@ -60,19 +58,20 @@ def row_rates(rows: ConstraintRows, references: Array, twists: Array) -> Array:
         result[:, r, owner[r, side], 3:] = cross(arm_rate[side][:, r], e) + cross(
             arm[side][:, r], rate
         )
-        # of a screw its turn too, about the same axis
-        r = np.flatnonzero(apart & (owner[:, side] >= 0) & shift & (lead != 0.0))
-        result[:, r, owner[r, side], 3:] -= sign * lead[r, None] * change[:, r]
         r = np.flatnonzero(apart & (owner[:, side] >= 0) & ~shift)
         result[:, r, owner[r, side], 3:] = sign * change[:, r]
-    return result.reshape(count, len(rows), 6 * bodies)
+    flat = result.reshape(count, len(rows), 6 * bodies)
+    if rows.tied is not None:
+        others = row_rates(rows.tied.others, references, twists)
+        flat[:, rows.tied.rows] -= rows.tied.ratio[:, None] * others
+    return flat
 
 
 def _axis_rates(rows: ConstraintRows, axis: Array, spin: list[Array]) -> Array:
     """Rates of the rows' axes, (p, r, 3)."""
     change = cross(spin[0], axis)
     linkage = rows.linkage
-    held = linkage.elastic_or_locked() & ~linkage.driven_mask()
+    held = linkage.still_mask()
     for r, (joint, direction) in enumerate(zip(rows.joint, rows.direction, strict=True)):
         locks = np.flatnonzero(held[joint, 3:])
         if direction < 3 or len(locks) != 1:

@@ -38,8 +38,9 @@ class ConstraintRows:
     direction : (r,)
         Index into `DIRECTIONS`.
     axes : (..., r, 6)
-        The direction e in global axes, translation then rotation: (a, 0) or (0, a), of a screw
-        along its axis (a, −h a), h its lead for one radian.
+        The direction e in global axes, translation then rotation: (a, 0) or (0, a).
+    tied : Tied or None
+        What the rows of coordinates that follow others have beside that.
     """
 
     linkage: Linkage
@@ -47,6 +48,7 @@ class ConstraintRows:
     joint: NDArray[np.intp]
     direction: NDArray[np.intp]
     axes: Array
+    tied: Tied | None = None
 
     def __repr__(self) -> str:
         return f"<ConstraintRows: {len(self.joint)} rows, batch {self.placement.batch}>"
@@ -56,7 +58,8 @@ class ConstraintRows:
 
     def __getitem__(self, index: Any) -> ConstraintRows:
         """The same rows at the poses selected by `index` on the batch axes."""
-        return replace(self, placement=self.placement[index], axes=self.axes[index])
+        tied = self.tied and replace(self.tied, others=self.tied.others[index])
+        return replace(self, placement=self.placement[index], axes=self.axes[index], tied=tied)
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -101,11 +104,38 @@ class ConstraintRows:
             arm = positions[..., self.nodes[r, side], :] - references[..., body, :]
             rows[..., r, body, :3] = e[..., :3]
             rows[..., r, body, 3:] = cross(arm, e[..., :3]) + e[..., 3:]
-        return rows.reshape(*shape, 6 * bodies)
+        flat = rows.reshape(*shape, 6 * bodies)
+        if self.tied is not None:
+            others = self.tied.others.on_bodies(references)
+            flat[..., self.tied.rows, :] -= self.tied.ratio[:, None] * others
+        return flat
+
+
+@dataclass(frozen=True)
+class Tied:
+    """Rows that also hold another coordinate: e·(q₂ − q₁) − ratio times the other's row.
+
+    Parameters
+    ----------
+    rows : (t,)
+        Which rows.
+    ratio : (t,)
+        In m and rad.
+    others : ConstraintRows
+        The plain rows of the coordinates that they follow, (t).
+    """
+
+    rows: NDArray[np.intp]
+    ratio: Array
+    others: ConstraintRows
 
 
 def constraint_rows(
-    linkage: Linkage, placement: Placement, select: NDArray[np.bool_] | None = None
+    linkage: Linkage,
+    placement: Placement,
+    select: NDArray[np.bool_] | None = None,
+    *,
+    coupled: bool = True,
 ) -> ConstraintRows:
     """Rows of the selected joint directions at a batch of poses.
 
@@ -115,6 +145,9 @@ def constraint_rows(
     placement : Placement
     select : (j, 6) of bool, optional
         Which joint directions make a row. Default: all that are not free in statics.
+    coupled : bool
+        Whether the row of a coordinate that follows another holds it to that one; otherwise it
+        is the coordinate's own, as for its rate.
 
     Returns
     -------
@@ -124,13 +157,42 @@ def constraint_rows(
         select = linkage.elastic_or_locked()
     joint, direction = np.nonzero(select)
     frames = placement.frames
-    axes = np.zeros((*placement.batch, len(joint), 6), dtype=frames.dtype)
+    tied = [tie for tie in linkage.ties if select[tie.joint, tie.direction]] if coupled else []
+    rows = ConstraintRows(
+        linkage, placement, joint, direction, _directions(frames, joint, direction)
+    )
+    if not tied:
+        return rows
+    number = np.cumsum(select.ravel()) - 1
+    other = np.array([[tie.other_joint, tie.other_direction] for tie in tied], dtype=np.intp).T
+    return replace(
+        rows,
+        tied=Tied(
+            np.array([number[6 * tie.joint + tie.direction] for tie in tied], dtype=np.intp),
+            np.array([tie.ratio for tie in tied]),
+            ConstraintRows(
+                linkage, placement, other[0], other[1], _directions(frames, other[0], other[1])
+            ),
+        ),
+    )
+
+
+def _directions(frames: Array, joint: NDArray[np.intp], direction: NDArray[np.intp]) -> Array:
+    """Joint directions in global axes, (..., r, 6)."""
+    axes = np.zeros((*frames.shape[:-3], len(joint), 6), dtype=frames.dtype)
     for r, (j, d) in enumerate(zip(joint, direction, strict=True)):
         axes[..., r, 3 * (d // 3) : 3 * (d // 3) + 3] = frames[..., j, :, d % 3]
-        if d == 2 and linkage.joints[j].lead:
-            # a screw: along the axis less what its turn makes of it
-            axes[..., r, 3:] = -linkage.joints[j].lead * frames[..., j, :, 2]
-    return ConstraintRows(linkage, placement, joint, direction, axes)
+    return axes
+
+
+def row_selection(
+    shape: tuple[int, ...], joint: NDArray[np.intp], direction: NDArray[np.intp]
+) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
+    """Joint directions as a mask, and where each of them stands among the rows of that mask."""
+    select = np.zeros(shape, dtype=bool)
+    select[joint, direction] = True
+    rank = np.cumsum(select.ravel()) - 1
+    return select, np.asarray(rank[6 * joint + direction], dtype=np.intp)
 
 
 def body_references(linkage: Linkage, placement: Placement) -> Array:

@@ -10,9 +10,7 @@ from strutwork.kinematics.linkage import Linkage
 
 def sliding_joints(linkage: Linkage) -> NDArray[np.bool_]:
     """Joints with a free translation: their first node follows the second, (j,)."""
-    held = np.asarray(linkage.elastic_or_locked() & ~linkage.driven_mask())
-    screws = np.array([joint.lead != 0.0 for joint in linkage.joints], dtype=bool)
-    return np.asarray(~held[:, :3].all(axis=1) | screws)
+    return np.asarray(~linkage.still_mask()[:, :3].all(axis=1))
 
 
 def fixed_nodes(linkage: Linkage) -> NDArray[np.bool_]:

@@ -11,7 +11,8 @@ from strutwork.kinematics.given import Given
 from strutwork.kinematics.independent import independent_rows, refuse_dependent, spanning_rows
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
-from strutwork.kinematics.rows import characteristic_length, constraint_rows
+from strutwork.kinematics.rows import characteristic_length, constraint_rows, row_selection
+from strutwork.kinematics.spinning import Spins
 from strutwork.kinematics.turns import rotation_matrix, rotation_vector, vector_rates
 
 Array = NDArray[Any]
@@ -63,13 +64,9 @@ class Walk:
         # the ground's tool never moves: what it is asked depends on nothing and is refused
         self.tool_body = joints.linkage.tool_body if self._tool_directions else -1
         held = np.argwhere(joints.held)
-        pairs = np.concatenate([held, np.stack([wanted.joint, wanted.direction], axis=-1)])
-        self.joint, self.direction = pairs[:, 0], pairs[:, 1]
-        self.select = np.zeros_like(joints.held)
-        self.select[self.joint, self.direction] = True
-        # rows come joint by joint: where each of ours stands among them
-        rank = np.cumsum(self.select.ravel()) - 1
-        self.order = rank[6 * self.joint + self.direction]
+        self.asked, self.order = row_selection(joints.held.shape, wanted.joint, wanted.direction)
+        self.joint, self.direction = held[:, 0], held[:, 1]
+        self.spins = Spins.of(joints, self.tool_body)
         _, matrix = self.system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
         self.kept, self.independent = independent_rows(matrix[0], len(held))
         self.held_rows = len(held)
@@ -95,10 +92,10 @@ class Walk:
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1
         share = np.minimum(self.share[at] + self.stride[at], 1.0)
-        bodies, good, error = self._newton(at, share)
+        bodies, good, error, near = self._newton(at, share)
         done = at[good]
         _, _, gaps = self.joints.place(bodies[good])
-        found = self._coordinates(bodies[good], gaps, done)
+        found = self._coordinates(bodies[good], gaps, near[good])
         self.coordinates[done] = found
         self.bodies.position[done] = bodies.position[good]
         self.bodies.rotation[done] = bodies.rotation[good]
@@ -111,16 +108,19 @@ class Walk:
         if ended.size:
             self._give_up(ended)
 
-    def _newton(self, at: Indices, share: Array) -> tuple[BodyPoses, NDArray[np.bool_], Array]:
-        """Bodies at a share of the way, where a step there holds, and what is left open."""
+    def _newton(
+        self, at: Indices, share: Array
+    ) -> tuple[BodyPoses, NDArray[np.bool_], Array, Array]:
+        """Bodies at a share of the way, where a step holds, its gaps, and coordinates nearby."""
         bodies = self.bodies[at]
         bodies = BodyPoses(bodies.position.copy(), bodies.rotation.copy())
         going, good = np.arange(at.size), np.zeros(at.size, dtype=bool)
         error = np.full(at.size, np.inf)
         before = np.full(at.size, np.inf)
+        near = self.coordinates[at]
         first: Array | None = None
         for _ in range(CORRECTIONS):
-            left, matrix = self.system(at[going], bodies[going], share[going])
+            left, matrix = self.system(at[going], bodies[going], share[going], near[going])
             rows = self.rows[at[going]]
             matrix = np.take_along_axis(matrix, rows[..., None], axis=1)
             open_ = np.take_along_axis(left, rows, axis=1)
@@ -136,32 +136,48 @@ class Walk:
             going, open_, matrix = going[~closed], open_[~closed], matrix[~closed]
             change = -_least(matrix, open_)
             norm = np.abs(change).max(axis=-1, initial=0.0)
-            fits = (norm <= FARTHEST) & ((norm <= SHRINK * before[going]) | (norm <= 1e-9))
+            blocks = change.reshape(len(going), bodies.position.shape[1], 6)
+            far = norm
+            if self.spins is not None:
+                others = self.spins.others(bodies[going], blocks)
+                far = np.abs(others).max(axis=(1, 2), initial=0.0)
+            fits = (far <= FARTHEST) & ((norm <= SHRINK * before[going]) | (norm <= 1e-9))
             going = going[fits]
             if not going.size:
                 break
             before[going] = norm[fits]
-            blocks = change[fits].reshape(len(going), -1, 6)
+            blocks = blocks[fits]
+            if self.spins is not None:
+                near[going[:, None], self.spins.column] += self.spins.foreseen(
+                    bodies[going], blocks
+                )
             bodies.position[going] += self.length * blocks[..., :3]
             bodies.rotation[going] = rotation_matrix(blocks[..., 3:]) @ bodies.rotation[going]
-        return bodies, good, error
+        return bodies, good, error, near
 
-    def system(self, at: Indices, bodies: BodyPoses, share: Array) -> tuple[Array, Array]:
-        """What is open, lengths over L, and its rates by (v / L, ω), (k, r) and (k, r, 6b)."""
+    def system(
+        self, at: Indices, bodies: BodyPoses, share: Array, near: Array | None = None
+    ) -> tuple[Array, Array]:
+        """What is open, lengths over L, and its rates by (v / L, ω), (k, r) and (k, r, 6b).
+
+        Turns are counted on from those of `near`, (k, c), by default of the last step.
+        """
+        near = self.coordinates[at] if near is None else near
         positions, frames, gaps = self.joints.place(bodies)
         placement = Placement(positions, frames, np.zeros((len(positions), 0)))
-        matrix = constraint_rows(self.joints.linkage, placement, self.select).on_bodies(
-            bodies.position
-        )[:, self.order]
-        residuals = self.joints.residuals(bodies, gaps, self.coordinates[at])
-        open_ = residuals[:, self.joint, self.direction]
-        m = len(self.given.joint)
-        if m:
+        linkage, points = self.joints.linkage, bodies.position
+        rates = [constraint_rows(linkage, placement, self.joints.held).on_bodies(points)]
+        residuals = self.joints.residuals(bodies, gaps, near)
+        left = [residuals[:, self.joint, self.direction]]
+        if self.order.size:
+            asked = constraint_rows(linkage, placement, self.asked, coupled=False)
+            rates.append(asked.on_bodies(points)[:, self.order])
             target = share[:, None] * self.given.values[at]
-            open_[:, -m:] = self._given_coordinates(bodies, gaps, at) - target
-        matrix = np.concatenate([matrix, *self._tool_rows(at, bodies)], axis=1)
-        open_ = np.concatenate([open_, *self._tool_open(at, bodies, share)], axis=1)
-        rows = np.concatenate([self.direction, np.array(self._tool_directions, dtype=int)])
+            left.append(self._given_coordinates(bodies, gaps, near) - target)
+        matrix = np.concatenate([*rates, *self._tool_rows(at, bodies)], axis=1)
+        open_ = np.concatenate([*left, *self._tool_open(at, bodies, share)], axis=1)
+        tool = np.array(self._tool_directions, dtype=int)
+        rows = np.concatenate([self.direction, self.given.direction, tool])
         over = np.where(rows < 3, 1.0 / self.length, 1.0)
         unit = np.tile(np.repeat([self.length, 1.0], 3), matrix.shape[-1] // 6)
         return open_ * over, matrix * over[:, None] * unit
@@ -203,17 +219,15 @@ class Walk:
         ]
         return [now - home - share[:, None] * (self.given.task_values[at] - home)]
 
-    def _coordinates(self, bodies: BodyPoses, gaps: Array, at: Indices) -> Array:
-        """Joint coordinates, turns counted on from the last step's, (k, c)."""
-        found = self.joints.coordinates(bodies, gaps)[:, ~self.joints.held]
-        turns = np.nonzero(~self.joints.held)[1] >= 3
-        ahead = found - self.coordinates[at]
-        return self.coordinates[at] + np.where(turns, np.angle(np.exp(1j * ahead)), ahead)
+    def _coordinates(self, bodies: BodyPoses, gaps: Array, near: Array) -> Array:
+        """Joint coordinates, turns counted on from those nearby, (k, c)."""
+        found = self.joints.coordinates(bodies, gaps, near)
+        return np.asarray(found[:, ~self.joints.still])
 
-    def _given_coordinates(self, bodies: BodyPoses, gaps: Array, at: Indices) -> Array:
-        names = list(map(tuple, np.argwhere(~self.joints.held)))
+    def _given_coordinates(self, bodies: BodyPoses, gaps: Array, near: Array) -> Array:
+        names = list(map(tuple, np.argwhere(~self.joints.still)))
         asked = zip(self.given.joint, self.given.direction, strict=True)
-        return self._coordinates(bodies, gaps, at)[:, [names.index(pair) for pair in asked]]
+        return self._coordinates(bodies, gaps, near)[:, [names.index(pair) for pair in asked]]
 
     def _give_up(self, at: Indices) -> None:
         """End poses whose steps have become too short, with the reason."""

@@ -12,10 +12,12 @@ from numpy.typing import ArrayLike
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.kinematics.coupling import ties_of
 from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Damping, Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
+from strutwork.machines.model_couplings import couplings_of
 from strutwork.machines.model_motion_tables import (
     drives_of,
     home_values,
@@ -60,13 +62,18 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     _check_bodies(tables)
     _check_nodes(tables)
     joints = tuple(joint_of(table) for table in tables.joints)
+    couplings = couplings_of(tables)
+    follows = {
+        (joints[tie.joint].name, DIRECTIONS[tie.direction])
+        for tie in ties_of(joints, {joint.name: j for j, joint in enumerate(joints)}, couplings)
+    }
     home = home_values(tables, joints)
     task = task_of(tables)
     supports = _supports(tables)
     nodes = tuple(tables.nodes)
     grounds = tuple(joint.between[0] for joint in supports.values())
     beams, springs, masses = beams_of(tables), springs_of(tables), masses_of(tables)
-    cases = load_cases(tables, joints, supports)
+    cases = load_cases(tables, joints, supports, follows)
     toleranced = model_tolerances(tables, joints, supports)
     # last, for a solid may take minutes
     solids = _solids(tables, folder)
@@ -84,6 +91,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         bodies=bodies,
         joints=(*joints, *supports.values()),
         tool=None if tables.tool is None else tables.tool.tcp,
+        couplings=couplings,
     )
     structure = Structure(linkage, beams, springs, rigid, masses, solids)
     positions = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 
 from strutwork.errors import ModelError
@@ -27,7 +28,10 @@ class _Draft:
 
 
 def load_cases(
-    tables: ModelTable, joints: Sequence[Joint], supports: Mapping[str, Joint]
+    tables: ModelTable,
+    joints: Sequence[Joint],
+    supports: Mapping[str, Joint],
+    follows: AbstractSet[tuple[str, str]] = frozenset(),
 ) -> tuple[LoadCase, ...]:
     """Load cases in the order in which the file names them, gravity first.
 
@@ -37,6 +41,8 @@ def load_cases(
     joints : sequence of Joint
         Those of the file.
     supports : mapping of node to Joint
+    follows : set of (joint, direction)
+        Coordinates that follow others: they are held, and a coupling may be out by a misfit.
 
     Returns
     -------
@@ -78,7 +84,12 @@ def load_cases(
             raise unknown(f"misfits[{i}]", "joint", misfit.joint, known)
         draft = drafts.setdefault(misfit.case, _Draft())
         _add_gaps(
-            draft, f"misfits[{i}]", misfit.case, known[misfit.joint], by_direction(misfit.gap)
+            draft,
+            f"misfits[{i}]",
+            misfit.case,
+            known[misfit.joint],
+            by_direction(misfit.gap),
+            follows,
         )
     return tuple(
         LoadCase(name, tuple(d.wrenches), tuple(d.lines), d.gravity, d.gaps)
@@ -87,12 +98,18 @@ def load_cases(
 
 
 def _add_gaps(
-    draft: _Draft, part: str, case: str, joint: Joint, values: Mapping[str, float]
+    draft: _Draft,
+    part: str,
+    case: str,
+    joint: Joint,
+    values: Mapping[str, float],
+    follows: AbstractSet[tuple[str, str]] = frozenset(),
 ) -> None:
     if not values:
         raise ModelError(part, "names no direction.", 'Name one, as in { z = "30 um" }.')
     for direction, value in values.items():
-        if joint.states[DIRECTIONS.index(direction)] == State.FREE:
+        free = joint.states[DIRECTIONS.index(direction)] == State.FREE
+        if free and (joint.name, direction) not in follows:
             raise ModelError(
                 part,
                 f"{joint.name} is free in {direction}: nothing can be displaced by a known amount "

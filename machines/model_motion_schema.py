@@ -13,6 +13,7 @@ from strutwork.machines.model_fields import (
     Length,
     MomentLimit,
     Name,
+    Number,
     Size,
     Slope,
     Speed,
@@ -66,6 +67,15 @@ class WorkspaceTable(Table):
     rx: AngleSpan | None = None
     ry: AngleSpan | None = None
     rz: AngleSpan | None = None
+
+
+class CouplingTable(Table):
+    """Two joint coordinates that follow each other."""
+
+    name: Name
+    between: tuple[Name, Name]
+    ratio: Number | None = None
+    per_turn: Length | None = None
 
 
 class DriveTable(Table):

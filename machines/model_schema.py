@@ -43,6 +43,7 @@ from strutwork.machines.model_fields import (
     Vector,
 )
 from strutwork.machines.model_motion_schema import (
+    CouplingTable,
     DriveTable,
     LimitsTable,
     TaskTable,
@@ -348,6 +349,7 @@ class ModelTable(Table):
     bodies: tuple[BodyTable, ...] = ()
     masses: tuple[MassTable, ...] = ()
     joints: tuple[JointTable, ...] = ()
+    couplings: tuple[CouplingTable, ...] = ()
     springs: tuple[SpringTable, ...] = ()
     supports: tuple[SupportTable, ...] = ()
     loads: tuple[LoadTable, ...] = ()

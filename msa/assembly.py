@@ -169,8 +169,23 @@ class System:
 
     @cached_property
     def row_blocks(self) -> tuple[NDArray[np.intp], Array]:
-        """Constraint rows in blocks: cluster (r, 2), −1 for ground, and values (p, r, 2, 6)."""
-        rows, nodes = self.locked_rows, self.locked_rows.nodes
+        """Constraint rows in blocks: cluster (r, k), −1 for ground, and values (p, r, k, 6).
+
+        k is two, and four where a joint coordinate follows another.
+        """
+        vertex, values = self._blocks(self.locked_rows)
+        tied = self.locked_rows.tied
+        if tied is None:
+            return vertex, values
+        more, others = self._blocks(tied.others)
+        vertex = np.concatenate([vertex, np.full_like(vertex, -1)], axis=1)
+        values = np.concatenate([values, np.zeros_like(values)], axis=2)
+        vertex[tied.rows, 2:] = more
+        values[:, tied.rows, 2:] = -tied.ratio[:, None, None] * others
+        return vertex, values
+
+    def _blocks(self, rows: ConstraintRows) -> tuple[NDArray[np.intp], Array]:
+        nodes = rows.nodes
         vertex = self.placed.structure.vertex_of_node[nodes]
         maps = rigid_map(self.placed.arms[:, nodes])
         values = np.einsum("pri,prkij->prkj", rows.axes, maps)

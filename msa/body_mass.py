@@ -6,7 +6,6 @@ import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.body_masses import BodyMasses
-from strutwork.kinematics.joint import State
 from strutwork.kinematics.rows import body_references
 from strutwork.msa.assembly import system_of
 from strutwork.msa.mass import mass_contributions
@@ -70,7 +69,7 @@ def stretched_parts(structure: Structure) -> tuple[str, ...]:
     they keep the mass that they have at home.
     """
     linkage = structure.linkage
-    still = np.asarray(linkage.states() != State.FREE) & ~linkage.driven_mask()
+    still = linkage.still_mask()
     slides = {
         joint.between[0]
         for joint, held in zip(linkage.joints, still, strict=True)

@@ -89,12 +89,13 @@ def spanning_forest(structure: Structure) -> Forest:
 
     neighbours: dict[int, list[tuple[int, int, float]]] = {}
     closing = []
+    tied = {tie.joint for tie in linkage.ties}
     for j in sorted(range(len(linkage.joints)), key=lambda j: (-locked[j], j)):
         first, second = ends[j]
         if locked[j] == 0:
             continue
-        if root(first) == root(second) or linkage.joints[j].lead:
-            # a screw moves along and about its axis at once, which is no direction of its frame
+        if root(first) == root(second) or j in tied:
+            # a coordinate that follows another is no direction of its joint's frame alone
             closing.append(j)
             continue
         piece[root(second) + 1] = root(first)

@@ -155,7 +155,7 @@ def always_movable(system: System) -> bool:
     if held.vertex < 0:
         return False
     pairs = _row_vertices(system)[held.rows]
-    if np.any(pairs < 0):
+    if pairs.shape[1] > 2 or np.any(pairs < 0):
         return False
     edges = {(int(min(p)), int(max(p))) for p in pairs if p[0] != p[1]}
     joints = {int(j) for j in system.row_owner[0][held.rows]}
@@ -172,12 +172,8 @@ class _Holding:
 
 
 def _row_vertices(system: System) -> NDArray[np.intp]:
-    """Clusters of the first and second side of every constraint row, (r, 2), −1 for ground."""
-    linkage = system.placed.structure.linkage
-    index, joints = linkage.node_index, linkage.joints
-    nodes = [[index[n] for n in joints[j].between] for j in system.row_owner[0]]
-    pairs = np.asarray(nodes, dtype=np.intp).reshape(-1, 2)
-    return np.asarray(system.placed.structure.vertex_of_node[pairs])
+    """Clusters that every constraint row joins, (r, k), −1 for ground."""
+    return system.row_blocks[0]
 
 
 def _holding(system: System) -> _Holding:
@@ -189,13 +185,17 @@ def _holding(system: System) -> _Holding:
     if vertex < 0:
         return _Holding(vertex, none, none)
     pairs = _row_vertices(system)
-    inner = pairs[(pairs >= 0).all(axis=1)]
+    # one after another: a row that ties two joints joins the clusters of both
+    chains = [pairs[:, [0, k]] for k in range(1, pairs.shape[1])] + [pairs[:, -2:]]
+    inner = np.concatenate(chains)
+    inner = inner[(inner >= 0).all(axis=1)]
     count = structure.vertex_count
     links = sp.coo_array((np.ones(len(inner)), (inner[:, 0], inner[:, 1])), shape=(count, count))
     _, label = connected_components(links, directed=False)
     vertices = np.flatnonzero(label == label[vertex])
     # a row inside one cluster holds nothing
-    rows = np.flatnonzero(np.isin(pairs, vertices).any(axis=1) & (pairs[:, 0] != pairs[:, 1]))
+    acts = (pairs[:, ::2] != pairs[:, 1::2]).any(axis=1)
+    rows = np.flatnonzero(np.isin(pairs, vertices).any(axis=1) & acts)
     return _Holding(vertex, vertices, rows)
 
 
@@ -204,7 +204,7 @@ def _local_rows(system: System, held: _Holding) -> Array:
     pairs, values = system.row_blocks
     at = np.searchsorted(held.vertices, pairs[held.rows])
     result = np.zeros((system.poses, len(held.rows), len(held.vertices), 6))
-    for side in (0, 1):
+    for side in range(pairs.shape[1]):
         moving = np.flatnonzero(pairs[held.rows, side] >= 0)
         result[:, moving, at[moving, side]] += values[:, held.rows[moving], side]
     return result.reshape(system.poses, len(held.rows), -1)

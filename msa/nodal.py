@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.kinematics import ConstraintRows
 from strutwork.msa.assembly import System
 from strutwork.msa.beam import local_stiffness
 from strutwork.msa.structure import rigid_map
@@ -96,14 +97,23 @@ def unbalanced(
         del name
         moved = nodal[:, nodes].reshape(system.poses, 6 * len(nodes), m)
         add(nodes, (stiffness @ moved).reshape(system.poses, len(nodes), 6, m))
-    rows, nodes = system.locked_rows, system.locked_rows.nodes
-    held = rows.axes[..., None] * multipliers[:, :, None]
-    inside = structure.vertex_of_node[nodes[:, 0]] == structure.vertex_of_node[nodes[:, 1]]
-    held[:, inside] = 0.0
-    add(nodes[:, 1], held)
-    add(nodes[:, 0], -held)
-    apart = nodal[:, nodes[:, 1]] - nodal[:, nodes[:, 0]]
-    gap = gaps - np.where(inside[:, None], 0.0, np.einsum("pri,prim->prm", rows.axes, apart))
+
+    def along(rows: ConstraintRows, forces: Array) -> Array:
+        """Add what rows carry; the way that they have gone."""
+        nodes = rows.nodes
+        held = rows.axes[..., None] * forces[:, :, None]
+        inside = structure.vertex_of_node[nodes[:, 0]] == structure.vertex_of_node[nodes[:, 1]]
+        held[:, inside] = 0.0
+        add(nodes[:, 1], held)
+        add(nodes[:, 0], -held)
+        apart = nodal[:, nodes[:, 1]] - nodal[:, nodes[:, 0]]
+        return np.where(inside[:, None], 0.0, np.einsum("pri,prim->prm", rows.axes, apart))
+
+    gap = gaps - along(system.locked_rows, multipliers)
+    tied = system.locked_rows.tied
+    if tied is not None:
+        ratio = tied.ratio[:, None]
+        gap[:, tied.rows] += ratio * along(tied.others, -ratio * multipliers[:, tied.rows])
     return load - system.gather(force), gap, carried
 
 

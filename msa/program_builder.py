@@ -48,8 +48,8 @@ def compile_program(system: System) -> Program | None:
     linkage = structure.linkage
     if linkage.tool is None or structure.elements or forest.count == 0:
         return None
-    if any(joint.lead for joint in linkage.joints):
-        # a screw's row is along and about its axis at once, the kernel's are one or the other
+    if linkage.ties:
+        # the row of a coordinate that follows another holds two at once, the kernel's hold one
         return None
     coordinates, of_vertex = _coordinates(topology)
     tool_node = structure.mesh_index[linkage.tool]

@@ -319,10 +319,14 @@ def _joints(
     forces = np.zeros((system.poses, len(linkage.joints), 6, m), dtype=displacements.dtype)
     joint, direction = system.row_owner
     forces[:, joint, direction] = -unknowns.multipliers
-    for j, part in enumerate(linkage.joints):
-        if part.lead:
-            # the flank that pushes along the axis turns about it
-            forces[:, j, 5] -= part.lead * forces[:, j, 2]
+    tied = system.locked_rows.tied
+    if tied is not None:
+        # the flank of a thread turns while it pushes; what a coupling does to the joint that leads
+        # is not that joint's force, and its drive's is asked for
+        other = tied.others
+        for k in np.flatnonzero(joint[tied.rows] == other.joint):
+            pushed = unknowns.multipliers[:, tied.rows[k]]
+            forces[:, other.joint[k], other.direction[k]] += tied.ratio[k] * pushed
     energy = np.zeros((system.poses, m), dtype=displacements.dtype)
     index = linkage.node_index
     for j in system.topology.elastic_joints:

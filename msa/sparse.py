@@ -64,7 +64,7 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
 def sparse_rows(system: System, values: Array) -> sp.csr_array:
     """Constraint rows A as a sparse matrix."""
     vertex, _ = system.row_blocks
-    row = np.repeat(np.arange(len(vertex)), 12).reshape(-1, 2, 6)
+    row = np.arange(len(vertex))[:, None, None] + np.zeros((*vertex.shape, 6), dtype=np.intp)
     column = 6 * vertex[..., None] + np.arange(6)
     moves = np.broadcast_to(vertex[..., None] >= 0, row.shape)
     return sp.csr_array(

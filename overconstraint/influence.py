@@ -277,8 +277,8 @@ def misfit_directions(linkage: Linkage) -> tuple[tuple[str, str], ...]:
     """Locked or elastic directions of the joints that are no supports."""
     return tuple(
         (joint.name, d)
-        for joint in linkage.joints
+        for joint, states in zip(linkage.joints, linkage.states(), strict=True)
         if joint.type != "support"
-        for d, state in zip(DIRECTIONS, joint.states, strict=True)
+        for d, state in zip(DIRECTIONS, states, strict=True)
         if state != State.FREE
     )

@@ -101,7 +101,7 @@ def error_sources(
                 f'names the unknown joint "{error.joint}".',
                 "Joints: " + ", ".join(list(linkage.joint_index)[:12]) + ".",
             )
-        states = linkage.joints[linkage.joint_index[error.joint]].states
+        states = linkage.states()[linkage.joint_index[error.joint]]
         if states[DIRECTIONS.index(error.direction)] == State.FREE:
             raise ModelError(
                 error.name,

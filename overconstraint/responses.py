@@ -104,10 +104,10 @@ class Responses:
 def joint_quantities(linkage: Linkage) -> tuple[Quantity, ...]:
     """Forces and moments that the joints can carry, supports excepted."""
     found = []
-    for joint in linkage.joints:
+    for joint, states in zip(linkage.joints, linkage.states(), strict=True):
         if joint.type == "support":
             continue
-        carried = {d for d, s in zip(DIRECTIONS, joint.states, strict=True) if s != State.FREE}
+        carried = {d for d, s in zip(DIRECTIONS, states, strict=True) if s != State.FREE}
         for kind, directions, unit in KINDS:
             here = tuple(d for d in directions if d in carried)
             if here:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from strutwork.kinematics import JOINT_TYPES
+from strutwork.kinematics.coupling import Coupling
 from strutwork.msa import LineLoad, LoadCase, PointMass, Spring, rod
 from tests.structures import BAR, TUBE, Model, cantilever, every_direction, wrench
 
@@ -334,6 +335,30 @@ def two_rods(kind: str) -> Example:
     return Example(model, (case, LoadCase("gap", gaps=gaps)))
 
 
+def geared_arms() -> Example:
+    """Two arms on hinges that gears and a rack tie to a slide, whose spring holds them all."""
+    model = Model("t1")
+    model.nodes(
+        r1=(0, 0, 0), t1=(0.5, 0.1, 0), r2=(0, 0.4, 0.1), t2=(0.4, 0.5, 0.2), r3=(0.2, 0, 0.5)
+    )
+    model.nodes(t3=(0.2, 0, 0.5), end=(0.2, 0.1, 0.8))
+    model.joint("first", "revolute", ("r1", "a1"), (0.2, -0.3, 1.0))
+    model.joint("second", "revolute", ("r2", "a2"), (0.1, 0.2, 1.0))
+    model.joint("slide", "prismatic", ("r3", "t3"), (0.0, 0.3, 1.0))
+    model.beam("one", "a1", "t1", BAR)
+    model.beam("two", "a2", "t2", TUBE)
+    model.beam("three", "t3", "end", BAR)
+    for node in ("r1", "r2", "r3"):
+        model.support(node)
+    model.springs.append(Spring("stop", ("end",), {"x": 3e4, "y": 3e4, "z": 3e4}))
+    model.couplings = (
+        Coupling("gears", ("first", "rz"), ("second", "rz"), -1.7),
+        Coupling("rack", ("second", "rz"), ("slide", "z"), 0.11),
+    )
+    gaps = {("second", "rz"): 2e-3, ("slide", "z"): -1e-4, ("first", "x"): 1e-4}
+    return Example(model, (wrench("push", "t1", *LOAD), LoadCase("gap", gaps=gaps)), loops=True)
+
+
 LIBRARY: dict[str, Callable[[], Example]] = {
     "cantilever": plain_cantilever,
     "offset bracket": offset_bracket,
@@ -356,6 +381,7 @@ LIBRARY: dict[str, Callable[[], Example]] = {
     "block on bushings": block_on_bushings,
     "floating frame": floating_frame,
     "beam on springs": beam_on_springs,
+    "geared arms": geared_arms,
     **{f"two rods, {kind}": partial(two_rods, kind) for kind in JOINT_TYPES if kind != "support"},
 }
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.kinematics.coupling import Coupling
 from strutwork.msa import (
     Beam,
     LineLoad,
@@ -45,6 +46,7 @@ class Model:
         self.groups: dict[str, tuple[str, ...]] = {}
         self.grounded: list[str] = []
         self.joints: list[Joint] = []
+        self.couplings: tuple[Coupling, ...] = ()
         self.springs: list[Spring] = []
         self.masses: list[PointMass] = []
         self.tool = tool
@@ -102,7 +104,7 @@ class Model:
         result.positions = {n: p @ rotation.T + shift for n, p in self.positions.items()}
         result.axes = {name: rotation @ axes for name, axes in self.axes.items()}
         result.groups, result.grounded = self.groups, self.grounded
-        result.joints = self.joints
+        result.joints, result.couplings = self.joints, self.couplings
         for spring in self.springs:
             parts = spring.diagonal.reshape(2, 3)
             assert np.ptp(parts, axis=1).max() == 0.0, f"{spring.name} is not isotropic"
@@ -159,7 +161,9 @@ class Model:
 
     def structure(self) -> Structure:
         bodies, inner = self.bodies()
-        linkage = Linkage(tuple(self.positions), bodies, tuple(self.joints), self.tool)
+        linkage = Linkage(
+            tuple(self.positions), bodies, tuple(self.joints), self.tool, self.couplings
+        )
         return Structure(linkage, tuple(self.beams), tuple(self.springs), inner, tuple(self.masses))
 
     def placement(self) -> Placement:

@@ -100,7 +100,7 @@ def _coordinates(model: Model, found: Branches) -> Any:
     """Joint coordinates of ways, (m, c)."""
     joints = model.motion.joints
     _, _, gaps = joints.place(found.bodies)
-    return joints.coordinates(found.bodies, gaps)[:, ~joints.held] + model.motion.home_values
+    return joints.coordinates(found.bodies, gaps)[:, ~joints.still] + model.motion.home_values
 
 
 def _print_ways(ways: dict[str, Any]) -> None:

@@ -30,6 +30,8 @@ COUNTS = {
     "06_table_on_two_rails": (6, 0, 0, 3),
     # 15 free nodes; four mounts hold three directions each of one body: 12 − 6
     "08_column_on_mounts": (90, 0, 0, 6),
+    # 4 bodies; bearings, motor, guide 5 rows each, threads 5, belts 1: 20 + 10 + 2 = 32 of rank 23
+    "10_screws_and_belt": (27, 1, 0, 9),
 }
 
 
