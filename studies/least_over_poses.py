@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.fea import Port
+from strutwork.fea import Damping, Port
 from strutwork.fea.coupled import AnyDamping, PartDamping, part_matrices
 from strutwork.fea.dynamic_stiffness import minimum_of
 from strutwork.fea.least_stiffness import least_dynamic_stiffness
@@ -55,14 +55,19 @@ def least_over_poses(
     ModelError
         As `modal_data` and `least_dynamic_stiffness`.
     """
-    parts = isinstance(damping, PartDamping)
-    coupled = parts and any(np.any(m) for m in part_matrices(system_of(placed), damping))
-    background = damping.background if isinstance(damping, PartDamping) else damping
+    coupled = False
+    background: Damping | None
+    if isinstance(damping, PartDamping):
+        coupled = any(np.any(m) for m in part_matrices(system_of(placed), damping))
+        background = damping.background
+    else:
+        background = damping
     # frequencies are those of the undamped modes: where parts damp, any kind serves for them
     simple = ONE_PERCENT if coupled or background is None else background
     frequencies, model = modal_data(placed, ports, simple, count)
-    if parts and not coupled and background is None:
-        least_dynamic_stiffness(placed[0], ports[0], ports[0], damping, band)  # says what is wrong
+    if not coupled and background is None:
+        # parts are named and none has any: says so
+        least_dynamic_stiffness(placed[0], ports[0], ports[0], damping, band)
     if not coupled:
         least = minimum_of(model, band)
         return frequencies, least.value, least.frequency

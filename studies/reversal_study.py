@@ -114,9 +114,9 @@ def reversal_study(
     try:
         found = reversals(field, *axes)
     except UnreachableError as error:
-        middle = np.array([[(axis[0] + axis[-1]) / 2 for axis in axes]])
+        centre = np.array([[(axis[0] + axis[-1]) / 2 for axis in axes]])
         why = (
-            field.placements(middle)[0].reason(0) or "the tool's motion does not settle the drives'"
+            field.placements(centre)[0].reason(0) or "the tool's motion does not settle the drives'"
         )
         raise UnreachableError(
             error.part, f"{error.problem.rstrip('.')}; in its middle: {why}.", error.remedy

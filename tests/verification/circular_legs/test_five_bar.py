@@ -1,9 +1,9 @@
 """The planar five-bar: four working modes of a pose, two assembly modes of its drives.
 
-Two cranks and two rods in a plane meet at the tool (working modes: Chablat and Wenger
-1998, Working modes and aspects in fully parallel manipulators, IEEE ICRA). For a place of the tool each knee lies
-where a circle about its motor cuts one about the tool: 2 x 2. For two crank angles the tool lies
-where two circles about the knees cut: 2. The circles' closed form is the oracle.
+Two cranks and two rods in a plane meet at the tool (working modes: Chablat and Wenger 1998, Working
+modes and aspects in fully parallel manipulators, IEEE ICRA). For a place of the tool each knee
+lies where a circle about its motor cuts one about the tool: 2 x 2. For two crank angles the tool
+lies where two circles about the knees cut: 2. The circles' closed form is the oracle.
 """
 
 from __future__ import annotations

@@ -11,9 +11,10 @@
 
 The paper speaks of "four unique solutions" of the 3xPPRS's forward kinematics. With the drives held
 each ball runs on a circle whose centre lies in the plane of the guide, so that real ways come in
-mirror pairs φ → −φ, and the eight classes under the mirror are the roots of a real system: real ones are even
-in number. Four is then one of the counts 2, 4, 6 and 8, and which prevails is a matter of where
-the machine stands; the shares of random poses that a text gives belong to its draw of poses.
+mirror pairs φ → −φ, and the eight classes under the mirror are the roots of a real system: real
+ones are even in number. Four is then one of the counts 2, 4, 6 and 8, and which prevails is a
+matter of where the machine stands; the shares of random poses that a text gives belong to its draw
+of poses.
 Sixteen complex ways, mirror pairs and the start among them: tests/unit.
 """
 
