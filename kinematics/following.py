@@ -241,7 +241,7 @@ def _collected(
     held = placed.held
     # with fewer drives than freedoms the forces themselves tell whether the drives suffice
     if placed.drive_map.shape[-2] >= placed.drive_map.shape[-1] and np.any(held <= DRIVEN):
-        raise singular_at(float(times[int(np.argmin(held))]), PARALLEL)
+        raise singular_at(trajectory, float(times[int(np.argmin(held))]), PARALLEL)
     values, rates, _ = trajectory.at(times)
     pairs = placed.of.motion.linkage.driven
     names = placed.of.motion.joints.names

@@ -38,6 +38,8 @@ class Given:
         Joint coordinates that are given.
     values : (p, m)
         Relative to home, m and rad.
+    names : tuple of str
+        Of these coordinates, as in `ram1:z`.
     """
 
     batch: tuple[int, ...]
@@ -48,6 +50,7 @@ class Given:
     joint: NDArray[np.intp]
     direction: NDArray[np.intp]
     values: Array
+    names: tuple[str, ...] = ()
 
     @property
     def poses(self) -> int:
@@ -139,6 +142,7 @@ def given(
         np.array([found_joints[name] for name, _ in pairs], dtype=np.intp),
         np.array([DIRECTIONS.index(d) for _, d in pairs], dtype=np.intp),
         values,
+        tuple(f"{name}:{d}" for name, d in pairs),
     )
 
 

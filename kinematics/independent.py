@@ -97,8 +97,7 @@ def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
         if number < len(asked.joint):
             raise ModelError(
                 "motion",
-                f"coordinate {DIRECTIONS[asked.direction[number]]} of joint number "
-                f"{int(asked.joint[number]) + 1} cannot move from home: the other joints hold it.",
+                f"{asked.names[number]} cannot move from home: the other joints hold it.",
                 "Give another coordinate.",
             )
         if asked.tool is None:

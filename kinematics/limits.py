@@ -39,11 +39,16 @@ class Limit:
     kind: str
 
     def __str__(self) -> str:
+        return f"{self.joint}: {self.words}"
+
+    @property
+    def words(self) -> str:
+        """The range without the joint's name, as in `z of the prismatic joint, 0 to 90 mm`."""
         if self.coordinate in ("x", "y", "z"):
             span = f"{self.low * 1e3:.4g} to {self.high * 1e3:.4g} mm"
         else:
             span = f"{degrees(self.low):.4g} to {degrees(self.high):.4g} deg"
-        return f"{self.joint}: {self.coordinate} of the {self.kind} joint, {span}"
+        return f"{self.coordinate} of the {self.kind} joint, {span}"
 
 
 def joint_limits(linkage: Linkage) -> tuple[Limit, ...]:

@@ -50,24 +50,37 @@ def placed_along(
     if bad.size:
         first = int(bad[0])
         raise UnreachableError(
-            f"trajectory at t = {times[first]:.6g} s",
+            _place(trajectory, float(times[first])),
             f"cannot be taken: {moved.placement.reason(first)}.",
             "Keep the path within reach of the machine.",
         )
     placed = dynamics.bodies.at(moved)
     lost = np.flatnonzero(placed.singular)
     if lost.size:
-        raise singular_at(float(times[lost[0]]), SERIAL)
+        raise singular_at(trajectory, float(times[lost[0]]), SERIAL)
     return moved, dynamics.at(moved)
 
 
-def singular_at(when: float, kind: str) -> SingularPoseError:
+def singular_at(trajectory: Trajectory, when: float, kind: str) -> SingularPoseError:
     """The error of a singularity on a path."""
     return SingularPoseError(
-        f"trajectory at t = {when:.6g} s",
+        _place(trajectory, when),
         f"passes through a singularity, {kind}.",
         "Lead the path round it.",
     )
+
+
+def _place(trajectory: Trajectory, when: float) -> str:
+    """`trajectory at t = 0.2 s, x = 12 mm, rz = -3 deg`."""
+    words = [f"trajectory at t = {when:.6g} s"]
+    for (joint, direction), value in zip(
+        trajectory.coordinates.names, trajectory.at([when])[0][0], strict=True
+    ):
+        label = f"{joint}:{direction}" if joint else direction
+        turns = direction.startswith("r")
+        shown = float(np.degrees(value)) if turns else 1e3 * float(value)
+        words.append(f"{label} = {shown:.5g} {'deg' if turns else 'mm'}")
+    return ", ".join(words)
 
 
 @dataclass(frozen=True)
@@ -119,7 +132,8 @@ def check_way(dynamics: Dynamics, trajectory: Trajectory, way: Way) -> None:
     if crossed.size:
         k = int(crossed[0])
         kind = BOTH if serial[k] and parallel[k] else SERIAL if serial[k] else PARALLEL
-        raise singular_at(_bisected(dynamics, trajectory, times[k], times[k + 1]), kind)
+        when = _bisected(dynamics, trajectory, times[k], times[k + 1])
+        raise singular_at(trajectory, when, kind)
     span = np.diff(times)[:, None]
     gap = np.diff(points, axis=0) - span[..., None] * (speeds[1:] + speeds[:-1]) / 2.0
     pace = np.linalg.norm(speeds, axis=-1)
@@ -187,4 +201,4 @@ def check_touched(dynamics: Dynamics, trajectory: Trajectory, times: Array, held
             hold, bounds=(low, high), method="bounded", options={"xatol": 1e-9 * (high - low)}
         )
         if found.fun < TOUCHED * held.max():
-            raise singular_at(float(found.x), PARALLEL)
+            raise singular_at(trajectory, float(found.x), PARALLEL)

@@ -72,4 +72,6 @@ def regions(good: Mask) -> Regions:
     # a rim of what is not good joins all that is open to the outside
     rim = np.pad(~good, 1, constant_values=True)
     _, pieces = ndimage.label(rim, structure=np.ones((3,) * good.ndim))
-    return Regions(rank[label], sizes[order], pieces - 1)
+    # along a line good points part the outside in two
+    outside = 2 if good.ndim == 1 and count else 1
+    return Regions(rank[label], sizes[order], pieces - outside)

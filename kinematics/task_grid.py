@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, prod
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,10 @@ from strutwork.kinematics.joint import DIRECTIONS
 
 Array = NDArray[Any]
 
-#: Poses of a grid.
-LARGEST = 10_000_000
+#: Poses of a grid whose coordinates are held at once.
+LARGEST = 100_000_000
+#: Poses that nothing on earth looks at: refused before they are counted further.
+ENDLESS = 10**12
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class TaskGrid:
     Raises
     ------
     ModelError
-        An unknown direction, no value or one that is not finite, more than `LARGEST` poses.
+        An unknown direction, no value or one that is not finite, more than `ENDLESS` poses.
     """
 
     axes: Mapping[str, Array]
@@ -51,15 +53,17 @@ class TaskGrid:
                 )
         if not self.axes:
             raise ModelError("workspace", "names no direction.", "Name one of the task's.")
-        if len(self) > LARGEST:
+        count = prod(len(v) for v in self.axes.values())
+        if count > ENDLESS:
             raise ModelError(
                 "workspace",
-                f"has {len(self):,} poses, more than the {LARGEST:,} that are taken.",
+                f"has {count:.3g} poses: {8e-12 * count * len(self.axes):.3g} TB of coordinates "
+                f"alone, and {count / 1e3 / 3.2e7:.2g} years at a thousand poses a second.",
                 "Take fewer points along a direction.",
             )
 
     def __len__(self) -> int:
-        return int(np.prod([float(len(v)) for v in self.axes.values()]))
+        return prod(len(v) for v in self.axes.values())
 
     def __repr__(self) -> str:
         spans = []
@@ -75,6 +79,19 @@ class TaskGrid:
         return tuple(len(v) for v in self.axes.values())
 
     def task(self) -> dict[str, Array]:
-        """Coordinates of all poses, direction by direction, (n,) each."""
+        """Coordinates of all poses, direction by direction, (n,) each.
+
+        Raises
+        ------
+        ModelError
+            More than `LARGEST` poses.
+        """
+        if len(self) > LARGEST:
+            raise ModelError(
+                "workspace",
+                f"has {len(self):,} poses, more than the {LARGEST:,} that are taken: "
+                f"{8e-9 * len(self) * len(self.axes):.3g} GB of coordinates alone.",
+                "Take fewer points along a direction.",
+            )
         grids = np.meshgrid(*self.axes.values(), indexing="ij")
         return {name: g.ravel() for name, g in zip(self.axes, grids, strict=True)}

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics.given import Given
 from strutwork.kinematics.independent import independent_rows, refuse_dependent, spanning_rows
+from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.rows import characteristic_length, constraint_rows, row_selection
@@ -33,11 +34,15 @@ ELSE = 1e3
 SHORTEST, MOST = 1e-6, 2000
 #: A singular value of the rows, as a share of the largest, below which the way ends at it.
 SINGULAR = 3e-3
+#: Gap, as a share of the machine's size or rad, that no rest of the way explains.
+OPEN = 1e-4
 #: How many times better the condition of other rows must be, and the first step with them.
 BETTER, RESTART = 2.0, 1e-2
 
 REACH = "out of reach: on the way a leg comes to the end of its working mode"
-PARALLEL = "a singularity lies on the way, where what is given no longer holds the tool"
+PARALLEL = (
+    "a parallel singularity (type 2) lies on the way, where what is given no longer holds the tool"
+)
 CONTRADICT = "what is given contradicts itself or the joints: no pose near the way has it"
 LOST = "the way was not walked to its end in the steps allowed"
 
@@ -70,6 +75,9 @@ class Walk:
         _, matrix = self.system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
         self.kept, self.independent = independent_rows(matrix[0], len(held))
         self.held_rows = len(held)
+        # what follows from the rest of what is given agrees at the target, not on the straight way
+        late = np.setdiff1d(np.arange(self.held_rows, len(matrix[0])), self.kept)
+        self.late = late if wanted.tool is None else late[:0]
         # of each pose: rows that are independent at home may depend on each other elsewhere
         self.rows = np.tile(self.kept, (count, 1))
         if not (self.independent or lenient):
@@ -126,6 +134,7 @@ class Walk:
             open_ = np.take_along_axis(left, rows, axis=1)
             if first is None:
                 first = matrix
+            left[np.ix_(share[going] < 1.0, self.late)] = 0.0
             whole = np.abs(left).max(axis=-1, initial=0.0)
             size = np.abs(open_).max(axis=-1, initial=0.0)
             error[going] = whole
@@ -242,9 +251,26 @@ class Walk:
         self.stride[at[better]] = np.minimum(RESTART, 1.0 - self.share[at[better]])
         at, values = at[~better], values[~better]
         singular = values[:, -1] <= SINGULAR * values[:, 0]
+        # all but at the target, where what follows from the rest is open by more than the way left
+        left, _ = self.system(at, self.bodies[at], np.ones(len(at)))
+        other_open = np.abs(left[:, self.late]).max(axis=1, initial=0.0) > OPEN
+        singular &= ~((self.share[at] > 1.0 - OPEN) & other_open)
         tool = bool(self._tool_directions)
         self._end(at[singular], REACH if tool else PARALLEL)
-        self._end(at[~singular], CONTRADICT)
+        self._end(at[~singular], CONTRADICT + self._follows())
+
+    def _follows(self) -> str:
+        """Which of more coordinates than there are freedoms follow from those before them."""
+        if self.independent or self.given.tool is not None:
+            return ""
+        names = [*self.given.names, *(DIRECTIONS[d] for d in self.given.task)]
+        free = len(self.kept[self.kept >= self.held_rows])
+        late = set(range(len(names))) - set((self.kept - self.held_rows).tolist())
+        words = ", ".join(names[k] for k in sorted(late))
+        return (
+            f"; {len(names)} coordinates are given for {free} freedoms, and {words} "
+            f"follow{'s' * (len(late) == 1)} from the others: leave out {len(late)} of them"
+        )
 
     def _end(self, at: Indices, reason: str) -> None:
         if not at.size:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import degrees
 
 import numpy as np
 
@@ -37,12 +38,17 @@ def home_values(tables: ModelTable, joints: Sequence[Joint]) -> dict[Coordinate,
         if not limit.low - SLACK <= value <= limit.high + SLACK:
             raise ModelError(
                 f"joint {limit.joint}",
-                f"has limits that exclude home: {limit}, and its coordinate there is {value:g} "
-                f"{'rad' if limit.coordinate.startswith('r') else 'm'}.",
+                f"has limits that exclude home: {limit.words}, and it is "
+                f"{_shown(limit.coordinate, value)} there.",
                 f"Correct the limits, or say what it is: [home.{limit.joint}] with "
                 f"{limit.coordinate} = …; without it home counts as zero.",
             )
     return found
+
+
+def _shown(direction: str, value: float) -> str:
+    turns = direction.startswith("r")
+    return f"{degrees(value) if turns else 1e3 * value:.6g} {'deg' if turns else 'mm'}"
 
 
 def task_of(tables: ModelTable) -> tuple[str, ...]:

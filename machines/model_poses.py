@@ -162,7 +162,8 @@ def at_pose(
     found, placement = moved(model, task, joints)
     reason = placement.reason(())
     if reason:
-        raise UnreachableError("pose", f"cannot be taken: {reason}.", _offer(model, found, task))
+        offer = _offer(model, found, task or {}, joints or {})
+        raise UnreachableError("pose", f"cannot be taken: {reason}.", offer)
     where = pose_words({**(task or {})}, {**(joints or {})})
     rotation = model.rotation if found.tool is None else found.tool.rotation
     return replace(
@@ -183,19 +184,33 @@ def pose_words(task: Mapping[str, float], joints: Mapping[Coordinate, float]) ->
     return ", ".join(words)
 
 
-def _offer(model: Model, found: Moved, task: Mapping[str, float] | None) -> str:
+def _offer(
+    model: Model, found: Moved, task: Mapping[str, float], joints: Mapping[Coordinate, float]
+) -> str:
     """Remedy: how far the machine gets on the way, within its ranges."""
-    if found.tool is None or not task:
-        return "Give other joint coordinates, or a pose of the tool."
-    last = found.share[()]
-    home = dict(zip(DIRECTIONS, model.motion.task_of(model.motion.home_pose), strict=True))
+    start: dict[Coordinate, float] = {}
+    if task:
+        home = model.motion.task_of(model.motion.home_pose)
+        start |= {("", d): float(home[DIRECTIONS.index(d)]) for d in task}
+    values = dict(zip(model.motion.joints.names, model.motion.home_values, strict=True))
+    start |= {name: float(values[name]) for name in joints}
+    end = {**{("", d): v for d, v in task.items()}, **joints}
     # the ranges may end before the reach does: the last share that keeps them, to 0.1 %
-    shares = np.linspace(0.0, float(last), 1001)
-    way = {d: home[d] + shares * (value - home[d]) for d, value in task.items()}
-    _, placed = moved(model, way)
-    good = np.flatnonzero(~placed.reachable)
-    first = int(good[0]) if good.size else len(shares)
+    last = float(found.share[()])
+    shares = np.linspace(0.0, last, 1001) if model.limits else np.array([0.0, last])
+    way = {name: value + shares * (end[name] - value) for name, value in start.items()}
+    _, placed = moved(
+        model,
+        {d: v for (owner, d), v in way.items() if not owner},
+        {name: v for name, v in way.items() if name[0]},
+    )
+    out = np.flatnonzero(~placed.reachable)
+    first = int(out[0]) if out.size else len(shares)
     if first == 0:
         return "Home itself is outside: correct its limits."
-    near = {d: float(v[first - 1]) for d, v in way.items()}
-    return f"On the way from home it gets to {pose_words(near, {})}."
+    near = {name: float(v[first - 1]) for name, v in way.items()}
+    words = pose_words(
+        {d: v for (owner, d), v in near.items() if not owner},
+        {name: v for name, v in near.items() if name[0]},
+    )
+    return f"On the way from home it gets to {words}."

@@ -8,11 +8,13 @@ import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
-from strutwork.kinematics.task_grid import LARGEST, TaskGrid
+from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.reports.motion_table import targets_of_words
 
 #: Points along a direction where none are said.
 POINTS = 5
+#: Most of them: further ones make no grid that anybody waits for.
+MOST = 10_000_000
 
 
 def grid_of_words(words: Iterable[str], part: str = "--over", points: int = POINTS) -> TaskGrid:
@@ -63,10 +65,10 @@ def grid_of_words(words: Iterable[str], part: str = "--over", points: int = POIN
         first, last = _value(name, low, part), _value(name, high, part)
         if not first < last:
             raise ModelError(part, f'"{word}" has no extent.', "Give the lower end first.")
-        if count > LARGEST:
+        if count > MOST:
             raise ModelError(
                 part,
-                f'"{word}" has more than the {LARGEST:,} poses that are taken.',
+                f'"{word}" has more than the {MOST:,} points that are taken along a direction.',
                 "Take fewer points.",
             )
         axes[name] = np.linspace(first, last, count)

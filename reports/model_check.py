@@ -71,6 +71,16 @@ class ModelCheck:
     def __repr__(self) -> str:
         return f"<ModelCheck: {self.degrees_of_freedom} dof, {self.mobility!r}>"
 
+    @property
+    def drives(self) -> int:
+        """Number of driven directions."""
+        return len(self.model.structure.linkage.driven)
+
+    @property
+    def surplus_drives(self) -> int:
+        """Drives beyond the freedoms that they move: they work against one another."""
+        return self.drives - (self.mobility.mobility - self.mobility.mobility_locked)
+
     def to_dict(self) -> dict[str, Any]:
         """Plain numbers and strings in SI, by the names of the model file."""
         found = self.mobility
@@ -79,6 +89,8 @@ class ModelCheck:
             "mobility": found.mobility,
             "mobility_locked": found.mobility_locked,
             "redundant_constraints": found.redundant,
+            "drives": self.drives,
+            "surplus_drives": self.surplus_drives,
             "mechanisms": self._motions(found.motions),
             "driven_motions": self._motions(found.driven_motions),
             "self_stress_states": [

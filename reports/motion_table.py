@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from strutwork.csv_rows import RowWriter, csv_name
 from strutwork.errors import ModelError
-from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics import DIRECTIONS, Poses
 from strutwork.kinematics.motion import Motion, Moved
 from strutwork.units import ANGLE, LENGTH, quantity
 
@@ -163,14 +163,43 @@ def moved_columns(motion: Motion, moved: Moved) -> dict[str, Array]:
     return columns
 
 
-def moved_csv(columns: Mapping[str, Array], reasons: Sequence[str]) -> str:
-    """CSV text; the last column says what became of each target."""
+def way_columns(
+    motion: Motion, tool: Poses | None, joints: Mapping[Coordinate, Array]
+) -> dict[str, Array]:
+    """Columns as `moved_columns` for ways to put a machine together, (m,) each.
+
+    Joint coordinates that are not given are not numbers.
+    """
+    columns: dict[str, Array] = {}
+    if tool is not None:
+        task = motion.task_of(tool)
+        for k, direction in enumerate(DIRECTIONS):
+            columns[f"{direction}, {_unit(direction)}"] = _shown(direction, task[..., k])
+    for joint, direction in motion.joints.names:
+        values = joints.get((joint, direction), np.full(len(next(iter(columns.values()))), np.nan))
+        columns[f"{joint}:{direction}, {_unit(direction)}"] = _shown(direction, values)
+    return columns
+
+
+def moved_csv(
+    columns: Mapping[str, Array],
+    reasons: Sequence[str],
+    ways: Mapping[str, Mapping[str, Array]] | None = None,
+) -> str:
+    """CSV text; the last column says what became of each target.
+
+    Below them stand `ways` of each kind, numbered there; a coordinate that is not known is empty.
+    """
     text = StringIO(newline="")
     writer = RowWriter(text)
     writer.writerow([*columns, "status"])
     # repr keeps every digit: the file leads back to the same place
     for row, reason in zip(zip(*columns.values(), strict=True), reasons, strict=True):
         writer.writerow([*(repr(float(v)) for v in row), reason or REACHED])
+    for kind, found in (ways or {}).items():
+        for k, row in enumerate(zip(*(found[name] for name in columns), strict=True), start=1):
+            cells = ["" if np.isnan(v) else repr(float(v)) for v in row]
+            writer.writerow([*cells, f"{kind} {k}"])
     return text.getvalue()
 
 

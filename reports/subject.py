@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, StrutworkError
-from strutwork.fea.damping import Damping, LossFactor, ModalRatio, Rayleigh
+from strutwork.fea.coupled import AnyDamping
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.singularity_curves import SingularPlane, singularities_in_plane
 from strutwork.kinematics.task_grid import TaskGrid
@@ -141,18 +141,19 @@ class Subject:
         )
 
     @property
-    def batch_damping(self) -> Damping | None:
-        """Damping that a survey takes; None where dashpots act or none is given."""
-        found = model_damping(self.model) if self.model.damping is not None else None
-        return found if isinstance(found, ModalRatio | LossFactor | Rayleigh) else None
+    def damping(self) -> AnyDamping | None:
+        """Its damping, dashpots of joints among it; None where none of the whole is given."""
+        return None if self.model.damping is None else model_damping(self.model)
 
     @cached_property
     def vibration_survey(self) -> xr.Dataset:
-        """Frequencies and least dynamic stiffness over the workspace, without preload."""
-        damping = self.batch_damping
+        """Frequencies and least dynamic stiffness over the workspace, under its preload."""
+        model, damping = self.model, self.damping
         if damping is None:
-            raise ModelError("damping", "is that of single joints.", "Give [damping].")
-        answer = Vibration(self.model.require_tool(), damping, self.vibration.band, LISTED)
+            raise ModelError("damping", "is missing.", "Add [damping].")
+        preload = None if model.preload is None else model.case(model.preload)
+        band = self.vibration.band
+        answer = Vibration(model.require_tool(), damping, band, LISTED, preload)
         return survey(
             self.model, self.grid, [answer], progress=self._told("vibration over the workspace")
         )

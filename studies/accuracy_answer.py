@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
-from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
-from strutwork.memory import available_memory
 from strutwork.msa import PlacedStructure
 from strutwork.outcome import Outcome, solve_poses
 from strutwork.overconstraint import Tolerance
@@ -26,9 +22,6 @@ Array = NDArray[Any]
 
 #: Poses solved at once.
 STACK = 64
-
-#: Longest map that is begun, s.
-LONGEST = 6 * 3600.0
 
 UNIT = "m for x y z; rad for rx ry rz"
 
@@ -131,30 +124,6 @@ class VolumetricAccuracy:
                     arrays[name][part] = value
 
         return arrays, solve_poses(some, poses)
-
-
-def require_feasible(model: Model, answer: VolumetricAccuracy, grid: TaskGrid) -> None:
-    """Refuse a grid that would take too long or too much memory, foreseen from one pose.
-
-    Raises
-    ------
-    ModelError
-        Says how long and how much.
-    """
-    numbers = 3 * len(DIRECTIONS) + 1 + len(answer.coordinates["source"])
-    # the arrays, the dataset of them and the text of the file
-    need = 8.0 * 4 * len(grid) * (numbers + len(model.motion.joints.names))
-    start = perf_counter()
-    answer(model.structure.at(model.placement[None]))
-    seconds = (perf_counter() - start) * len(grid) / STACK
-    if need <= 0.5 * available_memory() and seconds <= LONGEST:
-        return
-    raise ModelError(
-        "grid",
-        f"of {len(grid):,} poses would take about {need / 1e9:.2g} GB and "
-        f"{seconds / 3600:.2g} hours.",
-        "Take fewer points.",
-    )
 
 
 def top_sources(names: Sequence[str], parts: Array, count: int = 8) -> list[tuple[str, float]]:

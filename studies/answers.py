@@ -11,11 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea import Damping, Port
-from strutwork.fea.dynamic_stiffness import minimum_of
+from strutwork.fea import Port
+from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.preload import preloaded
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
 from strutwork.msa import (
+    LoadCase,
     PlacedStructure,
     axis_stiffness_blocked,
     axis_stiffness_free,
@@ -30,7 +32,7 @@ from strutwork.overconstraint import (
     tool_quantities,
     worst_case,
 )
-from strutwork.studies.dynamic import modal_data
+from strutwork.studies.least_over_poses import least_over_poses
 from strutwork.studies.variables import AXES
 
 Array = NDArray[Any]
@@ -108,17 +110,21 @@ class Vibration:
     ----------
     tool : str
         Node.
-    damping : Damping
+    damping : damping of any kind
+        Dashpots of joints among it turn with their joints.
     band : (float, float)
         Hz.
     count : int
         Frequencies.
+    preload : LoadCase, optional
+        Under which it vibrates; its forces are those at each pose.
     """
 
     tool: str
-    damping: Damping
+    damping: AnyDamping
     band: tuple[float, float]
     count: int = 6
+    preload: LoadCase | None = None
 
     @cached_property
     def columns(self) -> tuple[Column, ...]:
@@ -144,13 +150,13 @@ class Vibration:
         ports = tuple(Port(self.tool, axis) for axis in AXES)
 
         def stack(part: PlacedStructure) -> dict[str, Array]:
-            frequencies, model = modal_data(part, ports, self.damping, self.count)
-            least = minimum_of(model, self.band)
-            return {
-                "natural_frequency": frequencies,
-                "least_dynamic_stiffness": least.value,
-                "least_at": least.frequency,
-            }
+            loaded = part if self.preload is None else preloaded(part, self.preload)
+            found = least_over_poses(loaded, ports, self.damping, self.band, self.count)
+            return dict(
+                zip(
+                    ("natural_frequency", "least_dynamic_stiffness", "least_at"), found, strict=True
+                )
+            )
 
         return _in_stacks(placed, stack, self.columns, self._widths, 16)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, UnreachableError
 from strutwork.kinematics.clear_paths import ClearPath
 from strutwork.kinematics.drive_fields import MotionField
 from strutwork.kinematics.reversals import Reversals, reversals
@@ -111,7 +111,16 @@ def reversal_study(
 
     field = MotionField(model.motion, surface, model.closed_form)
     _require_feasible(field, axes)
-    found = reversals(field, *axes)
+    try:
+        found = reversals(field, *axes)
+    except UnreachableError as error:
+        centre = np.array([[(axis[0] + axis[-1]) / 2 for axis in axes]])
+        why = (
+            field.placements(centre)[0].reason(0) or "the tool's motion does not settle the drives'"
+        )
+        raise UnreachableError(
+            error.part, f"{error.problem.rstrip('.')}; in its middle: {why}.", error.remedy
+        ) from error
     tell(1)
     _ = found.singular
     tell(2)

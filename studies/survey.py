@@ -24,6 +24,7 @@ from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import plain, versions
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import PoseStatus
+from strutwork.studies.foresee import LONGEST, SMALL, foresee
 from strutwork.studies.progress import Progress
 from strutwork.studies.run import Chunk, Run, fill
 from strutwork.studies.variables import flags, named
@@ -75,15 +76,22 @@ def survey(
     Raises
     ------
     ModelError
-        A direction in which the tool cannot move, no pose that can be taken, or a model that is
-        wrong whatever the pose.
+        A direction in which the tool cannot move, no pose that can be taken, a model that is
+        wrong whatever the pose, or a grid that would take too long or too much memory; time has
+        no bound where finished chunks are kept, or an executor does the work.
     """
     model.require_tool()
-    task = grid.task()
     count = len(grid)
     # what the threads share, and what is wrong whatever the pose, comes before the work
-    moved(model, {d: values[:1] for d, values in task.items()})
+    moved(model, {d: values[:1] for d, values in grid.axes.items()})
     _ = model.structure.segments, model.structure.vertex_of_node
+    if count > SMALL:
+        foresee(lambda some: _asked(model, some, answers), grid, workers).require(
+            "workspace",
+            "Take fewer points along a direction.",
+            LONGEST if folder is None and executor is None else None,
+        )
+    task = grid.task()
 
     def evaluate(chunk: Chunk) -> Arrays:
         return _asked(model, {d: v[chunk.items] for d, v in task.items()}, answers)
@@ -121,6 +129,12 @@ def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> A
     reason, reasons = np.asarray(placement.status).astype(np.int16), [*placement.reasons]
     good = np.flatnonzero(placement.reachable)
     arrays: Arrays = {"joint_coordinate": np.where(reach[:, None], found.placement.values, np.nan)}
+    if not good.size:
+        for answer in answers:
+            for column in answer.columns:
+                widths = (len(answer.coordinates[d]) for d in column.dims)
+                arrays[column.name] = np.full((len(status), *widths), np.nan)
+        return arrays | {"status": status, "reason": reason, "reasons": np.array(reasons)}
     placed = model.structure.at(placement[good])
     for answer in answers:
         values, outcome = answer(placed)

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from math import prod
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError, NumericalError
 from strutwork.kinematics import DIRECTIONS, characteristic_length
 from strutwork.kinematics.margin_grid import (
     HALVINGS,
@@ -23,8 +24,7 @@ from strutwork.kinematics.margin_grid import (
     margin_grid,
 )
 from strutwork.kinematics.regions import Regions, regions
-from strutwork.kinematics.task_grid import LARGEST
-from strutwork.memory import available_memory
+from strutwork.studies.foresee import Foreseen
 from strutwork.studies.level_set import LevelSet, apart, level_set
 from strutwork.studies.progress import Progress
 from strutwork.studies.workspace_margin import MachineMargin
@@ -33,6 +33,8 @@ Array = NDArray[Any]
 
 #: Longest work that is begun, s.
 LONGEST = 7200.0
+#: Poses of a grid: its border is known to a small share of a cell long before.
+LARGEST = 10_000_000
 #: Poses that are timed beforehand.
 TIMED = 64
 #: Bytes of a pose in the results, and of one that is followed, a body and a joint.
@@ -104,6 +106,13 @@ class Workspace:
     def measure(self) -> float:
         """Length, area or volume."""
         return self.border.measure
+
+    @property
+    def refused(self) -> dict[str, int]:
+        """Points of the grid that are not good, by what they fail most, most first."""
+        margins, bad = self.grid.margins, ~self.grid.good
+        counts = Counter(margins.reasons[int(k)] for k in margins.reason[bad])
+        return dict(counts.most_common())
 
     @property
     def unit(self) -> str:
@@ -214,9 +223,7 @@ def workspace(
     Raises
     ------
     ModelError
-        As `margin_grid`.
-    NumericalError
-        The grid would take too much time or memory; says how much.
+        As `margin_grid`, or the grid would take too much time or memory; says how much.
     """
     directions, values = tuple(axes), tuple(np.asarray(v, dtype=float) for v in axes.values())
     check_axes(directions, values)
@@ -247,45 +254,28 @@ def workspace(
     )
 
 
-def foresee(margin: MachineMargin, axes: tuple[Array, ...]) -> tuple[float, float]:
-    """Time, s, and memory, bytes, that a grid will take; refused where it is too much.
+def foresee(margin: MachineMargin, axes: tuple[Array, ...]) -> Foreseen:
+    """Time and memory that a grid will take.
 
     Raises
     ------
     ModelError
-        More poses than are taken at all.
-    NumericalError
-        Longer than `LONGEST`, or more memory than there is.
+        Longer than `LONGEST`, or more memory than its share of what there is; says how much of
+        both.
     """
-    shape = [len(axis) for axis in axes]
-    count = float(np.prod([float(n) for n in shape]))
-    if count > LARGEST:
-        raise ModelError(
-            "workspace",
-            f"has {count:,.0f} poses, more than the {LARGEST:,} that are taken.",
-            "Take fewer points along a direction.",
-        )
+    count = prod(len(axis) for axis in axes)
     linkage = margin.model.structure.linkage
     memory = RESULT * count
     if margin.follows:
         memory += count * (BODY * len(linkage.body_names) + JOINT * len(linkage.joints))
-    available = available_memory()
-    if memory > available:
-        raise NumericalError(
-            "workspace",
-            f"{count:,.0f} poses will take about {memory / 1e9:.3g} GB; "
-            f"{max(available, 0.0) / 1e9:.3g} GB are available.",
-            "Take fewer points along a direction.",
-        )
-    seconds = _time(margin, axes) * count
-    if seconds > LONGEST:
-        raise NumericalError(
-            "workspace",
-            f"{count:,.0f} poses will take about {seconds / 3600.0:.3g} hours; "
-            f"{LONGEST / 3600.0:g} are the limit.",
-            "Take fewer points along a direction, or fewer tilts, rolls or spare values.",
-        )
-    return seconds, memory
+    found = Foreseen(count, _time(margin, axes) * count, memory)
+    found.require(
+        "workspace",
+        "Take fewer points along a direction, or fewer tilts, rolls or spare values.",
+        LONGEST,
+        LARGEST,
+    )
+    return found
 
 
 def _time(margin: MachineMargin, axes: tuple[Array, ...]) -> float:

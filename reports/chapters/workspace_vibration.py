@@ -26,8 +26,6 @@ def missing(subject: Subject) -> str:
         return subject.unmoved
     if not subject.vibrates:
         return "vibration needs mass and damping: add densities and [damping]"
-    if subject.batch_damping is None:
-        return "its damping is that of single joints, which is looked at at home alone"
     return ""
 
 
@@ -54,12 +52,13 @@ def write(subject: Subject) -> Chapter:
         Column("least at", "", False),
         Column("largest"),
     )
-    under = " It is that of the machine without its preload." if subject.model.preload else ""
+    preload = subject.model.preload
+    under = f' It vibrates under its preload "{preload}", whose forces are those at each pose.'
     blocks: list[Block] = [
         Text(
             f"Over {grid_text(subject.grid)}. The least dynamic stiffness is the exact minimum of "
             f"1/|H| at the tool from {significant(low)} to {significant(high)} Hz, damping "
-            f"{subject.batch_damping}.{under}"
+            f"{subject.damping}.{under if preload else ''}"
         ),
         Table("Vibration over the workspace", columns, rows, f"{STEM}.csv"),
         Row(tuple(figures), 330),

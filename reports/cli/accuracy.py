@@ -30,7 +30,6 @@ from strutwork.reports.survey_words import grid_text, largest
 from strutwork.studies.accuracy_answer import (
     VolumetricAccuracy,
     drive_errors,
-    require_feasible,
     top_sources,
 )
 from strutwork.studies.survey import survey
@@ -240,7 +239,6 @@ def _over(
     model = load(target)
     model.require_tool()
     grid, answer = grid_of_words(over), _answer(model, options)
-    require_feasible(model, answer, grid)
     with shown() as started:
         progress = started(f"accuracy of {visible(target)}")
         found = survey(model, grid, [answer], workers=workers, progress=progress)

@@ -25,6 +25,11 @@ def _print(found: ModelCheck) -> None:
         ("redundant constraints, drives held", counts.redundant),
         ("Grübler's count, drives free", counts.gruebler),
     ]
+    if found.surplus_drives:
+        rows += [
+            ("drives", found.drives),
+            ("of them more than the freedoms that they move", found.surplus_drives),
+        ]
     if found.mass is not None:
         rows.append(("mass, kg", found.mass.total))
         if found.mass.center is not None:

@@ -26,8 +26,12 @@ from strutwork.reports.motion_table import (
     moved_columns,
     moved_csv,
     read_targets,
+    way_columns,
 )
 from strutwork.studies.machine_modes import STARTS, machine_modes
+
+#: Columns of the ways of each kind.
+Ways = dict[str, dict[str, Any]]
 
 
 def run(
@@ -49,8 +53,8 @@ def run(
         wanted |= read_targets(Path(targets))
     model = load(name)
     found = _moved(model, wanted)
-    ways = _ways(model, found[0]) if branches else {}
-    _print(model, found, out, ways, json=json)
+    ways, rows = _ways(model, found[0]) if branches else ({}, {})
+    _print(model, found, out, (ways, rows), json=json)
 
 
 def _moved(model: Model, wanted: dict[Coordinate, Any]) -> tuple[Moved, list[str]]:
@@ -62,8 +66,8 @@ def _moved(model: Model, wanted: dict[Coordinate, Any]) -> tuple[Moved, list[str
     return found, [placed.reason(i) for i in np.ndindex(*placed.batch)]
 
 
-def _ways(model: Model, found: Moved) -> dict[str, Any]:
-    """Other ways to put the machine together where it stands, mm and deg.
+def _ways(model: Model, found: Moved) -> tuple[dict[str, Any], Ways]:
+    """Other ways to put the machine together where it stands: for JSON, m and rad, and for CSV.
 
     Raises
     ------
@@ -82,18 +86,34 @@ def _ways(model: Model, found: Moved) -> dict[str, Any]:
     pose = Poses(found.tool.position.reshape(3), found.tool.rotation.reshape(3, 3))
     working = working_modes(model.motion, tool=pose, starts=STARTS)
     task = model.motion.task_of(modes.tool)
-    return {
+    names = model.motion.joints.names
+    inner = _coordinates(model, working)
+    here = np.ravel(placement.values)
+    held = {
+        pair: np.full(len(modes), here[placement.names.index(pair)])
+        for pair in model.structure.linkage.driven
+    }
+    same = Poses(
+        np.broadcast_to(pose.position, (len(inner), 3)),
+        np.broadcast_to(pose.rotation, (len(inner), 3, 3)),
+    )
+    rows = {
+        "assembly mode": way_columns(model.motion, modes.tool, held),
+        "working mode": way_columns(model.motion, same, dict(zip(names, inner.T, strict=True))),
+    }
+    ways = {
         "assembly_modes": task.tolist(),
         "every": modes.every,
         "working_modes": [
             {
                 f"{joint}:{d}": float(value)
-                for (joint, d), value in zip(model.motion.joints.names, row, strict=True)
+                for (joint, d), value in zip(names, row, strict=True)
                 if (joint, d) in model.structure.linkage.driven
             }
-            for row in _coordinates(model, working)
+            for row in inner
         ],
     }
+    return ways, rows
 
 
 def _coordinates(model: Model, found: Branches) -> Any:
@@ -140,14 +160,15 @@ def _print(
     model: Model,
     result: tuple[Moved, list[str]],
     out: str | None,
-    ways: dict[str, Any],
+    others: tuple[dict[str, Any], Ways],
     *,
     json: bool,
 ) -> None:
     moved, reasons = result
+    ways, rows = others
     columns = moved_columns(model.motion, moved)
     if out is not None:
-        write_text(Path(out), moved_csv(columns, reasons))
+        write_text(Path(out), moved_csv(columns, reasons, rows))
     if json:
         print_json(
             {
@@ -164,8 +185,9 @@ def _print(
     screen = console()
     screen.print(model.title or "Model", markup=False, style="bold")
     if len(reasons) == 1:
-        rows = [(*name.rpartition(", ")[::2], float(v[0])) for name, v in columns.items()]
-        print_table(screen, "Coordinates", ["", "unit", "value"], rows)
+        cells = [(*name.rpartition(", ")[::2], float(v[0])) for name, v in columns.items()]
+        title = "Coordinates" if not reasons[0] else "Coordinates where the way ended"
+        print_table(screen, title, ["", "unit", "value"], cells)
     screen.print(f"{reasons.count('')} of {len(reasons)} targets reached", markup=False)
     shares = np.atleast_1d(moved.share)
     for reason in dict.fromkeys(r for r in reasons if r):

@@ -26,7 +26,7 @@ def move(
         typer.Option(
             "--branches",
             help="Also list the other ways to put the machine together: assembly modes at the "
-            "drives reached, working modes at the pose.",
+            "drives reached, working modes at the pose. Below the target in the file of --out too.",
         ),
     ] = False,
     json: Json = False,

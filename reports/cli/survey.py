@@ -10,7 +10,6 @@ import xarray as xr
 
 from strutwork.errors import ModelError
 from strutwork.fea import Port
-from strutwork.fea.damping import LossFactor, ModalRatio, Rayleigh
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.load import load, load_heavy
 from strutwork.machines.model import Model
@@ -60,18 +59,12 @@ def run(
 
 
 def _vibration(model: Model) -> Vibration:
-    damping = ONE_PERCENT if model.damping is None else model_damping(model)
-    if not isinstance(damping, ModalRatio | LossFactor | Rayleigh):
-        raise ModelError(
-            "damping",
-            "is that of single joints, which a map does not take.",
-            "Use frf at a pose, or give [damping] of the whole and leave dashpots out.",
-        )
     tool = model.require_tool()
-    band, _ = covering_band(model.placed, [Port(tool, axis) for axis in "xyz"])
+    band, _ = covering_band(model.vibrating, [Port(tool, axis) for axis in "xyz"])
     if band is None:
         raise ModelError("structure", "has no elastic mode.", "Give it mass and elastic parts.")
-    return Vibration(tool, damping, band)
+    preload = None if model.preload is None else model.case(model.preload)
+    return Vibration(tool, model_damping(model) or ONE_PERCENT, band, preload=preload)
 
 
 def _result(target: str, model: Model, found: xr.Dataset, *, vibration: bool) -> dict[str, Any]:

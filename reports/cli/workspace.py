@@ -255,6 +255,7 @@ def _result(
             "component": home or None,
         },
         "border": found.shares,
+        "dropped_by_reason": found.refused,
         "nearest": None
         if near is None
         else {
@@ -305,13 +306,16 @@ def _print(result: Mapping[str, Any]) -> None:
         if home["margin"] < 0.0
         else "home is outside the grid"
     )
+    sizes = ", ".join(str(c["poses"]) for c in pieces[:ROWS])
     out.print(
-        f"{len(pieces)} piece{'s' * (len(pieces) != 1)} "
-        f"({', '.join(str(c['poses']) for c in pieces[:ROWS])} poses), "
+        f"{len(pieces)} piece{'s' * (len(pieces) != 1)}{f' ({sizes} poses)' if sizes else ''}, "
         f"{result['holes']} hole{'s' * (result['holes'] != 1)}; {where}",
         markup=False,
         soft_wrap=True,
     )
+    if not pieces:
+        for words, number in list(result["dropped_by_reason"].items())[:ROWS]:
+            out.print(f"  {number}: {visible(words)}", markup=False, soft_wrap=True)
     if result["interference"] is not None:
         safe = result["interference"]
         out.print(

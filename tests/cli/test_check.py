@@ -52,6 +52,8 @@ def test_keys_of_the_json(strutwork: Program) -> None:
         "mobility",
         "mobility_locked",
         "redundant_constraints",
+        "drives",
+        "surplus_drives",
         "mechanisms",
         "driven_motions",
         "self_stress_states",

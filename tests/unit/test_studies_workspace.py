@@ -12,7 +12,7 @@ import trimesh
 import xarray as xr
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import ModelError
 from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_frame
 from strutwork.kinematics.inscribed_shape import box_of
 from strutwork.kinematics.largest_shape import largest_shape
@@ -21,6 +21,7 @@ from strutwork.machines.limits import joint_limits
 from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.msa import Structure
+from strutwork.studies import foresee
 from strutwork.studies import workspace as module
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_files import write_workspace
@@ -239,14 +240,17 @@ def test_a_grid_too_large_is_refused_beforehand(monkeypatch: pytest.MonkeyPatch)
     model = load("proposed-3pprs")
     axes = {d: np.linspace(-0.05, 0.05, 401) for d in "xyz"}
     margin = MachineMargin(model, tuple("xyz"), np.ones(3))
-    with pytest.raises(ModelError, match="64,481,201 poses"):
+    with pytest.raises(ModelError, match=r"64,481,201 poses, which would take about .* GB"):
         workspace(margin, axes)
     axes = {d: np.linspace(-0.05, 0.05, 41) for d in "xyz"}
     monkeypatch.setattr(module, "LONGEST", 1e-3)
-    with pytest.raises(NumericalError, match=r"68,921 poses will take about .* hours"):
+    with pytest.raises(
+        ModelError, match=r"68,921 poses, which would take .* GB; 10,000,000 poses, 2"
+    ):
         workspace(margin, axes)
-    monkeypatch.setattr(module, "available_memory", lambda: 1e6)
-    with pytest.raises(NumericalError, match=r"68,921 poses will take about 0.00551 GB"):
+    monkeypatch.setattr(module, "LONGEST", 7200.0)
+    monkeypatch.setattr(foresee, "available_memory", lambda: 1e6)
+    with pytest.raises(ModelError, match=r"68,921 poses, which .* and 0.0055 GB; .* 2 hours, 0.0"):
         workspace(margin, axes)
 
 
