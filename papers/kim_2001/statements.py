@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from math import nan
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.papers.kim_2001.comparison import (
@@ -27,6 +29,8 @@ from strutwork.papers.kim_2001.published import (
     TABLE_2_JOINT,
 )
 from strutwork.papers.statements import Statement, stated
+
+Array = NDArray[Any]
 
 TESTS = "tests/verification/kim_2001"
 OURS = f"{TESTS}/test_published.py"
@@ -319,13 +323,13 @@ def _directions() -> tuple[Statement, ...]:
     return tuple(found)
 
 
-def _between(first: np.ndarray, second: np.ndarray) -> float:  # type: ignore[type-arg]
+def _between(first: Array, second: Array) -> float:
     """Angle between two lines, deg."""
     cosine = abs(first @ second) / (np.linalg.norm(first) * np.linalg.norm(second))
     return float(np.degrees(np.arccos(min(cosine, 1.0))))
 
 
-def _vector(values: np.ndarray) -> str:  # type: ignore[type-arg]
+def _vector(values: Array) -> str:
     return ", ".join(f"{v:.4f}" for v in np.round(values, 4) + 0.0).replace("-", "−")
 
 

@@ -135,7 +135,7 @@ def _figure(key: str, place: str, half: Half, block: Array) -> Figure:
 def _leading(axes: Array) -> NDArray[np.intp]:
     """Row of each column's largest entry, of several nearly as large the first, (1, 3)."""
     size = np.abs(axes)
-    return np.argmax(size > 0.5 * size.max(axis=0), axis=0)[None]
+    return np.asarray(np.argmax(size > 0.5 * size.max(axis=0), axis=0)[None])
 
 
 def _directions(sizes: Array, axes: Array) -> list[str]:
