@@ -117,12 +117,12 @@ def _tilts(study: TiltStudy) -> tuple[Statement, ...]:
 
 def _lengths(study: TiltStudy) -> tuple[Statement, ...]:
     """Fig. 3, and what the text takes from it."""
-    test = f"{TESTS}/test_tilts.py::test_the_longest_link_tilts_most"
+    test = f"{TESTS}/test_tilts.py::test_what_ends_the_tilt_of_each_length"
     at = int(abs(RADII - 4e-3).argmin())
     tilts = {length: degrees(found[at].connected) for length, found in study.by_radius.items()}
     why = (
-        "a spherical joint ends the tilt, and its neutral direction, ours, is not printed; the "
-        "lengths and radii that the figure shows are not legible"
+        "what ends the tilt is a slider's stroke at 196 mm and a spherical joint at 216 mm: the "
+        "pole's height and the neutral directions are ours, and the figure's radii are not legible"
     )
     shown = "; ".join(f"{1e3 * length:g} mm {tilt:.1f}" for length, tilt in tilts.items())
     return (

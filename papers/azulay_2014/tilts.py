@@ -15,8 +15,9 @@ from strutwork.papers.azulay_2014.barrier import RADIUS, signed, tilted
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]
 
-#: Steps of tilt to 180°, half a degree each, and of roll over a whole turn.
-TILTS, ROLLS = 361, 144
+#: Steps of tilt to 180°, half a degree each, and of roll over a third of a turn: another third puts
+#: each leg in the place of the next.
+TILTS, ROLLS = 361, 48
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class TiltPlane:
     Parameters
     ----------
     tilt, roll : (t,) and (r,)
-        rad.
+        rad; the roll over a third of a turn, its ends the same pose.
     reached : bool
         The legs reach.
     inside : bool
@@ -88,7 +89,7 @@ def tilt_plane(machine: ThreeLegs, radius: float = RADIUS) -> TiltPlane:
         m.
     """
     tilt = np.linspace(0.0, np.pi, TILTS)
-    roll = np.arange(ROLLS) * (2.0 * np.pi / ROLLS)
+    roll = np.arange(ROLLS) * (2.0 * np.pi / 3.0 / ROLLS)
     poses = tilted(machine, tilt[:, None], roll, radius)
     placement = machine.place(poses)
     inside = check_limits(machine.limits, placement).reachable
@@ -105,7 +106,7 @@ def tilts(machine: ThreeLegs, radius: float = RADIUS) -> Tilts:
 
 
 def _from_the_pole(mask: Mask) -> Mask:
-    """What hangs together with the first row; the roll is a circle."""
+    """What hangs together with the first row; the roll comes back to its start."""
     parts, _ = label(np.concatenate([mask, mask], axis=1))
     start = np.unique(parts[0])
     found = np.isin(parts, start[start > 0])

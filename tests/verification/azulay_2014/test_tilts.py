@@ -16,14 +16,18 @@ and our own numbers as regressions.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from strutwork.kinematics import jacobians
+from strutwork.machines import Proposed3PPRS, check_limits
 from strutwork.papers.azulay_2014.barrier import ring, tilted
 from strutwork.papers.azulay_2014.comparison import machines, variant
 from strutwork.papers.azulay_2014.published import TABLE_3
 from strutwork.papers.azulay_2014.tilt_study import RADII, TiltStudy, tilt_study
+from strutwork.papers.azulay_2014.tilts import tilt_plane
 
 #: Largest tilts, deg: within ranges, connected with the pole, before the ring. Ours, steps of 0.5.
 TILTS = {
@@ -54,9 +58,11 @@ def test_what_is_connected_is_within_ranges(found: TiltStudy, name: str) -> None
     assert (plane.reached >= plane.inside).all()
     assert (plane.inside >= plane.connected).all()
     assert (plane.connected >= plane.before_the_ring).all()
-    # a third of a turn of roll puts each leg in the place of the next
-    third = len(plane.roll) // 3
-    assert (plane.connected == np.roll(plane.connected, third, axis=1)).mean() > 0.999
+    # a third of a turn of roll puts each leg in the place of the next: what is not looked at
+    machine = variant(name, "spherical")
+    on = tilted(machine, plane.tilt[::20, None], plane.roll[::6] + 2.0 * np.pi / 3.0)
+    again = check_limits(machine.limits, machine.place(on)).reachable
+    assert (again == plane.inside[::20, ::6]).mean() > 0.99
 
 
 @pytest.mark.parametrize("name", machines())
@@ -118,8 +124,18 @@ def test_no_pose_is_of_type_3(found: TiltStudy, name: str) -> None:
     assert found.singular[name].both > 0.05
 
 
-def test_the_longest_link_tilts_most(found: TiltStudy) -> None:
-    """The paper has it the other way about (section 3.1); ours, with our neutral directions."""
+@pytest.mark.parametrize(
+    ("length", "tilt", "joint"), [(0.196, 40.5, "prismatic"), (0.216, 98.5, "spherical")]
+)
+def test_what_ends_the_tilt_of_each_length(
+    found: TiltStudy, length: float, tilt: float, joint: str
+) -> None:
+    """The paper has 196 mm better than 216 mm (section 3.1); ours, with our pole and neutrals."""
     at = int(np.abs(RADII - 4e-3).argmin())
-    connected = [np.degrees(some[at].connected) for some in found.by_radius.values()]
-    assert connected == pytest.approx([40.5, 98.5, 180.0], abs=1e-6)
+    assert np.degrees(found.by_radius[length][at].connected) == pytest.approx(tilt, abs=1e-6)
+    machine = replace(Proposed3PPRS(), link_length=length)
+    plane = tilt_plane(machine)
+    i, k = np.nonzero(plane.connected[:-1] & ~plane.connected[1:])
+    beyond = machine.place(tilted(machine, plane.tilt[i + 1], plane.roll[k]))
+    checked = check_limits(machine.limits, beyond)
+    assert all(joint in checked.reason((n,)) for n in range(len(i)))
