@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import radians, sqrt
+from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
-from strutwork.kinematics import Body, Joint, angle
-from strutwork.kinematics.frames import dot
-from strutwork.machines.legs import Leg, LegPlacement, square_root
+from strutwork.kinematics import Body, Joint
+from strutwork.machines.legs import Leg, LegPlacement, hinge_on_column
 from strutwork.machines.radial import Radial
 from strutwork.machines.three_legs import ThreeLegs
+
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -83,35 +85,10 @@ class Eclipse3PPRS(ThreeLegs):
 
     def place_legs(self, seats: Radial) -> LegPlacement:
         """The hinge stands below the joint centre; the link leans over the guide's plane."""
-        inward = self.base_radius - seats.radius
-        rise, missing = square_root(self.link_length**2 - inward * inward, self.link_length)
-        top = seats.height - rise
-        elevation = angle(rise, inward)
-        hinge = seats.at(self.base_radius, top)
-        foot = seats.at(self.base_radius, top - self.column_length)
-        link = seats.points - hinge
-        link = link / np.sqrt(dot(link, link))[..., None]
-        return LegPlacement(
-            positions={
-                "centre": np.zeros_like(seats.points),
-                "carriage": seats.at(self.base_radius, 0.0),
-                "guideway": foot,
-                "foot": foot,
-                "top": hinge,
-                "root": hinge,
-                "end": seats.points,
-            },
-            frames={
-                "guide": seats.guide_frame,
-                "slide": seats.guide_frame,
-                "hinge": seats.hinge_frame,
-            },
-            values={
-                ("guide", "rz"): seats.angle,
-                ("slide", "z"): top,
-                ("hinge", "rz"): elevation,
-            },
-            link=link,
-            elevation=elevation,
-            faults={"its joint centre is farther from the guide than the link is long": missing},
-        )
+
+        def along(top: Array, hinge: Array) -> dict[str, Array]:
+            foot = seats.at(self.base_radius, top - self.column_length)
+            carriage = seats.at(self.base_radius, 0.0)
+            return {"carriage": carriage, "guideway": foot, "foot": foot, "top": hinge}
+
+        return hinge_on_column(seats, self.base_radius, self.link_length, 1.0, along)

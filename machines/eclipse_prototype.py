@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.kinematics import Body, Joint, Poses, angle, tangent_rotation
-from strutwork.kinematics.frames import dot
+from strutwork.kinematics import Body, Joint, Poses, tangent_rotation
 from strutwork.machines.dimensions import check_proportions
-from strutwork.machines.legs import Leg, LegPlacement, square_root
+from strutwork.machines.legs import Leg, LegPlacement, hinge_on_column
 from strutwork.machines.radial import Radial
 from strutwork.machines.three_legs import TOOL, ThreeLegs
 from strutwork.msa.beam import Beam
@@ -218,36 +217,11 @@ class EclipsePrototype(ThreeLegs):
 
     def place_legs(self, seats: Radial) -> LegPlacement:
         """Eqs. 1 to 3; the height of a hinge is P_z − L sin φ, whatever the sign of φ."""
-        inward = self.base_radius - seats.radius
-        rise, missing = square_root(self.link_length**2 - inward * inward, self.link_length)
-        rise = rise * self.upward
-        top = seats.height - rise
-        short = np.abs(top.real) < self.shortest_column
-        shortest = np.where(top.real < 0, -1.0, 1.0) * self.shortest_column
-        hinge = seats.at(self.base_radius, top)
-        link = seats.points - hinge
-        link = link / np.sqrt(dot(link, link))[..., None]
-        elevation = angle(rise, inward)
-        return LegPlacement(
-            positions={
-                "centre": np.zeros_like(seats.points),
-                "carriage": seats.at(self.base_radius, top - np.where(short, shortest, top)),
-                "overhang": hinge,
-                "slider": hinge,
-                "root": hinge,
-                "end": seats.points,
-            },
-            frames={
-                "guide": seats.guide_frame,
-                "slide": seats.guide_frame,
-                "hinge": seats.hinge_frame,
-            },
-            values={
-                ("guide", "rz"): seats.angle,
-                ("slide", "z"): top,
-                ("hinge", "rz"): elevation,
-            },
-            link=link,
-            elevation=elevation,
-            faults={"its joint centre is farther from the guide than the link is long": missing},
-        )
+
+        def along(top: Array, hinge: Array) -> dict[str, Array]:
+            short = np.abs(top.real) < self.shortest_column
+            shortest = np.where(top.real < 0, -1.0, 1.0) * self.shortest_column
+            carriage = seats.at(self.base_radius, top - np.where(short, shortest, top))
+            return {"carriage": carriage, "overhang": hinge, "slider": hinge}
+
+        return hinge_on_column(seats, self.base_radius, self.link_length, self.upward, along)

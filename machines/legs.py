@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.kinematics import Body, Joint
+from strutwork.kinematics import Body, Joint, angle
+from strutwork.kinematics.frames import dot
+from strutwork.machines.radial import Radial
 from strutwork.msa.beam import Beam
 
 Array = NDArray[Any]
@@ -117,3 +119,61 @@ def square_root(square: Array, scale: float) -> tuple[Array, NDArray[np.bool_]]:
     """
     missing = np.asarray(square.real <= 0.0)
     return np.sqrt(np.where(missing, scale**2, square)), missing
+
+
+def hinge_on_column(
+    seats: Radial,
+    base_radius: float,
+    length: float,
+    upward: Array | float,
+    along: Callable[[Array, Array], Mapping[str, Array]],
+) -> LegPlacement:
+    """Place legs whose hinge a vertical slide lifts over the guide: joints guide, slide, hinge.
+
+    Parameters
+    ----------
+    seats : Radial
+    base_radius : float
+        Of the guide, m; the hinge stands over it.
+    length : float
+        Of the link from the hinge to the platform, m.
+    upward : (3,) or float
+        One where a link rises to its joint centre, minus one where it descends.
+    along : callable
+        Given height (..., 3) and place (..., 3, 3) of the hinge, m, the nodes below it. The nodes
+        `centre`, `root` and `end` are set here.
+
+    Returns
+    -------
+    LegPlacement
+        The height of a hinge is P_z − L sin φ, whatever the sign of φ.
+    """
+    inward = base_radius - seats.radius
+    rise, missing = square_root(length**2 - inward * inward, length)
+    rise = rise * upward
+    top = seats.height - rise
+    hinge = seats.at(base_radius, top)
+    link = seats.points - hinge
+    link = link / np.sqrt(dot(link, link))[..., None]
+    elevation = angle(rise, inward)
+    return LegPlacement(
+        positions={
+            "centre": np.zeros_like(seats.points),
+            **along(top, hinge),
+            "root": hinge,
+            "end": seats.points,
+        },
+        frames={
+            "guide": seats.guide_frame,
+            "slide": seats.guide_frame,
+            "hinge": seats.hinge_frame,
+        },
+        values={
+            ("guide", "rz"): seats.angle,
+            ("slide", "z"): top,
+            ("hinge", "rz"): elevation,
+        },
+        link=link,
+        elevation=elevation,
+        faults={"its joint centre is farther from the guide than the link is long": missing},
+    )

@@ -129,8 +129,14 @@ def micro(value: float, digits: int = 3) -> str:
 
 
 def percent(value: float, decimals: int = 1) -> str:
-    """A difference in percent with its sign."""
+    """A difference in percent with its sign; none where it rounds to zero.
+
+    >>> percent(3.14), percent(-0.04), percent(-2.0)
+    ('+3.1 %', '0.0 %', '−2.0 %')
+    """
     text = f"{value:+.{decimals}f} %"
+    if not any(digit in text for digit in "123456789"):
+        return text[1:]
     return text.replace("-", MINUS)
 
 

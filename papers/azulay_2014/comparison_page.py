@@ -19,6 +19,7 @@ from strutwork.papers.azulay_2014.chapters.comparison import (
     summary_chapter,
 )
 from strutwork.papers.azulay_2014.chapters.comparison_maps import maps_chapter
+from strutwork.papers.azulay_2014.chapters.tilts import tilts_chapter
 from strutwork.papers.azulay_2014.chapters.vibration import comparison_vibration
 from strutwork.papers.azulay_2014.machine_study import (
     FILTERS,
@@ -27,6 +28,7 @@ from strutwork.papers.azulay_2014.machine_study import (
     study_comparison,
 )
 from strutwork.papers.azulay_2014.statements import statements
+from strutwork.papers.azulay_2014.tilt_study import tilt_study
 from strutwork.papers.statements import count_text, statements_chapter, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter
@@ -47,6 +49,7 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
         regions_chapter(
             {SHORT[name]: study.barred[name, "spherical"] for name in study.names}, "machine"
         ),
+        tilts_chapter(tilt_study()),
         budget_chapter(study),
         poses_chapter(study),
         comparison_vibration(study.names),

@@ -6,11 +6,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 from math import degrees, nan, sqrt
 
-from strutwork.papers.azulay_2014.comparison import DIRECTIONS, machines, variant
+from strutwork.papers.azulay_2014.comparison import DIRECTIONS, machines
 from strutwork.papers.azulay_2014.dynamic import azulay_table_5
+from strutwork.papers.azulay_2014.inputs import input_statements
 from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES, Comparison
 from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_3, TABLE_4
-from strutwork.papers.azulay_2014.tilts import tilts
+from strutwork.papers.azulay_2014.theory_statements import theory
+from strutwork.papers.azulay_2014.tilt_study import RADII, TiltStudy, tilt_study
 from strutwork.papers.statements import Statement, stated
 
 TESTS = "tests/verification/azulay_2014"
@@ -45,12 +47,18 @@ def significance(axis: str, other: str) -> float:
 
 def statements(study: Comparison) -> tuple[Statement, ...]:
     """All of them, in the order of the document."""
+    tilted = tilt_study()
     return (
-        *_tilts(),
+        *theory(),
+        *input_statements(),
+        *_tilts(tilted),
+        *_lengths(tilted),
         *_ring(study),
+        *_types(tilted),
         *_table(study, TABLE_2.key, "Table 2", "test_apparent_model_meets_table_2"),
         *_table(study, TABLE_4.key, "Table 4", "test_apparent_model_meets_table_4"),
         *_significance(),
+        *_orders(study),
         *stated(
             azulay_table_5().table(),
             "Table 5",
@@ -72,10 +80,10 @@ def _table(study: Comparison, key: str, place: str, test: str) -> tuple[Statemen
     return tuple(found)
 
 
-def _tilts() -> tuple[Statement, ...]:
+def _tilts(study: TiltStudy) -> tuple[Statement, ...]:
     found: list[Statement] = []
     for name in machines():
-        ours = tilts(variant(name, "spherical"))
+        ours = study.planes[name].largest
         found.append(
             Statement(
                 "section 3.1, Table 3",
@@ -105,6 +113,108 @@ def _tilts() -> tuple[Statement, ...]:
             )
         )
     return tuple(found)
+
+
+def _lengths(study: TiltStudy) -> tuple[Statement, ...]:
+    """Fig. 3, and what the text takes from it."""
+    test = f"{TESTS}/test_tilts.py::test_what_ends_the_tilt_of_each_length"
+    at = int(abs(RADII - 4e-3).argmin())
+    tilts = {length: degrees(found[at].connected) for length, found in study.by_radius.items()}
+    why = (
+        "what ends the tilt is a slider's stroke at 196 mm and a spherical joint at 216 mm: the "
+        "pole's height and the neutral directions are ours, and the figure's radii are not legible"
+    )
+    shown = "; ".join(f"{1e3 * length:g} mm {tilt:.1f}" for length, tilt in tilts.items())
+    return (
+        Statement(
+            "Fig. 3",
+            "tilt by link length and radius of the sphere",
+            "deg",
+            "a figure",
+            f"a figure; at 4 mm {shown}",
+            "not reproducible",
+            why,
+            test,
+        ),
+        Statement(
+            "section 3.1",
+            "links of 196 mm tilt more than those of 216 mm",
+            "deg",
+            "yes",
+            f"no: {tilts[0.196]:.1f} and {tilts[0.216]:.1f}",
+            "not reproducible",
+            why,
+            test,
+        ),
+    )
+
+
+def _types(study: TiltStudy) -> tuple[Statement, ...]:
+    """Types 1 and 3 of eq. 35, which the paper defines and does not show."""
+    test = f"{TESTS}/test_tilts.py"
+    found: list[Statement] = []
+    for name, one in study.singular.items():
+        axis = "out of reach" if one.on_axis is None else f"{degrees(one.on_axis):.1f}"
+        end = (
+            "none"
+            if one.end_of_reach is None
+            else f"{degrees(one.end_of_reach[0]):.1f} to {degrees(one.end_of_reach[1]):.1f}"
+        )
+        found.append(
+            Statement(
+                "section 3.2",
+                f"{name}: type 1, a joint on the guide's axis; at the end of reach",
+                "deg",
+                "not shown",
+                f"{axis}; {end}",
+                "calibrated",
+                "the first is the tilt whose tangent is R_p over the radius of the sphere, at one "
+                "roll; whether it and the second are reached depends on the pole, which is ours",
+                f"{test}::test_type_1_on_the_axis",
+            )
+        )
+        found.append(
+            Statement(
+                "section 3.2",
+                f"{name}: type 3",
+                "",
+                "not shown",
+                "none" if one.both > 0 else "where the end of reach meets a ring",
+                "calibrated",
+                "no pose of type 1 on the 4 mm hemisphere is one of type 2, with our pole",
+                f"{test}::test_no_pose_is_of_type_3",
+            )
+        )
+    return tuple(found)
+
+
+def _orders(study: Comparison) -> tuple[Statement, ...]:
+    """Which machine is stiffer than which, in the words of sections 4.1 and 4.2."""
+    proposed, eclipse, alizade, glozman = machines()
+    means = {
+        (name, axis): study.azulay.summaries[name, "spherical"].axis(axis).statistics.mean
+        for name in machines()
+        for axis in DIRECTIONS
+    }
+    said = (
+        (proposed, alizade, "xyz"),
+        (proposed, eclipse, "xy"),
+        (eclipse, proposed, "z"),
+        (proposed, glozman, "xyz"),
+    )
+    return tuple(
+        Statement(
+            "section 4.1",
+            f"{first} stiffer than {second} along {', '.join(axes)}",
+            "",
+            "yes",
+            "yes" if all(means[first, a] > means[second, a] for a in axes) else "no",
+            "calibrated",
+            "means with true spherical joints; dimensions behind them were fitted to Table 4",
+            f"{TESTS}/test_static.py::test_machines_rank_as_in_table_4",
+        )
+        for first, second, axes in said
+    )
 
 
 def _ring(study: Comparison) -> tuple[Statement, ...]:
@@ -158,7 +268,6 @@ def _without_numbers() -> tuple[Statement, ...]:
     return tuple(
         Statement(place, what, "", "a figure", nan, "not reproducible", drawn, test)
         for place, what in (
-            ("Fig. 3", "tilt by link length and radius of the sphere"),
             ("Fig. 8", "frequency responses by link length"),
             ("Fig. 10", "frequency responses of the four machines"),
             ("Fig. 12", "the prototype: measured and computed frequency responses"),

@@ -45,15 +45,15 @@ class Ellipsoid:
         return float(np.linalg.norm(self.magnitudes))
 
 
-def at_plate() -> EclipsePrototype:
+def at_plate(drives: Drives = "6") -> EclipsePrototype:
     """The prototype with the tool at the platform's centre, in the plane of the guide."""
-    return EclipsePrototype(tool_below=0.0, pole_height=0.0)
+    return EclipsePrototype(tool_below=0.0, pole_height=0.0, drives=drives)
 
 
-def ellipsoid(
+def position_compliance(
     machine: EclipsePrototype, tilt: float, thin: tuple[int, float] | None = None
-) -> Ellipsoid:
-    """Compliance ellipsoid at a tilt about y, deg.
+) -> Array:
+    """Compliance of the tool's position at a tilt about y, (3, 3), m/N.
 
     Parameters
     ----------
@@ -73,7 +73,14 @@ def ellipsoid(
             ),
         )
     placed = structure.at(machine.place(machine.tilted(np.radians(tilt))))
-    magnitudes, axes = np.linalg.eigh(tool_compliance(placed)[:3, :3])
+    return np.asarray(tool_compliance(placed)[:3, :3])
+
+
+def ellipsoid(
+    machine: EclipsePrototype, tilt: float, thin: tuple[int, float] | None = None
+) -> Ellipsoid:
+    """Compliance ellipsoid; parameters as of `position_compliance`."""
+    magnitudes, axes = np.linalg.eigh(position_compliance(machine, tilt, thin))
     return Ellipsoid(magnitudes[::-1], axes[:, ::-1])
 
 
@@ -94,14 +101,6 @@ def barriers(roll: float = 0.0, drives: Drives = "6") -> Array:
     found = jacobians(machine.linkage, placement).determinant()
     at = np.flatnonzero(np.sign(found[1:]) != np.sign(found[:-1]))
     return np.asarray(tilt[at] + 0.05 * found[at] / (found[at] - found[at + 1]))
-
-
-def least_singular_value(drives: Drives, rolls: Array, tilts: Array) -> float:
-    """Smallest margin from singular poses over rolls × tilts, deg, lengths scaled by R_p."""
-    machine = EclipsePrototype(drives=drives)
-    roll, tilt = np.meshgrid(np.radians(rolls), np.radians(tilts))
-    placement = machine.place(machine.tilted(tilt.ravel(), roll.ravel()))
-    return float(jacobians(machine.linkage, placement).margin(machine.platform_radius).min())
 
 
 def radius_study(tilt: float) -> tuple[tuple[float, float], ...]:

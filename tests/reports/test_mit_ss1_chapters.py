@@ -41,6 +41,7 @@ CHAPTERS = (
     "assembly-modes",
     "reversals",
     "tool",
+    "ellipsoids",
     "budget",
     "workspace-stiffness",
     "dynamics",

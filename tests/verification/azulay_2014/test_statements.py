@@ -18,8 +18,8 @@ from pathlib import Path
 import pytest
 
 from strutwork.papers.azulay_2014.comparison import machines, variant
-from strutwork.papers.azulay_2014.machine_study import Comparison, study_comparison
-from strutwork.papers.azulay_2014.published import TABLE_2, TABLE_4, TABLE_5
+from strutwork.papers.azulay_2014.machine_study import Comparison
+from strutwork.papers.azulay_2014.published import TABLE_1, TABLE_2, TABLE_3, TABLE_4, TABLE_5
 from strutwork.papers.azulay_2014.regions import SIDES
 from strutwork.papers.azulay_2014.statements import CRITICAL, significance, statements
 from strutwork.papers.azulay_2014.tilts import tilts
@@ -38,11 +38,6 @@ KEPT = {
 
 
 @pytest.fixture(scope="module")
-def study() -> Comparison:
-    return study_comparison()
-
-
-@pytest.fixture(scope="module")
 def said(study: Comparison) -> tuple[Statement, ...]:
     return statements(study)
 
@@ -52,6 +47,9 @@ def test_every_result_is_there(said: tuple[Statement, ...]) -> None:
     assert sum(s.place == "Table 2" for s in said) == 2 * len(TABLE_2.values)
     assert sum(s.place == "Table 4" for s in said) == 2 * len(TABLE_4.values)
     assert sum(s.place == "Table 5" for s in said) == 2 * len(TABLE_5.values)
+    assert sum(s.place == "Table 1" for s in said) == len(TABLE_1.values)
+    # its last line, the tilt angle, stands with section 3.1
+    assert sum(s.place == "Table 3" for s in said) == len(TABLE_3.values) - 4
     assert {"Fig. 3", "Fig. 4", "Fig. 8", "Fig. 10", "Fig. 12"} <= {s.place for s in said}
 
 
@@ -62,8 +60,19 @@ def test_every_test_that_is_named_exists(said: tuple[Statement, ...]) -> None:
 
 
 def test_nothing_chosen_by_a_table_is_called_predicted(said: tuple[Statement, ...]) -> None:
-    assert {s.place for s in said if s.status == "predicted"} == {"section 4.1"}
+    predicted = [s for s in said if s.status == "predicted"]
+    # exact laws, and what follows from the printed table itself
+    assert {s.place for s in predicted} == {"section 4.1", "eqs 14 to 18", "eq. 27"}
+    assert all("printed table" in str(s.computed) for s in predicted if s.place == "section 4.1")
     assert all(s.reason for s in said)
+
+
+def test_inputs_are_those_of_the_print(said: tuple[Statement, ...]) -> None:
+    """To rounding: they are taken over."""
+    inputs = [s for s in said if s.place in ("Table 1", "Table 3", "section 3.3.1")]
+    assert len(inputs) == len(TABLE_1.values) + len(TABLE_3.values) - 4 + 2
+    for s in inputs:
+        assert s.computed == pytest.approx(s.published, rel=1e-12, abs=1e-9), s.what
 
 
 def test_significance() -> None:

@@ -40,7 +40,6 @@ from strutwork.papers.azulay_2014.comparison import (
     MODELS,
     AzulayComparison,
     Model,
-    compare_azulay,
     machines,
     published_ranking,
     variant,
@@ -66,11 +65,6 @@ IN_PLANE = 0.03
 
 #: Machines with a dimension fitted to the very table, for which the paper leaves a choice.
 CALIBRATED = 0.15
-
-
-@pytest.fixture(scope="module")
-def comparison() -> AzulayComparison:
-    return compare_azulay()
 
 
 def mean(comparison: AzulayComparison, row: str, direction: str, model: Model) -> float:

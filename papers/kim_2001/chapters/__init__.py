@@ -1,0 +1,1 @@
+"""Chapters that only this document has."""
