@@ -104,3 +104,13 @@ def test_options_that_exclude_each_other(strutwork: Program) -> None:
     run = strutwork("workspace", "proposed-3pprs", *OVER, "--tilt", "1deg", "--dexterous", "2deg")
     assert run.status == 2
     assert "not both" in run.err
+
+
+def test_the_largest_box_that_keeps_an_amplification(strutwork: Program) -> None:
+    ask = ("workspace", "proposed-3pprs", *OVER, "--largest", "box", "--around", "x=0mm,y=0mm")
+    free, fast = (
+        strutwork(*ask, *bound, "--json").result["largest"]
+        for bound in ((), ("--amplification", "0.9"))
+    )
+    assert 0.0 < fast["measure"] < free["measure"]
+    assert fast["reason"] == "largest velocity amplification, 0.9"
