@@ -14,7 +14,6 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.placement import Placement
-from strutwork.kinematics.turns import rotation_vector
 from strutwork.kinematics.walk import Walk
 
 Array = NDArray[Any]
@@ -143,6 +142,7 @@ class _Onward(Walk):
 
     # of a way that is a cell long
     shortest = 1e-4
+    few = 1
 
     def __init__(
         self, motion: Motion, wanted: Given, bodies: BodyPoses, coordinates: Array, begin: Array
@@ -153,12 +153,8 @@ class _Onward(Walk):
         self.bodies = BodyPoses(bodies.position.copy(), bodies.rotation.copy())
         self.coordinates = coordinates.copy()
 
-    def _tool_open(self, at: Indices, bodies: BodyPoses, share: Array) -> list[Array]:
-        place, _ = self._tool(bodies)
-        turn = rotation_vector(bodies.rotation[:, self.tool_body])
-        now = np.concatenate([place, turn], axis=1)[:, list(self.given.task)]
-        begin = self.begin[at]
-        return [now - begin - share[:, None] * (self.given.task_values[at] - begin)]
+    def _begin(self, at: Indices) -> Array:
+        return np.asarray(self.begin[at])
 
 
 def _number(reasons: list[str], text: str) -> int:

@@ -11,6 +11,7 @@ from strutwork.kinematics.given import Given
 from strutwork.kinematics.independent import independent_rows, refuse_dependent, spanning_rows
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.quick_step import Goals, QuickStep
 from strutwork.kinematics.rows import characteristic_length, constraint_rows
 from strutwork.kinematics.turns import rotation_matrix, rotation_vector, vector_rates
 
@@ -45,6 +46,8 @@ class Walk:
     """Poses on their way, each at its own share of it."""
 
     shortest = SHORTEST
+    #: Poses from which on compiled steps are worth their load time.
+    few = 64
 
     def __init__(
         self, joints: JointMotion, rotation: Array, wanted: Given, *, lenient: bool = False
@@ -73,10 +76,18 @@ class Walk:
         _, matrix = self.system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
         self.kept, self.independent = independent_rows(matrix[0], len(held))
         self.held_rows = len(held)
+        self.quick = self._quickly(count)
         # of each pose: rows that are independent at home may depend on each other elsewhere
         self.rows = np.tile(self.kept, (count, 1))
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)
+
+    def _quickly(self, count: int) -> QuickStep | None:
+        """Compiled steps, where there are many poses and as many rows as unknowns."""
+        if count < self.few or len(self.given.joint) or len(self.kept) != 6 * self.bodies.position.shape[1]:
+            return None
+        rules = (SHRINK, FARTHEST, CLOSED, ROUNDING, 1e-6, CORRECTIONS, ELSE * CLOSED)
+        return QuickStep.of(self.joints, self.rotation, self.length, rules)
 
     def go(self, poses: Indices) -> None:
         """Walk until each of some poses has arrived or its way has ended."""
@@ -95,7 +106,12 @@ class Walk:
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1
         share = np.minimum(self.share[at] + self.stride[at], 1.0)
-        bodies, good, error = self._newton(at, share)
+        if self.quick is None:
+            bodies, good, error = self._newton(at, share)
+        else:
+            bodies, good, error = self.quick.newton(
+                self.bodies[at], self.rows[at], self._goals(at, share)
+            )
         done = at[good]
         _, _, gaps = self.joints.place(bodies[good])
         found = self._coordinates(bodies[good], gaps, done)
@@ -197,11 +213,23 @@ class Walk:
             return [np.concatenate([place - wanted, apart], axis=1)]
         turn = rotation_vector(bodies.rotation[:, self.tool_body])
         now = np.concatenate([place, turn], axis=1)[:, asked]
+        return [now - self._target(at, share)]
+
+    def _target(self, at: Indices, share: Array) -> Array:
+        """Directions of the tool at a share of the way, (k, t)."""
+        begin = self._begin(at)
+        return begin + share[:, None] * (self.given.task_values[at] - begin)
+
+    def _begin(self, at: Indices) -> Array:  # noqa: ARG002 - all begin at home
         start = self.given.start
-        home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])[
-            asked
-        ]
-        return [now - home - share[:, None] * (self.given.task_values[at] - home)]
+        home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])
+        return home[list(self.given.task)]
+
+    def _goals(self, at: Indices, share: Array) -> Goals:
+        asked = self._tool_directions
+        if self.given.tool is None:
+            return Goals(asked, self._target(at, share) if asked else None)
+        return Goals(asked, None, *self.given.pose(at, share))
 
     def _coordinates(self, bodies: BodyPoses, gaps: Array, at: Indices) -> Array:
         """Joint coordinates, turns counted on from the last step's, (k, c)."""
