@@ -14,6 +14,7 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.singular_values import compiled
 from strutwork.kinematics.walk import Walk
 
 Array = NDArray[Any]
@@ -130,7 +131,10 @@ class Follower:
         self, bodies: BodyPoses, coordinates: Array, status: Array, reasons: tuple[str, ...]
     ) -> Placement:
         motion = self.motion
-        positions, frames, _ = motion.joints.place(bodies)
+        if compiled():
+            positions, frames = motion.joints.place_compiled(bodies)
+        else:
+            positions, frames, _ = motion.joints.place(bodies)
         home = motion.home.turns
         turns = bodies.rotation if home is None else bodies.rotation @ home
         values = coordinates + motion.home_values

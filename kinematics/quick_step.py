@@ -95,19 +95,31 @@ class QuickStep:
         kind = 0 if not goals.asked else POSE if goals.target is None else TASK
         none = (np.zeros((count, 0)), np.zeros((count, 3)), np.zeros((count, 3, 3)))
         given = (goals.target, goals.place, goals.turned)
+        targets = [
+            np.ascontiguousarray(b if a is None else a, dtype=float)
+            for a, b in zip(given, none, strict=True)
+        ]
         newton_step(
             self.system,
-            kind,
-            np.asarray(goals.asked, dtype=np.int64),
-            tuple(
-                np.ascontiguousarray(b if a is None else a, dtype=float)
-                for a, b in zip(given, none, strict=True)
-            ),
-            self.tool,
+            (kind, np.asarray(goals.asked, dtype=np.int64), self.tool, *targets),
             np.ascontiguousarray(rows, dtype=np.int64),
             self.rules,
             moved.position,
             moved.rotation,
-            (good, error),
+            good,
+            error,
         )
         return moved, good, error
+
+    def coordinates(self, bodies: BodyPoses, before: Array) -> Array:
+        """Joint coordinates, turns counted on from those before, (p, c)."""
+        from strutwork.kinematics.row_kernel import joint_coordinates  # noqa: PLC0415 - as above
+
+        values = np.array(before, dtype=float, order="C")
+        joint_coordinates(
+            self.system,
+            np.ascontiguousarray(bodies.position),
+            np.ascontiguousarray(bodies.rotation),
+            values,
+        )
+        return values

@@ -6,61 +6,22 @@ import numpy as np
 
 from strutwork.jit import jit
 from strutwork.kinematics.leg_turns import rotation_log, turn_by_vector
-from strutwork.kinematics.row_kernel import eliminate, fill_row, place_pose
+from strutwork.kinematics.row_kernel import eliminate, fill_row, pass_joint, place_pose
 
 #: What is asked of the tool: its pose, or some directions of it.
 POSE, TASK = 1, 2
 
 
 @jit()
-def _axis(s, rotation, j, side, k, out):  # type: ignore[no-untyped-def]
-    """Axis k of a joint that moves with its first or second body."""
-    b = s.owner[s.ends[j, side]]
-    for r in range(3):
-        out[r] = s.frames[j, r, k]
-    if b >= 0:
-        for r in range(3):
-            out[r] = (
-                rotation[b, r, 0] * s.frames[j, 0, k]
-                + rotation[b, r, 1] * s.frames[j, 1, k]
-                + rotation[b, r, 2] * s.frames[j, 2, k]
-            )
-
-
-@jit()
-def _end(s, position, rotation, n, out):  # type: ignore[no-untyped-def]
-    """Place of a node on its own body."""
-    b = s.owner[n]
-    for r in range(3):
-        out[r] = s.arms[n, r]
-        if b >= 0:
-            out[r] = position[b, r]
-            for k in range(3):
-                out[r] += rotation[b, r, k] * s.arms[n, k]
-
-
-@jit()
 def _held(s, position, rotation, work, left):  # type: ignore[no-untyped-def]
     """What the held directions leave open, lengths over L."""
-    first, second, turn, log, ends = work
+    first, _, turn, log, ends = work
     last = -1
     for r in range(s.joint.shape[0]):
         j, d = s.joint[r], s.direction[r]
         if j != last:
             last = j
-            for k in range(3):
-                _axis(s, rotation, j, 0, k, first[k])
-                _axis(s, rotation, j, 1, k, second[k])
-            for side in range(2):
-                _end(s, position, rotation, s.ends[j, side], ends[side])
-            if s.locks[j]:
-                for i in range(3):
-                    for k in range(3):
-                        turn[i, k] = (
-                            first[i, 0] * second[k, 0]
-                            + first[i, 1] * second[k, 1]
-                            + first[i, 2] * second[k, 2]
-                        )
+            pass_joint(s, position, rotation, j, work)
             if s.locks[j] == 3:
                 rotation_log(turn, log, 0)
         if d < 3:
@@ -90,9 +51,10 @@ def _tilt(s, r, k, turn):  # type: ignore[no-untyped-def]
 
 
 @jit()
-def _tool(s, kind, asked, goal, tool, position, rotation, work, left):  # type: ignore[no-untyped-def]
-    """What is open at the tool; its body's rotation vector stays in `log`."""
-    target, place, turned = goal
+def _tool(s, asks, p, position, rotation, work, left):  # type: ignore[no-untyped-def]
+    """What is open at the tool of pose p; its body's rotation vector stays in `log`."""
+    kind, asked, tool, targets, places, rotations = asks
+    target, place, turned = targets[p], places[p], rotations[p]
     _, second, turn, log, _ = work
     h, b = s.joint.shape[0], s.platform
     if kind == POSE:
@@ -149,20 +111,19 @@ def _apply(s, a, order, position, rotation):  # type: ignore[no-untyped-def]
         c = s.column[b]
         for r in range(3):
             position[b, r] -= s.length * a[order[c + r], n]
-        turn_by_vector(
-            rotation[b], -a[order[c + 3], n], -a[order[c + 4], n], -a[order[c + 5], n]
-        )
+        turn_by_vector(rotation[b], -a[order[c + 3], n], -a[order[c + 4], n], -a[order[c + 5], n])
 
 
 @jit()
-def newton_step(s, kind, asked, goals, tool, rows, rules, position, rotation, found):  # type: ignore[no-untyped-def]
-    """Newton's method from each of p poses; bodies are moved in place, `found`: good and error.
+def newton_step(s, asks, rows, rules, position, rotation, good, error):  # type: ignore[no-untyped-def]
+    """Newton's method from each of p poses of the bodies, which are moved in place.
 
-    `rules`: as in `leg_newton`, and how open rows may stay that are not solved for.
+    `asks`: whether a pose, some directions or nothing is asked of the tool; which directions; its
+    rotation at home; their targets; the pose's place and rotation. `rules`: as in `leg_newton`, and
+    how open rows may stay that are not solved for.
     """
     shrink, farthest, closed, rounding, believed, most, otherwise = rules
-    target, place, turned = goals
-    good, error = found
+    kind, asked = asks[0], asks[1]
     n, h, count = rows.shape[1], s.joint.shape[0], asked.shape[0]
     left, a = np.zeros(h + count), np.empty((n, n + 1))
     order, where = np.empty(n, dtype=np.int64), np.empty(n + 1, dtype=np.int64)
@@ -172,8 +133,7 @@ def newton_step(s, kind, asked, goals, tool, rows, rules, position, rotation, fo
         before, first = np.inf, 0.0
         for step in range(most):
             _held(s, position[p], rotation[p], work, left)
-            goal = (target[p], place[p], turned[p])
-            _tool(s, kind, asked, goal, tool, position[p], rotation[p], work, left)
+            _tool(s, asks, p, position[p], rotation[p], work, left)
             whole, size = np.abs(left).max(), 0.0
             place_pose(s, position[p : p + 1], rotation[p : p + 1], nodes, frames)
             for i in range(n):
@@ -192,9 +152,7 @@ def newton_step(s, kind, asked, goals, tool, rows, rules, position, rotation, fo
                 good[p] = whole <= otherwise and sign * first > 0.0
                 break
             norm = np.abs(a[:, n]).max()
-            if sign == 0.0 or not (
-                norm <= farthest and (norm <= shrink * before or norm <= 1e-9)
-            ):
+            if sign == 0.0 or not (norm <= farthest and (norm <= shrink * before or norm <= 1e-9)):
                 break
             before = norm
             _apply(s, a, order, position[p], rotation[p])

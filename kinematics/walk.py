@@ -84,7 +84,11 @@ class Walk:
 
     def _quickly(self, count: int) -> QuickStep | None:
         """Compiled steps, where there are many poses and as many rows as unknowns."""
-        if count < self.few or len(self.given.joint) or len(self.kept) != 6 * self.bodies.position.shape[1]:
+        if (
+            count < self.few
+            or len(self.given.joint)
+            or len(self.kept) != 6 * self.bodies.position.shape[1]
+        ):
             return None
         rules = (SHRINK, FARTHEST, CLOSED, ROUNDING, 1e-6, CORRECTIONS, ELSE * CLOSED)
         return QuickStep.of(self.joints, self.rotation, self.length, rules)
@@ -100,6 +104,8 @@ class Walk:
 
     def placed(self) -> tuple[Array, Array]:
         """Node positions and joint frames, (p, n, 3) and (p, j, 3, 3)."""
+        if self.quick is not None:
+            return self.joints.place_compiled(self.bodies)
         positions, frames, _ = self.joints.place(self.bodies)
         return positions, frames
 
@@ -113,9 +119,11 @@ class Walk:
                 self.bodies[at], self.rows[at], self._goals(at, share)
             )
         done = at[good]
-        _, _, gaps = self.joints.place(bodies[good])
-        found = self._coordinates(bodies[good], gaps, done)
-        self.coordinates[done] = found
+        if self.quick is None:
+            _, _, gaps = self.joints.place(bodies[good])
+            self.coordinates[done] = self._coordinates(bodies[good], gaps, done)
+        else:
+            self.coordinates[done] = self.quick.coordinates(bodies[good], self.coordinates[done])
         self.bodies.position[done] = bodies.position[good]
         self.bodies.rotation[done] = bodies.rotation[good]
         self.share[done], self.error[done] = share[good], self.length * error[good]
