@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
+from strutwork.errors import ModelError
+from strutwork.kinematics.joint_motion import JointMotion
 from strutwork.kinematics.leg_jacobians import legs_compiled
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.rows import body_references
+from strutwork.kinematics.singular_values import compiled
 from strutwork.kinematics.tool_drive_space import (
     Freedoms,
     check_driven,
@@ -44,6 +49,8 @@ class SeenMotions:
     Parameters
     ----------
     linkage : Linkage
+    home : Placement
+        That pose.
     length : float
         L, m.
     known : Freedoms
@@ -58,6 +65,7 @@ class SeenMotions:
     """
 
     linkage: Linkage
+    home: Placement
     length: float
     known: Freedoms
     rows: NDArray[np.intp]
@@ -87,6 +95,7 @@ class SeenMotions:
         idle = null @ turned[space.known.freedoms :].T
         return cls(
             linkage,
+            placement,
             space.length,
             space.known,
             np.sort(order[:rank]),
@@ -106,7 +115,9 @@ class SeenMotions:
         placement : Placement
             (p) poses.
         """
-        found, doubtful = self._by_legs(placement) or self._by_rows(placement)
+        found, doubtful = (
+            self._by_legs(placement) or self._compiled(placement) or self._by_rows(placement)
+        )
         if doubtful.any():
             found[doubtful] = tool_drive_space(
                 self.linkage, placement[doubtful], self.length, self.known
@@ -128,6 +139,43 @@ class SeenMotions:
         doubtful = doubtful | ~(np.abs(inverse).max(axis=(1, 2)) < LARGEST)
         unit = np.broadcast_to(np.eye(6), inverse.shape)
         return np.concatenate([unit, inverse], axis=1), doubtful
+
+    @cached_property
+    def _systems(self) -> tuple[Any, Any, tuple[Array, ...]] | None:
+        """The linkage as arrays, the same of its drives, and what is solved for; None without."""
+        if not compiled() or any(joint.lead for joint in self.linkage.joints):
+            return None
+        from strutwork.kinematics.row_kernel import row_system  # noqa: PLC0415 - numba is slow to import
+
+        try:
+            system = row_system(JointMotion(self.linkage, self.home), self.length)
+        except ModelError:
+            # a node that slides in two joints has no finite motion, but has rows
+            return None
+        joint, direction = (k.astype(np.int64) for k in np.nonzero(self.linkage.driven_mask()))
+        idle = np.zeros_like(self.idle)
+        columns = (system.column[:, None] + np.arange(6)).ravel()
+        idle[:, columns] = self.idle
+        rows, others = self.rows.astype(np.int64), self.others.astype(np.int64)
+        wanted = (rows, others, np.ascontiguousarray(self.made), idle)
+        return system, system._replace(joint=joint, direction=direction), wanted
+
+    def _compiled(self, placement: Placement) -> tuple[Array, Mask] | None:
+        if self._systems is None or np.iscomplexobj(placement.positions):
+            return None
+        from strutwork.kinematics.seen_kernel import solve_seen  # noqa: PLC0415 - as above
+
+        count = placement.batch[0]
+        found = np.zeros((count, self.made.shape[1], self.known.freedoms))
+        large, left = np.empty(count), np.empty(count)
+        solve_seen(
+            *self._systems,
+            np.ascontiguousarray(placement.positions),
+            np.ascontiguousarray(placement.frames),
+            np.ascontiguousarray(body_references(self.linkage, placement)),
+            (found, large, left),
+        )
+        return found, ~((large < LARGEST) & (left <= LEFT * large))
 
     def _by_rows(self, placement: Placement) -> tuple[Array, Mask]:
         count = placement.batch[0]

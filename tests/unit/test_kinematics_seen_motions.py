@@ -58,7 +58,14 @@ NAMES = [
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_spaces_are_those_of_the_full_decomposition(name: str) -> None:
+@pytest.mark.parametrize("stacked", [False, True])
+def test_spaces_are_those_of_the_full_decomposition(
+    name: str, stacked: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    if stacked:
+        # as without a compiler
+        monkeypatch.setattr(SeenMotions, "_by_legs", lambda *_: None)
+        monkeypatch.setattr(SeenMotions, "_compiled", lambda *_: None)
     model = load(name)
     linkage = model.structure.linkage
     placement = reached(model, 0.02)
