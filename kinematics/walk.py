@@ -50,11 +50,17 @@ class Walk:
     few = 64
 
     def __init__(
-        self, joints: JointMotion, rotation: Array, wanted: Given, *, lenient: bool = False
+        self,
+        joints: JointMotion,
+        rotation: Array,
+        wanted: Given,
+        *,
+        lenient: bool = False,
+        like: Walk | None = None,
     ) -> None:
         count = wanted.poses
         self.joints, self.given, self.rotation = joints, wanted, rotation
-        self.length = characteristic_length(joints.home)
+        self.length = characteristic_length(joints.home) if like is None else like.length
         self.bodies = joints.start(count)
         self.coordinates = np.zeros((count, len(joints.names)))
         self.share, self.stride = np.zeros(count), np.ones(count)
@@ -65,6 +71,19 @@ class Walk:
         self.active = np.ones(count, dtype=bool)
         # the ground's tool never moves: what it is asked depends on nothing and is refused
         self.tool_body = joints.linkage.tool_body if self._tool_directions else -1
+        if like is None:
+            self._rows_at_home(lenient=lenient)
+        else:
+            # of the same linkage, asked the same: the same rows
+            self.joint, self.direction, self.select = like.joint, like.direction, like.select
+            self.order, self.held_rows = like.order, like.held_rows
+            self.kept, self.independent = like.kept, like.independent
+        # of each pose: rows that are independent at home may depend on each other elsewhere
+        self.rows = np.tile(self.kept, (count, 1))
+        self.quick = self._quickly(count)
+
+    def _rows_at_home(self, *, lenient: bool) -> None:
+        joints, wanted = self.joints, self.given
         held = np.argwhere(joints.held)
         pairs = np.concatenate([held, np.stack([wanted.joint, wanted.direction], axis=-1)])
         self.joint, self.direction = pairs[:, 0], pairs[:, 1]
@@ -76,9 +95,6 @@ class Walk:
         _, matrix = self.system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
         self.kept, self.independent = independent_rows(matrix[0], len(held))
         self.held_rows = len(held)
-        self.quick = self._quickly(count)
-        # of each pose: rows that are independent at home may depend on each other elsewhere
-        self.rows = np.tile(self.kept, (count, 1))
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)
 
