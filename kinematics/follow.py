@@ -14,7 +14,7 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.placement import Placement
-from strutwork.kinematics.turns import rotation_vector
+from strutwork.kinematics.singular_values import compiled
 from strutwork.kinematics.walk import Walk
 
 Array = NDArray[Any]
@@ -57,6 +57,8 @@ class Follower:
     points: Array = field(init=False)
     bodies: BodyPoses = field(init=False)
     coordinates: Array = field(init=False)
+    _tree: Any = field(default=None, init=False, repr=False)
+    _like: Walk | None = field(default=None, init=False, repr=False)
 
     def __post_init__(self) -> None:
         home = self.motion.task_of(self.motion.home_pose)
@@ -81,8 +83,9 @@ class Follower:
         status, reasons = np.ones(count, dtype=np.int8), [FAR]
         tried, last = np.zeros(count, dtype=np.intp), np.full(count, -1)
         while True:
-            tree = cKDTree(self.points / self.step)
-            distance, start = tree.query(points / self.step)
+            if self._tree is None:
+                self._tree = cKDTree(self.points / self.step)
+            distance, start = self._tree.query(points / self.step)
             # a corner of the next cell is within reach, from what stands for the near one
             near = distance <= 1.01 * (np.sqrt(len(self.step)) + APART)
             turn = np.flatnonzero((status != 0) & near & (start != last) & (tried < TRIES))
@@ -114,12 +117,23 @@ class Follower:
         still = np.tile([*self.fixed.values()], (len(start), 1))
         begin = np.concatenate([self.points[start], still], axis=1)
         order = [names.index(DIRECTIONS[k]) for k in wanted.task]
-        walk = _Onward(motion, wanted, self.bodies[start], self.coordinates[start], begin[:, order])
+        walk = _Onward(
+            motion,
+            wanted,
+            self.bodies[start],
+            self.coordinates[start],
+            begin[:, order],
+            self._like,
+        )
+        self._like = self._like or walk
         walk.go(np.arange(len(points)))
         return walk
 
     def _keep(self, points: Array, bodies: BodyPoses, coordinates: Array, far: Array) -> None:
         new = far > APART
+        if not new.any():
+            return
+        self._tree = None
         self.points = np.concatenate([self.points, points[new]])
         self.bodies = BodyPoses(
             np.concatenate([self.bodies.position, bodies.position[new]]),
@@ -131,7 +145,10 @@ class Follower:
         self, bodies: BodyPoses, coordinates: Array, status: Array, reasons: tuple[str, ...]
     ) -> Placement:
         motion = self.motion
-        positions, frames, _ = motion.joints.place(bodies)
+        if compiled():
+            positions, frames = motion.joints.place_compiled(bodies)
+        else:
+            positions, frames, _ = motion.joints.place(bodies)
         home = motion.home.turns
         turns = bodies.rotation if home is None else bodies.rotation @ home
         values = coordinates + motion.home_values
@@ -143,22 +160,25 @@ class _Onward(Walk):
 
     # of a way that is a cell long
     shortest = 1e-4
+    few = 1
 
     def __init__(
-        self, motion: Motion, wanted: Given, bodies: BodyPoses, coordinates: Array, begin: Array
+        self,
+        motion: Motion,
+        wanted: Given,
+        bodies: BodyPoses,
+        coordinates: Array,
+        begin: Array,
+        like: Walk | None,
     ) -> None:
         # the base looks at its rows at once
         self.begin = begin
-        super().__init__(motion.joints, motion.rotation, wanted)
+        super().__init__(motion.joints, motion.rotation, wanted, like=like)
         self.bodies = BodyPoses(bodies.position.copy(), bodies.rotation.copy())
         self.coordinates = coordinates.copy()
 
-    def _tool_open(self, at: Indices, bodies: BodyPoses, share: Array) -> list[Array]:
-        place, _ = self._tool(bodies)
-        turn = rotation_vector(bodies.rotation[:, self.tool_body])
-        now = np.concatenate([place, turn], axis=1)[:, list(self.given.task)]
-        begin = self.begin[at]
-        return [now - begin - share[:, None] * (self.given.task_values[at] - begin)]
+    def _begin(self, at: Indices) -> Array:
+        return np.asarray(self.begin[at])
 
 
 def _number(reasons: list[str], text: str) -> int:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.motion_spaces import null_space
+from strutwork.kinematics.singular_values import singular_values
 from strutwork.kinematics.tool_drive_space import ToolDriveSpace
 
 Array = NDArray[Any]
@@ -24,6 +25,9 @@ Others = Literal["free", "blocked"]
 #: Sine of the angle to a motion of the tool at held drives, or cosine to one of drives alone,
 #: below which it is one.
 SINGULAR = 1e-12
+
+#: Motions of tool and drives for rates of one below which drives are inverted as they are.
+REGULAR = 1e6
 
 _SLICES = {"translation": slice(0, 3), "rotation": slice(3, 6), "all": slice(0, 6)}
 
@@ -100,7 +104,42 @@ def velocity_ellipsoids(
         Weights that are not positive or not one a drive.
     """
     tool, drives = _parts(space, weights)
-    return _ellipsoids(space, part, others, tool, drives)
+    return _ellipsoids(space.length, part, others, tool, drives)
+
+
+def amplifications(tool: Array, drives: Array, used: int) -> Array:
+    """Least and largest translation of the tool for drive rates of size one together, (p, 2).
+
+    The semi-axes `smallest` and `largest` of `velocity_ellipsoids`, from any independent motions
+    and without the ellipsoids' directions, which takes a fraction of the time.
+
+    Parameters
+    ----------
+    tool : (p, 6, f)
+        (v, L ω)
+    drives : (p, a, f)
+        m/s and L rad/s.
+    used : int
+        As `Ellipsoids.used`.
+    """
+    found = np.zeros((len(tool), 2))
+    square = drives.shape[1] == drives.shape[2]
+    try:
+        per_rate = np.linalg.inv(drives if square else np.linalg.qr(drives, mode="r"))
+    except np.linalg.LinAlgError:
+        regular = np.zeros(len(tool), dtype=bool)
+    else:
+        moved = tool @ per_rate
+        # rates are of size one, whatever the columns are
+        regular = np.abs(moved).max(axis=(1, 2), initial=0.0) < REGULAR
+        wide = moved[:, :3] if moved.shape[2] < 3 else np.swapaxes(moved[:, :3], 1, 2)
+        values = singular_values(np.where(regular[:, None, None], wide, 0.0))
+        found[:, 0], found[:, 1] = values[:, used - 1], values[:, 0]
+    if not regular.all():
+        basis, _ = np.linalg.qr(np.concatenate([tool[~regular], drives[~regular]], axis=1))
+        axes = _ellipsoids(1.0, "translation", "free", basis[:, :6], basis[:, 6:]).semi_axes
+        found[~regular] = np.stack([axes[:, used - 1], axes[:, 0]], axis=-1)
+    return found
 
 
 def force_ellipsoids(
@@ -168,7 +207,7 @@ def _parts(space: ToolDriveSpace, weights: Sequence[float] | None) -> tuple[Arra
 
 
 def _ellipsoids(
-    space: ToolDriveSpace, part: ToolPart, others: Others, tool: Array, drives: Array
+    length: float, part: ToolPart, others: Others, tool: Array, drives: Array
 ) -> Ellipsoids:
     if part not in _SLICES or others not in ("free", "blocked"):
         raise ModelError(
@@ -177,7 +216,7 @@ def _ellipsoids(
             'Choose "translation", "rotation" or "all", and "free" or "blocked".',
         )
     own = _SLICES[part]
-    unit = 1.0 / space.length if part == "rotation" else 1.0
+    unit = 1.0 / length if part == "rotation" else 1.0
     if others == "blocked" and part != "all":
         rest = tool[:, 3:] if part == "translation" else tool[:, :3]
         # motions whose other part is none; columns beyond their number are zero

@@ -12,6 +12,7 @@ from strutwork.kinematics.independent import independent_rows, refuse_dependent,
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
+from strutwork.kinematics.quick_step import Goals, QuickStep
 from strutwork.kinematics.rows import characteristic_length, constraint_rows, row_selection
 from strutwork.kinematics.spinning import Spins
 from strutwork.kinematics.turns import rotation_matrix, rotation_vector, vector_rates
@@ -51,13 +52,21 @@ class Walk:
     """Poses on their way, each at its own share of it."""
 
     shortest = SHORTEST
+    #: Poses from which on compiled steps are worth their load time.
+    few = 64
 
     def __init__(
-        self, joints: JointMotion, rotation: Array, wanted: Given, *, lenient: bool = False
+        self,
+        joints: JointMotion,
+        rotation: Array,
+        wanted: Given,
+        *,
+        lenient: bool = False,
+        like: Walk | None = None,
     ) -> None:
         count = wanted.poses
         self.joints, self.given, self.rotation = joints, wanted, rotation
-        self.length = characteristic_length(joints.home)
+        self.length = characteristic_length(joints.home) if like is None else like.length
         self.bodies = joints.start(count)
         self.coordinates = np.zeros((count, len(joints.names)))
         self.share, self.stride = np.zeros(count), np.ones(count)
@@ -68,6 +77,19 @@ class Walk:
         self.active = np.ones(count, dtype=bool)
         # the ground's tool never moves: what it is asked depends on nothing and is refused
         self.tool_body = joints.linkage.tool_body if self._tool_directions else -1
+        if like is None:
+            self._rows_at_home(lenient=lenient)
+        else:
+            # of the same linkage, asked the same: the same rows
+            self.joint, self.direction, self.asked = like.joint, like.direction, like.asked
+            self.order, self.held_rows, self.late = like.order, like.held_rows, like.late
+            self.kept, self.independent, self.spins = like.kept, like.independent, like.spins
+        # of each pose: rows that are independent at home may depend on each other elsewhere
+        self.rows = np.tile(self.kept, (count, 1))
+        self.quick = self._quickly(count)
+
+    def _rows_at_home(self, *, lenient: bool) -> None:
+        joints, wanted = self.joints, self.given
         held = np.argwhere(joints.held)
         self.asked, self.order = row_selection(joints.held.shape, wanted.joint, wanted.direction)
         self.joint, self.direction = held[:, 0], held[:, 1]
@@ -78,10 +100,20 @@ class Walk:
         # what follows from the rest of what is given agrees at the target, not on the straight way
         late = np.setdiff1d(np.arange(self.held_rows, len(matrix[0])), self.kept)
         self.late = late if wanted.tool is None else late[:0]
-        # of each pose: rows that are independent at home may depend on each other elsewhere
-        self.rows = np.tile(self.kept, (count, 1))
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)
+
+    def _quickly(self, count: int) -> QuickStep | None:
+        """Compiled steps, where there are many poses and as many rows as unknowns."""
+        if (
+            count < self.few
+            or len(self.given.joint)
+            or len(self.late)
+            or len(self.kept) != 6 * self.bodies.position.shape[1]
+        ):
+            return None
+        rules = (SHRINK, FARTHEST, CLOSED, ROUNDING, 1e-6, CORRECTIONS, ELSE * CLOSED)
+        return QuickStep.of(self.joints, self.rotation, self.length, rules)
 
     def go(self, poses: Indices) -> None:
         """Walk until each of some poses has arrived or its way has ended."""
@@ -94,17 +126,25 @@ class Walk:
 
     def placed(self) -> tuple[Array, Array]:
         """Node positions and joint frames, (p, n, 3) and (p, j, 3, 3)."""
+        if self.quick is not None:
+            return self.joints.place_compiled(self.bodies)
         positions, frames, _ = self.joints.place(self.bodies)
         return positions, frames
 
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1
         share = np.minimum(self.share[at] + self.stride[at], 1.0)
-        bodies, good, error, near = self._newton(at, share)
-        done = at[good]
-        _, _, gaps = self.joints.place(bodies[good])
-        found = self._coordinates(bodies[good], gaps, near[good])
-        self.coordinates[done] = found
+        if self.quick is None:
+            bodies, good, error, near = self._newton(at, share)
+            done = at[good]
+            _, _, gaps = self.joints.place(bodies[good])
+            self.coordinates[done] = self._coordinates(bodies[good], gaps, near[good])
+        else:
+            bodies, good, error = self.quick.newton(
+                self.bodies[at], self.rows[at], self._goals(at, share)
+            )
+            done = at[good]
+            self.coordinates[done] = self.quick.coordinates(bodies[good], self.coordinates[done])
         self.bodies.position[done] = bodies.position[good]
         self.bodies.rotation[done] = bodies.rotation[good]
         self.share[done], self.error[done] = share[good], self.length * error[good]
@@ -222,11 +262,23 @@ class Walk:
             return [np.concatenate([place - wanted, apart], axis=1)]
         turn = rotation_vector(bodies.rotation[:, self.tool_body])
         now = np.concatenate([place, turn], axis=1)[:, asked]
+        return [now - self._target(at, share)]
+
+    def _target(self, at: Indices, share: Array) -> Array:
+        """Directions of the tool at a share of the way, (k, t)."""
+        begin = self._begin(at)
+        return begin + share[:, None] * (self.given.task_values[at] - begin)
+
+    def _begin(self, at: Indices) -> Array:  # noqa: ARG002 - all begin at home
         start = self.given.start
-        home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])[
-            asked
-        ]
-        return [now - home - share[:, None] * (self.given.task_values[at] - home)]
+        home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])
+        return home[list(self.given.task)]
+
+    def _goals(self, at: Indices, share: Array) -> Goals:
+        asked = self._tool_directions
+        if self.given.tool is None:
+            return Goals(asked, self._target(at, share) if asked else None)
+        return Goals(asked, None, *self.given.pose(at, share))
 
     def _coordinates(self, bodies: BodyPoses, gaps: Array, near: Array) -> Array:
         """Joint coordinates, turns counted on from those nearby, (k, c)."""

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import Placement
-from strutwork.kinematics.tool_drive_space import ToolDriveSpace, tool_drive_space
-from strutwork.kinematics.transmission import velocity_ellipsoids
+from strutwork.kinematics.seen_motions import SeenMotions
+from strutwork.kinematics.tool_drive_space import tool_drive_space
+from strutwork.kinematics.transmission import amplifications, velocity_ellipsoids
 from strutwork.machines.model import Model
 from strutwork.msa import compliance_and_outcome
 
@@ -64,21 +65,22 @@ class AmplificationBound:
         _check_home(self, self.model)
 
     @cached_property
-    def _home(self) -> ToolDriveSpace:
-        return tool_drive_space(self.model.structure.linkage, self.model.placement)
+    def _motions(self) -> SeenMotions:
+        return SeenMotions.at(self.model.structure.linkage, self.model.placement)
 
     @cached_property
     def _used(self) -> int:
-        return velocity_ellipsoids(self._home).used
+        home = tool_drive_space(self.model.structure.linkage, self.model.placement)
+        return velocity_ellipsoids(home).used
+
+    @property
+    def length(self) -> float:
+        """L, m."""
+        return self._motions.length
 
     def of(self, placement: Placement) -> Array:
         """Least and largest amplification of poses, (p, 2), m/s for 1 m/s."""
-        home = self._home
-        space = tool_drive_space(
-            self.model.structure.linkage, placement, home.length, known=home.known
-        )
-        axes = velocity_ellipsoids(space).semi_axes
-        return np.stack([axes[:, self._used - 1], axes[:, 0]], axis=-1)
+        return amplifications(*self._motions.of(placement), self._used)
 
     def __call__(self, placement: Placement) -> dict[str, Array]:
         """Slacks as shares of the bounds."""

@@ -232,6 +232,8 @@ def workspace(
     grid = margin_grid(
         directions, values, margin, halvings=halvings, at_once=margin.follows, told=progress
     )
+    # what is asked of it later is no part of this grid
+    margin.told = None
     border, coarse = level_set(grid), grid.coarse()
     home = margin.home[[DIRECTIONS.index(d) for d in directions]]
     there = margin(home[None])

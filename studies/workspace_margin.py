@@ -224,7 +224,11 @@ class MachineMargin:
         fixed = {d: float(self.home[DIRECTIONS.index(d)]) for d in self.held}
         for d in self.directions:
             del fixed[d]
-        return Follower(self.model.motion, self.directions, fixed, self.step, self.told)
+        return Follower(self.model.motion, self.directions, fixed, self.step, self._tell)
+
+    def _tell(self, done: int, total: int) -> None:
+        if self.told is not None:
+            self.told(done, total)
 
     @cached_property
     def ranges(self) -> tuple[Limit, ...]:

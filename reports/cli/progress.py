@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 
-from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 from rich.progress import Progress as Bars
 
 from strutwork.names import visible
 from strutwork.reports.cli.output import progress_console
 from strutwork.stages import stage
-from strutwork.studies.progress import Lines, Progress
+from strutwork.studies.progress import INTERVAL, Lines, Progress
 
 
 @contextmanager
@@ -28,6 +35,38 @@ def shown(unit: str = "poses") -> Iterator[Callable[[str], Progress]]:
                 yield partial(_started, bars)
         else:
             yield partial(Lines, unit=unit)
+
+
+@contextmanager
+def counted(label: str, unit: str = "poses") -> Iterator[Callable[[int], None]]:
+    """Give a function that shows how far a search is whose end nobody knows.
+
+    `unit` is what is counted, in the plural.
+    """
+    with stage("", silent=True):
+        if not sys.stderr.isatty():
+            yield _Counting(f"{visible(label)}: ", unit)
+            return
+        columns = (TextColumn("{task.description}", markup=False), TimeElapsedColumn())
+        with Bars(*columns, console=progress_console(), transient=True) as bars:
+            task = bars.add_task(visible(label), total=None)
+            yield lambda done: bars.update(task, description=f"{visible(label)}: {done} {unit}")
+
+
+class _Counting:
+    """A line now and then of what was done so far."""
+
+    def __init__(self, label: str, unit: str) -> None:
+        self.label, self.unit = label, unit
+        self.begun = time.monotonic()
+        self.due = self.begun + INTERVAL
+
+    def __call__(self, done: int) -> None:
+        now = time.monotonic()
+        if now >= self.due:
+            self.due = now + INTERVAL
+            sys.stderr.write(f"{self.label}{done} {self.unit}, {now - self.begun:.0f} s so far\n")
+            sys.stderr.flush()
 
 
 def _bars() -> Bars:

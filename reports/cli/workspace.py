@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
@@ -15,16 +15,17 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.inscribed_shape import InscribedShape
 from strutwork.kinematics.largest_shape import LargestShape, largest_shape
+from strutwork.kinematics.margin_grid import MarginFunction
+from strutwork.kinematics.margins import Margins
 from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import at_pose
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table
-from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.progress import counted, shown
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words
-from strutwork.reports.numbers import count as counted
-from strutwork.stages import stage
+from strutwork.reports.numbers import count
 from strutwork.studies.margin_bounds import AmplificationBound, Bound, StiffnessBound
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_files import write_workspace
@@ -78,12 +79,6 @@ def run(
     target: str, over: Sequence[str], asked: Asked, wanted: Wanted, out: str | None, *, json: bool
 ) -> None:
     """Find the workspace of a machine and print what it is."""
-    if wanted.kind is not None and (asked.amplification or asked.stiffness):
-        raise ModelError(
-            "--largest",
-            "is not sought under --amplification or --stiffness: it would solve too many poses.",
-            "Leave one of them out; in Python strutwork.kinematics.largest_shape takes any bound.",
-        )
     model = load(target)
     axes, put = _axes(target, model, over)
     model = at_pose(model, put)
@@ -103,8 +98,8 @@ def run(
         found = workspace(margin, axes, progress=started(f"workspace of {visible(target)}"))
     inside = None
     if shape is not None:
-        with stage(f"seeks the largest {shape.kind}"):
-            inside = _largest(found, margin, shape, wanted)
+        with counted(f"largest {shape.kind} in the workspace of {visible(target)}") as tell:
+            inside = _largest(found, _told(margin, tell), shape, wanted)
     result = _result(target, found, margin, inside)
     if out is not None:
         stem = f"{Path(target).stem.replace(':', '-')}-workspace"
@@ -207,8 +202,22 @@ def _shape(wanted: Wanted, axes: Mapping[str, Array]) -> InscribedShape | None:
     return InscribedShape(wanted.kind, 0.5 * parts)
 
 
+def _told(margin: MarginFunction, tell: Callable[[int], None]) -> MarginFunction:
+    """The same margin, which tells how many poses it was asked."""
+    asked = 0
+
+    def margins(points: Array) -> Margins:
+        nonlocal asked
+        result = margin(points)
+        asked += len(points)
+        tell(asked)
+        return result
+
+    return margins
+
+
 def _largest(
-    found: Workspace, margin: MachineMargin, shape: InscribedShape, wanted: Wanted
+    found: Workspace, margin: MarginFunction, shape: InscribedShape, wanted: Wanted
 ) -> LargestShape:
     centre = None
     if wanted.around is not None:
@@ -319,7 +328,7 @@ def _print(result: Mapping[str, Any]) -> None:
     if result["interference"] is not None:
         safe = result["interference"]
         out.print(
-            f"Interference: {_counted(safe)}, {counted(safe['pairs'], 'pair')} that may collide; "
+            f"Interference: {_counted(safe)}, {count(safe['pairs'], 'pair')} that may collide; "
             "solids are looked at where they have [[shapes]]",
             markup=False,
             soft_wrap=True,
@@ -351,7 +360,7 @@ def _print(result: Mapping[str, Any]) -> None:
 def _counted(safe: Mapping[str, int]) -> str:
     """Capsules and meshes that are there, in words."""
     kinds = ((safe["capsules"], "capsule", "capsules"), (safe["shapes"], "mesh", "meshes"))
-    return " and ".join(counted(n, one, many) for n, one, many in kinds if n)
+    return " and ".join(count(n, one, many) for n, one, many in kinds if n)
 
 
 def _what(unit: str) -> str:

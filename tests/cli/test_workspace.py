@@ -114,3 +114,13 @@ def test_shapes_of_a_file_are_looked_at(strutwork: Program, tmp_path: Path) -> N
     assert found["interference"] == {"capsules": 1, "shapes": 1, "pairs": 1}
     assert "interference of arm and post" in found["border"]
     assert "Interference: 1 capsule and 1 mesh, 1 pair that may collide" in strutwork(*ask).out
+
+
+def test_the_largest_box_that_keeps_an_amplification(strutwork: Program) -> None:
+    ask = ("workspace", "proposed-3pprs", *OVER, "--largest", "box", "--around", "x=0mm,y=0mm")
+    free, fast = (
+        strutwork(*ask, *bound, "--json").result["largest"]
+        for bound in ((), ("--amplification", "0.9"))
+    )
+    assert 0.0 < fast["measure"] < free["measure"]
+    assert fast["reason"] == "largest velocity amplification, 0.9"

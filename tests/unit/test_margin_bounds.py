@@ -29,7 +29,7 @@ def arm() -> Model:
 
 def closed_form(model: Model) -> tuple[float, float]:
     """Amplifications of the arm at home, joints of L rad/s: those of [-b, -b; a, 0]/L."""
-    length = AmplificationBound(model, 0.0, np.inf)._home.length
+    length = AmplificationBound(model, 0.0, np.inf).length
     jacobian = np.array([[-SECOND, -SECOND], [FIRST, 0.0]]) / length
     values = np.linalg.svd(jacobian, compute_uv=False)
     return float(values[-1]), float(values[0])
