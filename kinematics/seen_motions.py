@@ -143,7 +143,7 @@ class SeenMotions:
     @cached_property
     def _systems(self) -> tuple[Any, Any, tuple[Array, ...]] | None:
         """The linkage as arrays, the same of its drives, and what is solved for; None without."""
-        if not compiled() or any(joint.lead for joint in self.linkage.joints):
+        if not compiled() or self.linkage.ties:
             return None
         from strutwork.kinematics.row_kernel import row_system  # noqa: PLC0415 - numba is slow to import
 

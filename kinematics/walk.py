@@ -55,6 +55,17 @@ class Walk:
     #: Poses from which on compiled steps are worth their load time.
     few = 64
 
+    length: float
+    joint: Indices
+    direction: Indices
+    asked: NDArray[np.bool_]
+    order: Indices
+    held_rows: int
+    late: Indices
+    kept: Indices
+    independent: bool
+    spins: Spins | None
+
     def __init__(
         self,
         joints: JointMotion,
@@ -267,7 +278,7 @@ class Walk:
     def _target(self, at: Indices, share: Array) -> Array:
         """Directions of the tool at a share of the way, (k, t)."""
         begin = self._begin(at)
-        return begin + share[:, None] * (self.given.task_values[at] - begin)
+        return np.asarray(begin + share[:, None] * (self.given.task_values[at] - begin))
 
     def _begin(self, at: Indices) -> Array:  # noqa: ARG002 - all begin at home
         start = self.given.start
