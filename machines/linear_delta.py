@@ -264,7 +264,8 @@ class LinearDelta:
         for k, i in enumerate(LEGS):
             rail = np.broadcast_to(axes_frame([0.0, 0.0, 1.0], OUTWARD[k]), (*tool.shape, 3))
             yoke = self._yoke(line[..., k, :], TANGENT[k])
-            ball = np.broadcast_to(np.eye(3), rail.shape)
+            # z along the rod, so that its length is a direction of its ball
+            ball = axes_frame(line[..., k, :], TANGENT[k])
             positions |= {leg(i, part): carriage[..., k, :] for part in ("rail", "carriage")}
             frames.append(rail)
             values.append(carriage[..., k, 2])
