@@ -113,7 +113,7 @@ def best_reach(rod: float, machine: LinearDelta | None = None) -> BestReach:
     limit = (1.0 + FLAT) * found.fun
 
     def over(reach: float) -> float:
-        return worst(reach) - limit
+        return float(worst(reach) - limit)
 
     low, high = (brentq(over, end, found.x, xtol=1e-6) for end in (0.3 * rod, most))
     return BestReach(rod, float(found.x), float(found.fun), float(low), float(high))
@@ -137,7 +137,7 @@ def turn_by_difference(machine: LinearDelta, places: ArrayLike) -> Array:
     """
     gain = rod_gain(machine, places)[..., 3:, :]
     halves = 0.5 * (gain[..., 1::2] - gain[..., ::2])
-    return machine.rod_spacing * np.linalg.norm(halves, axis=-2)
+    return np.asarray(machine.rod_spacing * np.linalg.norm(halves, axis=-2))
 
 
 def worst_turn(machine: LinearDelta, places: ArrayLike) -> Array:

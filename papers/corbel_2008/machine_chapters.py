@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees
 
+from strutwork.machines.catalogue import Machine
 from strutwork.machines.gough_platform import GoughPlatform
 from strutwork.machines.linear_delta import LinearDelta
 from strutwork.machines.load import machine_model
@@ -84,7 +85,7 @@ def _row(value: PublishedValue, ours: float, status: Status, note: str) -> Publi
 
 def drawings_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:
     """The machines at home."""
-    made = {DELTA: LinearDelta(), PLATFORM: GoughPlatform()}
+    made: dict[str, Machine] = {DELTA: LinearDelta(), PLATFORM: GoughPlatform()}
     figures, files = [], []
     for name in names:
         machine = made[name]

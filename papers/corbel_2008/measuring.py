@@ -33,7 +33,7 @@ def workspace(machine: GoughPlatform, steps: int = STEPS) -> Array:
     half = machine.workspace_side / 2.0
     line = np.linspace(-half, half, steps)
     level = np.array([0.0, 0.0, machine.plate_height])
-    return np.array(list(product(line, repeat=3))) + level
+    return np.asarray(np.array(list(product(line, repeat=3))) + level)
 
 
 def corners(box: tuple[tuple[float, float], ...] = BOX) -> Array:
