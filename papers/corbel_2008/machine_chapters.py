@@ -197,6 +197,14 @@ def assumptions_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:
                 ),
                 "ours; the document has a ball there as well, whose spin measures nothing",
             ),
+            (
+                "platform: lengths of the legs",
+                "measured",
+                (
+                    "they stand where another machine has drives: forces of drives and stiffness "
+                    "are those of legs that are clamped, while the device itself follows freely"
+                ),
+            ),
             ("platform: mass of the plate", f"{platform.plate_mass:g} kg", _OURS),
         ),
     }

@@ -84,14 +84,20 @@ def resolution_chapter(study: MeasuringStudy) -> Chapter:
             Row(
                 (
                     _map(
-                        ("platform-plate", "The plate: radius and angle of its pairs."),
+                        (
+                            "platform-plate",
+                            "The plate's radius and pairs; marked as printed.",
+                        ),
                         (study.radii, study.pairs, study.by_plate),
                         ("r_TP (mm)", "α_TP (deg)"),
                         (machine.plate_radius, machine.plate_pair),
                         PLATE,
                     ),
                     _map(
-                        ("platform-base", "The base. Blank: beyond the legs' range."),
+                        (
+                            "platform-base",
+                            "The base's; blank beyond the legs' range.",
+                        ),
                         (study.base_radii, study.base_pairs, study.by_base),
                         ("r_b (mm)", "α_b (deg)"),
                         (machine.base_radius, machine.base_pair),
