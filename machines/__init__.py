@@ -14,8 +14,10 @@ from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.eclipse_machine import EclipseMachine
 from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
+from strutwork.machines.gough_platform import GoughPlatform
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit, check_limits, joint_limits
+from strutwork.machines.linear_delta import LinearDelta
 from strutwork.machines.literature import Paper
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.pose_grid import GridMachine, PoseGrid
@@ -42,9 +44,11 @@ __all__ = [
     "EclipseMachine",
     "EclipsePrototype",
     "Glozman3PRRS",
+    "GoughPlatform",
     "GridMachine",
     "HexelHexapod",
     "Limit",
+    "LinearDelta",
     "Machine",
     "MitSS1",
     "NamedMachine",

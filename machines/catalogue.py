@@ -15,9 +15,11 @@ from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.eclipse_machine import EclipseMachine
 from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
+from strutwork.machines.gough_platform import GoughPlatform
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit
-from strutwork.machines.literature import AZULAY_2014, KIM_2001, SON_2002, Paper
+from strutwork.machines.linear_delta import LinearDelta
+from strutwork.machines.literature import AZULAY_2014, CORBEL_2008, KIM_2001, SON_2002, Paper
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
@@ -83,6 +85,12 @@ _COMPARED = "strutwork.papers.azulay_2014.machine_page:machine_chapters"
 
 #: Upright poses about home: within the ring on which these machines are singular.
 _UPRIGHT: Mapping[str, tuple[float, int]] = {"x": (0.02, 5), "y": (0.02, 5), "z": (0.01, 3)}
+
+#: What compares the two machines of one document with it.
+_CORBEL = "strutwork.papers.corbel_2008.pages:machine_chapters"
+
+#: Their cube of 300 mm.
+_CUBE: Mapping[str, tuple[float, int]] = {"x": (0.15, 7), "y": (0.15, 7), "z": (0.15, 3)}
 
 _ENTRIES = (
     CatalogueEntry(
@@ -167,6 +175,24 @@ _ENTRIES = (
         EclipseMachine,
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home={"x": (0.1, 5), "y": (0.1, 5), "z": (0.05, 3)},
+    ),
+    CatalogueEntry(
+        "linear-delta",
+        "Linear Delta",
+        "[P along the rail] (U S)₂",
+        CORBEL_2008,
+        LinearDelta,
+        _CORBEL,
+        around_home=_CUBE,
+    ),
+    CatalogueEntry(
+        "gough-platform",
+        "Gough measuring platform",
+        "U P S, six lengths measured",
+        CORBEL_2008,
+        GoughPlatform,
+        _CORBEL,
+        around_home=_CUBE,
     ),
 )
 

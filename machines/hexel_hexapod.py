@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import radians
@@ -12,19 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
-from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, rotation_x
-from strutwork.kinematics.frames import cross, dot, frame, gathered, turned
+from strutwork.kinematics import Poses, rotation_x
 from strutwork.machines.dimensions import check_proportions
-from strutwork.machines.legs import square_root
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.machines.pose_grid import PoseGrid
+from strutwork.machines.six_legs import LEGS, TOOL, SixLegs, foot, leg, seat
 from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
-
-TOOL = "tool"
-PLATFORM = "platform"
-LEGS = (1, 2, 3, 4, 5, 6)
 
 #: Height of the tool tip over the work table in sections 2.2 and 6.2, m.
 LEVEL = 0.4
@@ -34,23 +29,8 @@ REACH, TILT = 0.1, radians(35.0)
 MAP_REACH, MAP_TILT = 0.2, radians(40.0)
 
 
-def foot(i: int) -> str:
-    """Node of the fixed platform where a leg hangs."""
-    return f"base{i}"
-
-
-def seat(i: int) -> str:
-    """Node of the moving platform in the middle of a leg's ball."""
-    return f"{PLATFORM}/P{i}"
-
-
-def leg(i: int, part: str) -> str:
-    """Node of a leg, "head", "slide", "rod" or "end"; name of its "universal", "ram" or "ball"."""
-    return f"leg{i}/{part}"
-
-
 @dataclass(frozen=True, kw_only=True)
-class HexelHexapod:
+class HexelHexapod(SixLegs):
     """Universal joint, driven prismatic joint and ball in each of six legs; the tool hangs.
 
     The fixed platform is a hexagon of equal angles whose sides are w and d in turn, in the
@@ -110,32 +90,13 @@ class HexelHexapod:
                 "Raise the fixed platform, or lower the platform's joints.",
             )
 
-    @cached_property
-    def linkage(self) -> Linkage:
-        """Ground, platform, and a cylinder and a rod a leg."""
-        axial = {} if self.leg_stiffness is None else {"z": self.leg_stiffness}
-        bodies = (
-            Body(GROUND, tuple(foot(i) for i in LEGS)),
-            Body(PLATFORM, (TOOL, *(seat(i) for i in LEGS))),
-            *(Body(f"cylinder{i}", (leg(i, "head"), leg(i, "slide"))) for i in LEGS),
-            *(Body(f"rod{i}", (leg(i, "rod"), leg(i, "end"))) for i in LEGS),
-        )
-        joints = [
-            joint
-            for i in LEGS
-            for joint in (
-                Joint(leg(i, "universal"), "universal", (foot(i), leg(i, "head"))),
-                Joint(
-                    leg(i, "ram"),
-                    "prismatic",
-                    (leg(i, "slide"), leg(i, "rod")),
-                    axial,
-                    driven=("z",),
-                ),
-                Joint(leg(i, "ball"), "spherical", (leg(i, "end"), seat(i))),
-            )
-        ]
-        return Linkage(tuple(n for b in bodies for n in b.nodes), bodies, tuple(joints), TOOL)
+    #: The tool hangs.
+    side = -1.0
+
+    @property
+    def ram_stiffness(self) -> Mapping[str, float]:
+        """Along the leg."""
+        return {} if self.leg_stiffness is None else {"z": self.leg_stiffness}
 
     @cached_property
     def structure(self) -> Structure:
@@ -190,73 +151,3 @@ class HexelHexapod:
             *((seat(i), seat(j)) for i, j in ((1, 3), (3, 5), (5, 1))),
             *((seat(i), TOOL) for i in (1, 3, 5)),
         )
-
-    def place(self, poses: Poses) -> Placement:
-        """Inverse kinematics: lengths and directions of the legs, batch first.
-
-        Analytic in the pose, which may carry a complex step.
-
-        Returns
-        -------
-        Placement
-            Values: of each leg the swing of its universal joint about the base's tangent and
-            then across it, rad, and its length, m. Poses whose joint centres are not below the
-            fixed platform are marked; their positions are finite and without meaning.
-        """
-        ends = poses.position[..., None, :] + turned(poses.rotation, self.seats)
-        span = ends - self.feet
-        above = span[..., 2].real >= 0.0
-        length, _ = square_root(dot(span, span), 1.0)
-        down = np.array([0.0, 0.0, -1.0])
-        line = np.where(above[..., None], down, span / length[..., None])
-        tangent, inward = self._tangent, self._inward
-        drop, aside = -line[..., 2], dot(line, inward)
-        swing = angle(aside, drop)
-        sway = angle(dot(line, tangent), np.sqrt(drop * drop + aside * aside))
-        ball = np.broadcast_to(np.eye(3), (*span.shape[:-1], 3, 3))
-        yoke, ram = self._frames(line)
-        frames = [part[..., k, :, :] for k in range(len(LEGS)) for part in (yoke, ram, ball)]
-        middle = self.feet + 0.5 * span
-        positions = {TOOL: poses.position}
-        for k, i in enumerate(LEGS):
-            top = np.broadcast_to(self.feet[k], poses.position.shape)
-            positions |= {foot(i): top, leg(i, "head"): top}
-            positions |= {seat(i): ends[..., k, :], leg(i, "end"): ends[..., k, :]}
-            positions |= {leg(i, part): middle[..., k, :] for part in ("slide", "rod")}
-        names = [
-            pair
-            for i in LEGS
-            for pair in (
-                (leg(i, "universal"), "rx"),
-                (leg(i, "universal"), "rz"),
-                (leg(i, "ram"), "z"),
-            )
-        ]
-        values = [part[..., k] for k in range(len(LEGS)) for part in (swing, sway, length)]
-        return Placement(
-            gathered([positions[n] for n in self.linkage.nodes], 1),
-            gathered(frames, 2),
-            gathered(values, 0),
-            tuple(names),
-            np.where(above.any(axis=-1), above.argmax(axis=-1) + 1, 0).astype(np.int8),
-            tuple(f"leg {i}: its joint on the platform is not below the fixed one" for i in LEGS),
-        )
-
-    @cached_property
-    def _inward(self) -> Array:
-        """From each foot towards the machine's axis, (6, 3)."""
-        level = self.feet * np.array([1.0, 1.0, 0.0])
-        return np.asarray(-level / np.linalg.norm(level, axis=-1, keepdims=True))
-
-    @cached_property
-    def _tangent(self) -> Array:
-        """First axis of the universal joints, level and across `_inward`, (6, 3)."""
-        return np.cross(np.array([0.0, 0.0, 1.0]), self._inward)
-
-    def _frames(self, line: Array) -> tuple[Array, Array]:
-        """Axes of universal and prismatic joints, (..., 6, 3, 3); `line` points down the leg."""
-        first = np.broadcast_to(self._tangent, line.shape)
-        second = cross(first, line)
-        second = second / np.sqrt(dot(second, second))[..., None]
-        yoke = frame(first, cross(second, first), second)
-        return yoke, frame(second, cross(line, second), line)

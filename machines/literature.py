@@ -46,3 +46,11 @@ KIM_2001 = Paper(
     "on Robotics and Automation 17 (2001).",
     "strutwork.papers.kim_2001.pages:paper_chapters",
 )
+
+CORBEL_2008 = Paper(
+    "corbel-2008",
+    "D. Corbel, O. Company, F. Pierrot: Optimal design of a 6-dof parallel measurement mechanism "
+    "integrated in a 3-dof parallel machine-tool. IEEE/RSJ International Conference on Intelligent "
+    "Robots and Systems (2008).",
+    "strutwork.papers.corbel_2008.pages:paper_chapters",
+)

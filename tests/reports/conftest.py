@@ -116,8 +116,16 @@ def hexapod_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
     return write_report("hexel-hexapod", tmp_path_factory.mktemp("hexapod"))
 
 
+@pytest.fixture(scope="session")
+def document_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
+    return write_report("corbel-2008", tmp_path_factory.mktemp("document"))
+
+
 @pytest.fixture(
-    params=["machine", "comparison", "prototype", "model", "planar", "hexapod", "tolerance"]
+    params=[
+        *("machine", "comparison", "prototype", "model", "planar", "hexapod", "tolerance"),
+        "document",
+    ]
 )
 def any_report(request: pytest.FixtureRequest) -> WrittenReport:
     """Each kind of report in turn."""

@@ -29,7 +29,7 @@ def sizes(machine: Any) -> list[str]:
         for f in fields(machine)
         if isinstance(getattr(machine, f.name), float)
         and not any(word in f.name for word in ("stiffness", "mass", "inertia", "factor"))
-        and not any(word in f.name for word in ("ball", "preload"))
+        and not any(word in f.name for word in ("ball", "preload", "_pair", "_turn"))
         and f.name not in NO_SIZE
     ]
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import Placement
 from strutwork.machines import HexelHexapod
-from strutwork.machines.hexel_hexapod import LEGS, TOOL, foot, leg, seat
+from strutwork.machines.six_legs import LEGS, TOOL, foot, leg, seat
 from strutwork.reports.figures.shapes import ball, cylinder, mesh, plate
 from strutwork.reports.figures.solid import (
     DrawnJoint,
