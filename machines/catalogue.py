@@ -11,13 +11,14 @@ from typing import Protocol
 from strutwork.errors import ModelError
 from strutwork.kinematics import Mechanism
 from strutwork.machines.alizade_3prps import Alizade3PRPS
+from strutwork.machines.biglide import Biglide
 from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.eclipse_machine import EclipseMachine
 from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit
-from strutwork.machines.literature import AZULAY_2014, KIM_2001, SON_2002, Paper
+from strutwork.machines.literature import AZULAY_2014, CHABLAT_2003, KIM_2001, SON_2002, Paper
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
@@ -167,6 +168,15 @@ _ENTRIES = (
         EclipseMachine,
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home={"x": (0.1, 5), "y": (0.1, 5), "z": (0.05, 3)},
+    ),
+    CatalogueEntry(
+        "biglide",
+        "Biglide, two legs in a plane",
+        "planar, [P] parallelogram",
+        CHABLAT_2003,
+        Biglide,
+        "strutwork.papers.chablat_2003.pages:machine_chapters",
+        around_home={"x": (0.5, 11), "y": (0.5, 11)},
     ),
 )
 

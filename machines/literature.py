@@ -46,3 +46,10 @@ KIM_2001 = Paper(
     "on Robotics and Automation 17 (2001).",
     "strutwork.papers.kim_2001.pages:paper_chapters",
 )
+
+CHABLAT_2003 = Paper(
+    "chablat-2003",
+    "D. Chablat, P. Wenger, F. Majou: The optimal design of three degree-of-freedom parallel "
+    "mechanisms for machining applications. International Conference on Advanced Robotics (2003).",
+    "strutwork.papers.chablat_2003.pages:paper_chapters",
+)

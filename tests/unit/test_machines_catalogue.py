@@ -22,6 +22,7 @@ def test_every_entry_makes_its_machine() -> None:
         "hexel-hexapod",
         "eclipse-prototype",
         "eclipse-machine",
+        "biglide",
     ]
     for name, entry in CATALOGUE.items():
         machine = entry.factory()
@@ -30,6 +31,7 @@ def test_every_entry_makes_its_machine() -> None:
         assert machine.place(machine.home()).reachable
         documents = {"mit-ss1": "son-2002", "hexel-hexapod": "son-2002"}
         documents |= {"eclipse-prototype": "kim-2001", "eclipse-machine": "kim-2001"}
+        documents |= {"biglide": "chablat-2003"}
         assert entry.paper.key == documents.get(name, "azulay-2014")
 
 

@@ -20,7 +20,7 @@ NAMING = {"machines", "papers"}
 
 #: Of machines and authors, as they stand in a name or a text.
 NAMES = re.compile(
-    r"eclipse|mit[-_ ]?ss|hexel|hexapod|pprs|prps|prrs|alizade|glozman|azulay|chablat"
+    r"eclipse|mit[-_ ]?ss|hexel|hexapod|pprs|prps|prrs|alizade|glozman|azulay|biglide|chablat"
     r"|(?<![a-z])(?:son|kim|mit|proposed|prototype)(?![a-z])"
 )
 
