@@ -8,6 +8,8 @@ from strutwork.machines.azulay_dynamic import (
     VibratingLegs,
     dynamic_machine,
 )
+from strutwork.machines.biglide import Biglide
+from strutwork.machines.biglide_third_leg import BiglideThirdLeg
 from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from strutwork.machines.check_points import hemisphere_normals, hemisphere_poses, roll_angles
 from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
@@ -38,6 +40,8 @@ __all__ = [
     "CATALOGUE",
     "DYNAMIC_SETS",
     "Alizade3PRPS",
+    "Biglide",
+    "BiglideThirdLeg",
     "CatalogueEntry",
     "DynamicSet",
     "Eclipse3PPRS",

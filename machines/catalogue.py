@@ -11,6 +11,7 @@ from typing import Protocol
 from strutwork.errors import ModelError
 from strutwork.kinematics import Mechanism
 from strutwork.machines.alizade_3prps import Alizade3PRPS
+from strutwork.machines.biglide import Biglide
 from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.eclipse_machine import EclipseMachine
 from strutwork.machines.eclipse_prototype import EclipsePrototype
@@ -19,7 +20,14 @@ from strutwork.machines.gough_platform import GoughPlatform
 from strutwork.machines.hexel_hexapod import HexelHexapod
 from strutwork.machines.limits import Limit
 from strutwork.machines.linear_delta import LinearDelta
-from strutwork.machines.literature import AZULAY_2014, CORBEL_2008, KIM_2001, SON_2002, Paper
+from strutwork.machines.literature import (
+    AZULAY_2014,
+    CHABLAT_2003,
+    CORBEL_2008,
+    KIM_2001,
+    SON_2002,
+    Paper,
+)
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
@@ -193,6 +201,15 @@ _ENTRIES = (
         GoughPlatform,
         _CORBEL,
         around_home=_CUBE,
+    ),
+    CatalogueEntry(
+        "biglide",
+        "Biglide, two legs in a plane",
+        "planar, [P] parallelogram",
+        CHABLAT_2003,
+        Biglide,
+        "strutwork.papers.chablat_2003.pages:machine_chapters",
+        around_home={"x": (0.5, 11), "y": (0.5, 11)},
     ),
 )
 

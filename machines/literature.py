@@ -54,3 +54,10 @@ CORBEL_2008 = Paper(
     "Robots and Systems (2008).",
     "strutwork.papers.corbel_2008.pages:paper_chapters",
 )
+
+CHABLAT_2003 = Paper(
+    "chablat-2003",
+    "D. Chablat, P. Wenger, F. Majou: The optimal design of three degree-of-freedom parallel "
+    "mechanisms for machining applications. International Conference on Advanced Robotics (2003).",
+    "strutwork.papers.chablat_2003.pages:paper_chapters",
+)

@@ -38,7 +38,7 @@ def load(name: str | Path) -> Model:
     text = str(name)
     if is_machine(text):
         found = named_machine(text)
-        return machine_model(found.machine, found.title, found.entry.around_home)
+        return machine_model(found.machine, found.title, found.around_home)
     path = Path(text)
     if path.suffix != ".toml" and path.name == text and not os.path.lexists(path):
         raise ModelError(
@@ -61,7 +61,7 @@ def load_heavy(name: str | Path) -> Model:
     if not is_machine(text):
         return load(text)
     found = require_mass(named_machine(text))
-    return machine_model(found.machine, found.title, found.entry.around_home)
+    return machine_model(found.machine, found.title, found.around_home)
 
 
 def machine_model(

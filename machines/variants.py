@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
+from math import radians
 from types import MappingProxyType
 from typing import cast, get_args
 
 from strutwork.errors import ModelError
 from strutwork.machines.azulay_dynamic import DYNAMIC_SETS, DynamicSet, dynamic_machine
+from strutwork.machines.biglide import Biglide
+from strutwork.machines.biglide_third_leg import BiglideThirdLeg
 from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from strutwork.machines.eclipse_prototype import EclipsePrototype
 from strutwork.machines.three_legs import ThreeLegs
@@ -39,11 +42,18 @@ class Variant:
         What sets it apart from the others.
     factory : callable
         Makes the machine.
+    around_home : mapping of direction to (float, int), optional
+        As its entry's, where it moves in other directions.
+    report : str
+        As its entry's, where this model has a report of its own; empty where it is shown beside
+        the others.
     """
 
     name: str
     description: str
     factory: Callable[[], Machine]
+    around_home: Mapping[str, tuple[float, int]] | None = None
+    report: str = ""
 
 
 @dataclass(frozen=True)
@@ -82,6 +92,12 @@ class NamedMachine:
             else self.entry.title
         )
 
+    @property
+    def around_home(self) -> Mapping[str, tuple[float, int]]:
+        """What its maps and report look over."""
+        own = self.variant.around_home
+        return self.entry.around_home if own is None else own
+
 
 def variants(name: str) -> Mapping[str, Variant]:
     """The models of a machine of the catalogue by their names, its own first.
@@ -100,6 +116,8 @@ def variants(name: str) -> Mapping[str, Variant]:
                 for which, words in _EXTRA_DRIVES.items()
             }
         )
+    if isinstance(made, Biglide):
+        return _biglides(entry)
     if not isinstance(made, ThreeLegs):
         return MappingProxyType({"own": Variant("own", "its only model", entry.factory)})
     legs: ThreeLegs = made
@@ -115,6 +133,21 @@ def variants(name: str) -> Mapping[str, Variant]:
     found += [
         Variant(which, DYNAMIC_SETS[which], _dynamic(name, which)) for which in get_args(DynamicSet)
     ]
+    return MappingProxyType({v.name: v for v in found})
+
+
+def _biglides(entry: CatalogueEntry) -> Mapping[str, Variant]:
+    turning = {**entry.around_home, "ry": (radians(60.0), 7)}
+    found = (
+        Variant("plane", "two drives, the tool does not turn", entry.factory),
+        Variant(
+            "third-leg",
+            "a third drive across the plane turns the tool",
+            BiglideThirdLeg,
+            MappingProxyType(turning),
+            entry.report,
+        ),
+    )
     return MappingProxyType({v.name: v for v in found})
 
 

@@ -66,8 +66,8 @@ def write_report(
     Parameters
     ----------
     target : str
-        A machine of the catalogue, the key of a paper that has a page of its own, or the path of
-        a model file.
+        A machine of the catalogue, or a model of it that has a report of its own, the key of a
+        paper that has a page of its own, or the path of a model file.
     folder : Path
         Made when missing. An earlier report in it is replaced, all of it; other files stay.
     progress : callable, optional
@@ -137,7 +137,7 @@ def compose(
         A model that cannot be solved.
     """
     from strutwork.machines.catalogue import CATALOGUE
-    from strutwork.machines.variants import MARK, is_machine
+    from strutwork.machines.variants import MARK, is_machine, named_machine
 
     pages = paper_pages()
     subject: Subject | None = None
@@ -147,13 +147,13 @@ def compose(
                 target, "is a comparison, which has no pose of its own.", "Name a machine."
             )
         title, subtitle, chapters = _paper(pages[target], progress)
-    elif is_machine(target) and MARK in target:
+    elif is_machine(target) and MARK in target and not named_machine(target).variant.report:
         raise ModelError(
             f"report {target}",
             "names one model, and a machine's report shows all of them beside each other.",
             f"Leave the variant out: {target.partition(MARK)[0]}.",
         )
-    elif target in CATALOGUE:
+    elif is_machine(target):
         title, subtitle, chapters, subject = _machine(target, progress, put)
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_report
@@ -188,14 +188,14 @@ def _machine(
     name: str, progress: Teller | None, put: Callable[[Model], Model] | None
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """What every machine has, then what its document adds: of one name, the document's."""
-    from strutwork.machines.catalogue import CATALOGUE
     from strutwork.machines.load import load
     from strutwork.machines.paper_reference import resolve
+    from strutwork.machines.variants import named_machine
     from strutwork.reports.composed import chapters_beside, report_of
 
-    model, entry = load(name), CATALOGUE[name]
+    model, found = load(name), named_machine(name)
     subject = Subject(model if put is None else put(model), name, name, progress)
     if put is not None:
-        return subject.title, entry.topology, report_of(subject), subject
-    title, subtitle, own = resolve(entry.report)(name, progress)
+        return subject.title, found.entry.topology, report_of(subject), subject
+    title, subtitle, own = resolve(found.variant.report or found.entry.report)(name, progress)
     return title, subtitle, chapters_beside(own, subject), subject

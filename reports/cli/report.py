@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from strutwork.machines.variants import MARK
 from strutwork.names import visible
 from strutwork.reports.build import write_report
 from strutwork.reports.cli.output import console, print_json, tell
@@ -14,7 +15,7 @@ from strutwork.reports.manifest import verify_report
 
 def run(target: str, out: str | None, json: bool, at: Where = HOME) -> None:
     """Write the report and say where it lies."""
-    folder = Path(out) if out is not None else Path("out") / Path(target).stem
+    folder = Path(out) if out is not None else Path("out") / Path(target).stem.replace(MARK, "-")
     with shown("steps") as started:
         written = write_report(target, folder, started, None if at.home else at.put)
     if json:

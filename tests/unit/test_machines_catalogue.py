@@ -24,6 +24,7 @@ def test_every_entry_makes_its_machine() -> None:
         "eclipse-machine",
         "linear-delta",
         "gough-platform",
+        "biglide",
     ]
     for name, entry in CATALOGUE.items():
         machine = entry.factory()
@@ -33,6 +34,7 @@ def test_every_entry_makes_its_machine() -> None:
         documents = {"mit-ss1": "son-2002", "hexel-hexapod": "son-2002"}
         documents |= {"eclipse-prototype": "kim-2001", "eclipse-machine": "kim-2001"}
         documents |= {"linear-delta": "corbel-2008", "gough-platform": "corbel-2008"}
+        documents |= {"biglide": "chablat-2003"}
         assert entry.paper.key == documents.get(name, "azulay-2014")
 
 

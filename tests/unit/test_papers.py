@@ -21,8 +21,8 @@ NAMING = {"machines", "papers"}
 #: Of machines and authors, as they stand in a name or a text; `strutwork new` lists kinds of
 #: machines, one of which is called as its member here.
 NAMES = re.compile(
-    r"eclipse|mit[-_ ]?ss|hexel|hexapod|pprs|prps|prrs|alizade|glozman|azulay|chablat|corbel"
-    r"|linear[-_ ]?delta(?!, gantry)|gough"
+    r"eclipse|mit[-_ ]?ss|hexel|hexapod|pprs|prps|prrs|alizade|glozman|azulay|biglide|chablat"
+    r"|corbel|linear[-_ ]?delta(?!, gantry)|gough"
     r"|(?<![a-z])(?:son|kim|mit|proposed|prototype)(?![a-z])"
 )
 

@@ -1,0 +1,1 @@
+"""Chablat, Wenger and Majou 2003: what the document prints beside what its machines give here."""
