@@ -12,6 +12,7 @@ from strutwork.errors import ModelError
 from strutwork.machines.azulay_dynamic import DYNAMIC_SETS, DynamicSet, dynamic_machine
 from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from strutwork.machines.eclipse_prototype import EclipsePrototype
+from strutwork.machines.serial_five_axis import SerialFiveAxis
 from strutwork.machines.three_legs import ThreeLegs
 
 #: Between a machine's name and its variant's.
@@ -24,6 +25,14 @@ _EXTRA_DRIVES: Mapping[str, str] = MappingProxyType(
         "7a": "the hinge of leg 1 is driven as well",
         "7b": "the hinge of leg 2 is driven as well",
         "8": "the hinges of legs 1 and 2 are driven as well",
+    }
+)
+
+#: Heads of the serial machine.
+_HEADS: Mapping[str, str] = MappingProxyType(
+    {
+        "ac": "rotary axes C, then A: the vertical type, singular with the tool upright",
+        "ab": "rotary axes A, then B: the horizontal type, singular at b = ±90°",
     }
 )
 
@@ -98,6 +107,13 @@ def variants(name: str) -> Mapping[str, Variant]:
             {
                 which: Variant(which, words, partial(entry.factory, drives=which))
                 for which, words in _EXTRA_DRIVES.items()
+            }
+        )
+    if isinstance(made, SerialFiveAxis):
+        return MappingProxyType(
+            {
+                which: Variant(which, words, partial(entry.factory, axes=which))
+                for which, words in _HEADS.items()
             }
         )
     if not isinstance(made, ThreeLegs):

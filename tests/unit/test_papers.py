@@ -21,6 +21,7 @@ NAMING = {"machines", "papers"}
 #: Of machines and authors, as they stand in a name or a text.
 NAMES = re.compile(
     r"eclipse|mit[-_ ]?ss|hexel|hexapod|pprs|prps|prrs|alizade|glozman|azulay|chablat"
+    r"|serial[-_ ]five|moving[-_ ]bridge"
     r"|(?<![a-z])(?:son|kim|mit|proposed|prototype)(?![a-z])"
 )
 
