@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.fea import modes
 from strutwork.kinematics import Placement, Poses, jacobians
-from strutwork.kinematics.drive_fields import MotionField
+from strutwork.kinematics.drive_fields import FormulaField, MotionField
 from strutwork.kinematics.reversals import Reversals, reversals
 from strutwork.kinematics.task_surfaces import Plane
 from strutwork.machines import HexelHexapod, Machine, MovingBridge, SerialFiveAxis
@@ -31,7 +31,7 @@ HEADS: Mapping[Axes, str] = MappingProxyType({"ac": "A–C", "ab": "A–B"})
 #: looked at; our choice. The hexapod's is wide enough for what the thesis has outside its work.
 HALF, POINTS = 0.1, 9
 HEXAPOD_HALF, HEXAPOD_POINTS = 0.4, 17
-BRIDGE_HALF, BRIDGE_POINTS = 0.18, 25
+BRIDGE_GRID = ((0.18, 13), (0.10, 3))
 
 
 def at_turns(machine: SerialFiveAxis, first: ArrayLike, second: ArrayLike) -> Poses:
@@ -125,6 +125,27 @@ def flat_reversals(machine: Machine, half: float = HALF, points: int = POINTS) -
     return reversals(MotionField(model.motion, Plane(("x", "y")), machine.place), axis, axis)
 
 
+def bridge_reversals(machine: MovingBridge) -> Reversals:
+    """The same of the planar machine with a slide along y, as far as all struts reach along x.
+
+    The rates come from the joints' rows, the placements from the closed form: the motion solver
+    takes minutes where the tool has fewer than six freedoms.
+    """
+
+    def gradient(points: Array) -> Array:
+        place = np.concatenate([points, np.zeros((len(points), 1))], axis=-1)
+        upright = np.broadcast_to(np.eye(3), (len(points), 3, 3))
+        placement = machine.place(Poses(place, upright))
+        good = placement.reachable
+        found = np.full((len(points), len(machine.linkage.driven), 2), np.nan)
+        found[good] = jacobians(machine.linkage, placement[good]).inverse[..., :2]
+        return found
+
+    drives = tuple(f"{joint}:{direction}" for joint, direction in machine.linkage.driven)
+    across, along = (np.linspace(-half, half, n) for half, n in BRIDGE_GRID)
+    return reversals(FormulaField(drives, gradient), across, along)
+
+
 @dataclass(frozen=True)
 class FlatRow:
     """What a machine's drives do over a flat surface.
@@ -159,7 +180,7 @@ def _serial_row(axes: Axes) -> FlatRow:
 def _planar_row() -> FlatRow:
     """Lines of the drives that stand still on them while all struts reach; and where others are."""
     machine = MovingBridge()
-    found = flat_reversals(machine, BRIDGE_HALF, BRIDGE_POINTS)
+    found = bridge_reversals(machine)
     inside = [float(line[:, 0].mean()) for d in found.singular for line in d.lines]
     # a block stands still along x where its strut stands upright
     upright = machine.rails - machine.seats[:, 0]

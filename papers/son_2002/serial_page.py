@@ -9,6 +9,22 @@ from strutwork.reports.content import Chapter, Points, Text
 from strutwork.studies.description import parameters
 from strutwork.studies.progress import Teller
 
+OPEN = (
+    (
+        "From the thesis: the planar machine with all its dimensions (Appendix B), and that the "
+        "bridge carries all three rails."
+    ),
+    (
+        "Not printed: dimensions, mass and stiffness of the bridge, its drive and its way. They "
+        "are rigid here, so that statics and modes are those of the planar machine on rails that "
+        "stand still; a bridge would add its own give."
+    ),
+    (
+        f"The bridge's mass of {MovingBridge.bridge_mass:g} kg is our choice; it counts in the "
+        "force of the drive along y alone."
+    ),
+)
+
 
 def serial_chapters(
     name: str, _progress: Teller | None = None
@@ -43,23 +59,6 @@ def bridge_chapter() -> Chapter:
                 "over work that stands still: four axes, x, z and b of the planar machine and y of "
                 "the bridge, along a way of almost unlimited length."
             ),
-            Points(
-                (
-                    (
-                        "From the thesis: the planar machine with all its dimensions (Appendix B), "
-                        "and that the bridge carries all three rails."
-                    ),
-                    (
-                        "Not printed: dimensions, mass and stiffness of the bridge, its drive and its "
-                        "way. They are rigid here, so that statics and modes are those of the planar "
-                        "machine on rails that stand still; a bridge would add its own give."
-                    ),
-                    (
-                        "The bridge's mass of "
-                        f"{MovingBridge().bridge_mass:g} kg is our choice; it counts in the drive "
-                        "force along y alone."
-                    ),
-                )
-            ),
+            Points(OPEN),
         ),
     )

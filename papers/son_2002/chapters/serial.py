@@ -24,6 +24,22 @@ SHOWN = (0, 1, 5, 10, 30, 60, 80, 89, 90)
 
 SPEEDS, FLAT, HOME = "axis-speeds.csv", "flat-surface.csv", "heads-at-home.csv"
 
+NOTES = (
+    (
+        "Lengths, sections, stiffnesses and masses are our choice: the thesis shows these machines "
+        "as skeletons and prints no dimension of one. Nothing in this table is a prediction of a "
+        "printed number."
+    ),
+    (
+        "A–C stands at home with the tool tilted by 30° about x: the thesis turns its surface for "
+        "the same reason (section 4.4.1)."
+    ),
+    (
+        "All chapters that follow and name no head show A–C; those of A–B come from the commands "
+        "with “serial-five-axis:ab”."
+    ),
+)
+
 
 def heads_chapter() -> Chapter:
     """Speed of the tool's axis over its tilt, and both machines at home."""
@@ -48,23 +64,7 @@ def heads_chapter() -> Chapter:
                 "that such a pose is a serial singularity of the whole machine too."
             ),
             _home_table(found),
-            Points(
-                (
-                    (
-                        "Lengths, sections, stiffnesses and masses are our choice: the thesis shows "
-                        "these machines as skeletons and prints no dimension of one. Nothing in this "
-                        "table is a prediction of a printed number."
-                    ),
-                    (
-                        "A–C stands at home with the tool tilted by 30° about x: the thesis turns its "
-                        "surface for the same reason (section 4.4.1)."
-                    ),
-                    (
-                        "All chapters that follow and name no head show A–C; those of A–B come from "
-                        "the commands with “serial-five-axis:ab”."
-                    ),
-                )
-            ),
+            Points(NOTES),
         ),
         (
             csv_file(
