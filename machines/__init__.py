@@ -22,9 +22,11 @@ from strutwork.machines.limits import Limit, check_limits, joint_limits
 from strutwork.machines.linear_delta import LinearDelta
 from strutwork.machines.literature import Paper
 from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.moving_bridge import MovingBridge
 from strutwork.machines.pose_grid import GridMachine, PoseGrid
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
+from strutwork.machines.serial_five_axis import SerialFiveAxis
 from strutwork.machines.three_legs import ThreeLegs
 from strutwork.machines.variants import (
     NamedMachine,
@@ -55,12 +57,14 @@ __all__ = [
     "LinearDelta",
     "Machine",
     "MitSS1",
+    "MovingBridge",
     "NamedMachine",
     "Paper",
     "Platform",
     "PoseGrid",
     "Proposed3PPRS",
     "Prototype3PPPRS",
+    "SerialFiveAxis",
     "ThreeLegs",
     "Variant",
     "VibratingLegs",

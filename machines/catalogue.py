@@ -29,8 +29,10 @@ from strutwork.machines.literature import (
     Paper,
 )
 from strutwork.machines.mit_ss1 import MitSS1
+from strutwork.machines.moving_bridge import MovingBridge
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
+from strutwork.machines.serial_five_axis import SerialFiveAxis
 from strutwork.msa.structure import Structure
 
 
@@ -165,6 +167,24 @@ _ENTRIES = (
         HexelHexapod,
         "strutwork.papers.son_2002.hexapod_page:hexapod_chapters",
         around_home={"x": (0.15, 7), "y": (0.15, 7), "z": (0.1, 3)},
+    ),
+    CatalogueEntry(
+        "moving-bridge",
+        "Moving bridge with the planar machine of the MIT-SS-1, four axes",
+        "[P] of the bridge, below it planar, [P vertical] R R",
+        SON_2002,
+        MovingBridge,
+        "strutwork.papers.son_2002.serial_page:bridge_chapters",
+        around_home={"x": (0.1, 9), "y": (0.5, 3), "ry": (radians(20.0), 9)},
+    ),
+    CatalogueEntry(
+        "serial-five-axis",
+        "Serial five-axis machine",
+        "[P] [P] [P] and a head [R] [R], with its spindle [R]",
+        SON_2002,
+        SerialFiveAxis,
+        "strutwork.papers.son_2002.serial_page:serial_chapters",
+        around_home={"x": (0.1, 5), "y": (0.1, 5), "rx": (radians(20.0), 5)},
     ),
     CatalogueEntry(
         "eclipse-prototype",

@@ -15,6 +15,7 @@ from strutwork.machines.biglide import Biglide
 from strutwork.machines.biglide_third_leg import BiglideThirdLeg
 from strutwork.machines.catalogue import CATALOGUE, CatalogueEntry, Machine, get
 from strutwork.machines.eclipse_prototype import EclipsePrototype
+from strutwork.machines.serial_five_axis import SerialFiveAxis
 from strutwork.machines.three_legs import ThreeLegs
 
 #: Between a machine's name and its variant's.
@@ -27,6 +28,14 @@ _EXTRA_DRIVES: Mapping[str, str] = MappingProxyType(
         "7a": "the hinge of leg 1 is driven as well",
         "7b": "the hinge of leg 2 is driven as well",
         "8": "the hinges of legs 1 and 2 are driven as well",
+    }
+)
+
+#: Heads of the serial machine.
+_HEADS: Mapping[str, str] = MappingProxyType(
+    {
+        "ac": "rotary axes C, then A: the vertical type, singular with the tool upright",
+        "ab": "rotary axes A, then B: the horizontal type, singular at b = ±90°",
     }
 )
 
@@ -118,6 +127,13 @@ def variants(name: str) -> Mapping[str, Variant]:
         )
     if isinstance(made, Biglide):
         return _biglides(entry)
+    if isinstance(made, SerialFiveAxis):
+        return MappingProxyType(
+            {
+                which: Variant(which, words, partial(entry.factory, axes=which))
+                for which, words in _HEADS.items()
+            }
+        )
     if not isinstance(made, ThreeLegs):
         return MappingProxyType({"own": Variant("own", "its only model", entry.factory)})
     legs: ThreeLegs = made

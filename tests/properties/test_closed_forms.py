@@ -20,6 +20,8 @@ RANGES = {
     "prototype-3ppprs": (4e-3, 0.05),
     "mit-ss1": (0.05, 0.2),
     "hexel-hexapod": (0.1, 0.2),
+    "moving-bridge": (0.05, 0.2),
+    "serial-five-axis": (0.1, 0.2),
     "eclipse-prototype": (4e-3, 0.05),
     "eclipse-machine": (0.02, 0.05),
     "linear-delta": (0.1, 0.0),
@@ -28,7 +30,7 @@ RANGES = {
     "biglide:third-leg": (0.4, 0.8),
 }
 #: Machines whose nodes are all where the tool's pose has them: no part is free to choose.
-DECIDED = ("mit-ss1", "biglide", "biglide:third-leg", "linear-delta")
+DECIDED = ("mit-ss1", "biglide", "biglide:third-leg", "linear-delta", "moving-bridge")
 MODELS: dict[str, Model] = {}
 
 

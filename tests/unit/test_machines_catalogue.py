@@ -20,6 +20,8 @@ def test_every_entry_makes_its_machine() -> None:
         "prototype-3ppprs",
         "mit-ss1",
         "hexel-hexapod",
+        "moving-bridge",
+        "serial-five-axis",
         "eclipse-prototype",
         "eclipse-machine",
         "linear-delta",
@@ -32,6 +34,7 @@ def test_every_entry_makes_its_machine() -> None:
         assert isinstance(machine, Mechanism)
         assert machine.place(machine.home()).reachable
         documents = {"mit-ss1": "son-2002", "hexel-hexapod": "son-2002"}
+        documents |= {"moving-bridge": "son-2002", "serial-five-axis": "son-2002"}
         documents |= {"eclipse-prototype": "kim-2001", "eclipse-machine": "kim-2001"}
         documents |= {"linear-delta": "corbel-2008", "gough-platform": "corbel-2008"}
         documents |= {"biglide": "chablat-2003"}

@@ -22,7 +22,7 @@ NAMING = {"machines", "papers"}
 #: machines, one of which is called as its member here.
 NAMES = re.compile(
     r"eclipse|mit[-_ ]?ss|hexel|hexapod|pprs|prps|prrs|alizade|glozman|azulay|biglide|chablat"
-    r"|corbel|linear[-_ ]?delta(?!, gantry)|gough"
+    r"|corbel|linear[-_ ]?delta(?!, gantry)|gough|serial[-_ ]five|moving[-_ ]bridge"
     r"|(?<![a-z])(?:son|kim|mit|proposed|prototype)(?![a-z])"
 )
 

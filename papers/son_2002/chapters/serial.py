@@ -1,0 +1,188 @@
+"""Two heads of the serial machine, and reversals over a flat surface beside the other machines."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from strutwork.papers.son_2002.serial import (
+    HALF,
+    HEADS,
+    FlatRow,
+    Head,
+    flat_rows,
+    heads,
+)
+from strutwork.papers.tables import numbers, texts
+from strutwork.reports.content import Cell, Chapter, Figure, Points, Table, Text
+from strutwork.reports.data_files import csv_file
+from strutwork.reports.figures.curves import Curve, curves
+from strutwork.reports.figures.theme import AXIS_COLOURS
+from strutwork.reports.numbers import significant
+
+#: Tilts of the table, degrees.
+SHOWN = (0, 1, 5, 10, 30, 60, 80, 89, 90)
+
+SPEEDS, FLAT, HOME = "axis-speeds.csv", "flat-surface.csv", "heads-at-home.csv"
+
+NOTES = (
+    (
+        "Lengths, sections, stiffnesses and masses are our choice: the thesis shows these machines "
+        "as skeletons and prints no dimension of one. Nothing in this table is a prediction of a "
+        "printed number."
+    ),
+    (
+        "A–C stands at home with the tool tilted by 30° about x: the thesis turns its surface for "
+        "the same reason (section 4.4.1)."
+    ),
+    (
+        "All chapters that follow and name no head show A–C; those of A–B come from the commands "
+        "with “serial-five-axis:ab”."
+    ),
+)
+
+
+def heads_chapter() -> Chapter:
+    """Speed of the tool's axis over its tilt, and both machines at home."""
+    found = heads()
+    return Chapter(
+        "heads",
+        "Where does a head lose a direction?",
+        (
+            Text(
+                "Two rotary axes at rates of size one turn the tool's axis one way at speed 1 and "
+                "the other way at |sin a| with axes C and A, at |cos b| with A and B (section "
+                "2.1.2, eqs 9 and 10). Where that is zero the tool can be tilted one way only, and "
+                "near it a rotary axis must turn faster than the tool by the inverse. With the "
+                "tool upright, in the middle of the work, A–C loses a direction; A–B loses it "
+                "with the tool level."
+            ),
+            _speeds_figure(found),
+            _speeds_table(found),
+            Text(
+                "Found from the joints alone, without the formulas; the two differ by "
+                f"{max(h.apart for h in found):.0e} at most. The spindle is driven as well, so "
+                "that such a pose is a serial singularity of the whole machine too."
+            ),
+            _home_table(found),
+            Points(NOTES),
+        ),
+        (
+            csv_file(
+                SPEEDS,
+                "least speed of the tool's axis over its tilt, both heads",
+                ["tilt_deg", *(f"{h.axes}_least_speed_1_per_rad" for h in found)],
+                np.column_stack([np.degrees(found[0].tilt), *(h.least for h in found)]).tolist(),
+            ),
+            csv_file(
+                HOME,
+                "both heads at home",
+                ["quantity", "unit", *(h.axes for h in found)],
+                [[what, unit, *values] for what, unit, values in _home_rows(found)],
+            ),
+        ),
+    )
+
+
+def _speeds_figure(found: tuple[Head, ...]) -> Figure:
+    colours = list(AXIS_COLOURS.values())
+    return Figure(
+        "axis-speeds",
+        "How fast the tool's axis turns in its slower direction, at rotary rates of size one.",
+        curves(
+            np.degrees(found[0].tilt),
+            [
+                Curve(HEADS[head.axes], head.least, colour)
+                for head, colour in zip(found, colours, strict=False)
+            ],
+            ("tilt of the tool from upright (deg)", "least speed of the tool's axis (rad/rad)"),
+            from_zero=True,
+        ),
+        "Two curves over the tilt from 0 to 90 degrees: that of A–C rises from zero as a sine, "
+        "that of A–B falls to zero as a cosine.",
+        SPEEDS,
+        340,
+    )
+
+
+def _speeds_table(found: tuple[Head, ...]) -> Table:
+    rows: list[list[str | Cell]] = []
+    for tilt in SHOWN:
+        # a step of the tilts is one degree
+        row: list[str | Cell] = [f"{tilt}"]
+        for head in found:
+            least = float(head.least[tilt])
+            row += [significant(least, 3) if least > 1e-12 else Cell("0", "poor")]
+            row += [significant(1.0 / least, 3) if least > 1e-12 else Cell("no bound", "poor")]
+        rows.append(row)
+    columns = numbers("tilt", unit="deg")
+    for head in found:
+        columns += numbers("least speed", "rate of the axes", group=HEADS[head.axes])
+    return Table(
+        "Least speed of the tool's axis, and what it asks of the rotary axes", columns, rows, SPEEDS
+    )
+
+
+def _home_rows(found: tuple[Head, ...]) -> list[tuple[str, str, list[float]]]:
+    rows = [
+        (
+            f"stiffness along {d}, other directions free",
+            "N/µm",
+            [h.stiffness[k] / 1e6 for h in found],
+        )
+        for k, d in enumerate("xyz")
+    ]
+    rows.append(("lowest frequency", "Hz", [h.frequency for h in found]))
+    rows.append(("mass", "kg", [h.mass for h in found]))
+    return rows
+
+
+def _home_table(found: tuple[Head, ...]) -> Table:
+    return Table(
+        "Both machines at home",
+        (*texts("quantity", "unit"), *numbers(*(HEADS[h.axes] for h in found))),
+        [
+            [what, unit, *(significant(v, 3) for v in values)]
+            for what, unit, values in _home_rows(found)
+        ],
+        HOME,
+    )
+
+
+def flat_chapter() -> Chapter:
+    """Which drives turn back over a flat surface, machine by machine."""
+    rows = flat_rows()
+    return Chapter(
+        "flat-surface",
+        "Who turns back over a flat surface?",
+        (
+            Text(
+                "The simplest task of chapter 4: a flat surface, the tool's direction held. A "
+                "drive is at a reversal singularity where it stands still whichever way the tool "
+                "goes; there it turns back on almost every path."
+            ),
+            Table(
+                "Reversal singularities, flat surface and tool held",
+                texts("machine", "thesis", "ours", "where"),
+                [[r.machine, r.printed, r.found, r.where] for r in rows],
+                FLAT,
+            ),
+            Text(
+                "A Cartesian machine's slides follow the surface's coordinates one to one, "
+                f"whatever its head: looked for over ±{significant(1e3 * HALF)} mm."
+            ),
+        ),
+        (
+            csv_file(
+                FLAT,
+                "reversal singularities over a flat surface, machine by machine",
+                ["machine", "thesis", "ours", "where", "places_mm"],
+                [
+                    [r.machine, r.printed, r.found, r.where, " ".join(map(repr, r.places))]
+                    for r in rows
+                ],
+            ),
+        ),
+    )
+
+
+__all__ = ["FlatRow", "flat_chapter", "heads_chapter"]
