@@ -216,7 +216,7 @@ _ENTRIES = (
     CatalogueEntry(
         "gough-platform",
         "Gough measuring platform",
-        "U P S, six lengths measured",
+        "U [P along the leg, measured] S",
         CORBEL_2008,
         GoughPlatform,
         _CORBEL,

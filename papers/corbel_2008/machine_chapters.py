@@ -15,7 +15,7 @@ from strutwork.papers.corbel_2008.published import DELTA, PLATFORM, TABLE_1, TAB
 from strutwork.papers.published_rows import PublishedRow, Status, file_name
 from strutwork.papers.published_table import PublishedTable, PublishedValue
 from strutwork.papers.tables import assumed, difference, numbers, rows_file, texts
-from strutwork.reports.content import Cell, Chapter, Figure, Row, Table, Text
+from strutwork.reports.content import Cell, Chapter, Figure, Note, Row, Table, Text
 from strutwork.reports.data_files import json_file
 from strutwork.reports.drawing_data import drawing_data
 from strutwork.reports.figures.model import model_view
@@ -133,6 +133,11 @@ def published_chapter() -> Chapter:
             ),
             *(_table(t, rows) for t, rows in groups),
             Text(TABLE_2.note),
+            Note(
+                "The copy that was read lacks its first lines and most figures. Title, authors and "
+                "year are attributed to it by its abstract and have not been checked against the "
+                "print."
+            ),
         ),
         tuple(rows_file(file_name(t.key), t.title, rows) for t, rows in groups),
     )

@@ -1,7 +1,8 @@
 """Numbers of Corbel et al. 2008 that this package can be asked for.
 
 The copy that was read lacks its first lines, and with them title and authors, and most figures;
-the document was told by its abstract. Where a digit is lost the number does not stand here.
+the document was told by its abstract, which has not been checked against the print. Where a digit
+is lost the number does not stand here.
 """
 
 from __future__ import annotations
