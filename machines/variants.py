@@ -153,7 +153,7 @@ def variants(name: str) -> Mapping[str, Variant]:
 
 
 def _biglides(entry: CatalogueEntry) -> Mapping[str, Variant]:
-    turning = {**entry.around_home, "ry": (radians(60.0), 7)}
+    turning = {"x": (0.4, 5), "y": (0.4, 5), "ry": (radians(60.0), 5)}
     found = (
         Variant("plane", "two drives, the tool does not turn", entry.factory),
         Variant(

@@ -4,11 +4,22 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from strutwork.machines.literature import CHABLAT_2003
 from strutwork.machines.variants import named_machine
+from strutwork.papers.chablat_2003.published import HIGH, SQUARES
+from strutwork.papers.chablat_2003.squares import amplification, square_rows
+from strutwork.papers.chablat_2003.statements import statements
+from strutwork.papers.chablat_2003.third_leg import SIDE, range_map
+from strutwork.papers.published_rows import file_name
+from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.tables import rows_file
 from strutwork.reports.chapters.closing import closing_chapter
-from strutwork.reports.content import Chapter
-from strutwork.studies.description import parameters
+from strutwork.reports.content import Chapter, Figure, Text
+from strutwork.reports.data_files import csv_file
+from strutwork.reports.figures.curves import heat
+from strutwork.studies.description import parameters, plain
 from strutwork.studies.progress import Teller
 
 Contents = tuple[str, str, tuple[Chapter, ...]]
@@ -17,13 +28,125 @@ Contents = tuple[str, str, tuple[Chapter, ...]]
 def machine_chapters(name: str, _progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters that the document adds to a machine's report."""
     found = named_machine(name)
+    own = turning_chapter() if "third" in found.variant.name else amplification_chapter()
     content = {"parameters": parameters(found.machine)}
-    closing = closing_chapter(name, {"machine": found.name}, content, ())
-    return found.title, CHABLAT_2003.citation, (closing,)
+    closing = closing_chapter(name, {"machine": found.name}, content, (own,))
+    return found.title, CHABLAT_2003.citation, (own, closing)
 
 
 def paper_chapters(_progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters of the document's own page."""
-    content: dict[str, Any] = {}
-    closing = closing_chapter(CHABLAT_2003.key, {"document": CHABLAT_2003.key}, content, ())
-    return "Two biglides: published and ours", CHABLAT_2003.citation, (closing,)
+    said = statements()
+    table = statements_chapter("statements", "Every printed result beside ours", said)
+    rows = square_rows()
+    beside = Chapter(
+        table.key,
+        table.title,
+        (count_text(said), *table.blocks),
+        (
+            statements_file(CHABLAT_2003.key, said),
+            rows_file(file_name(SQUARES.key), SQUARES.title, rows),
+        ),
+    )
+    chapters = [beside, amplification_chapter(), turning_chapter()]
+    content: dict[str, Any] = {"rows": plain([r.to_dict() for r in rows])}
+    chapters.append(
+        closing_chapter(CHABLAT_2003.key, {"document": CHABLAT_2003.key}, content, chapters)
+    )
+    return (
+        "A machine of two legs in a plane, and a third that turns its tool: published and ours",
+        CHABLAT_2003.citation,
+        tuple(chapters),
+    )
+
+
+def amplification_chapter() -> Chapter:
+    """Map of the velocity amplification over the plane."""
+    axis = np.linspace(-0.98, 0.98, 31)
+    x, y = np.meshgrid(axis, axis, indexing="ij")
+    found = amplification(x, y)
+    # as far from one on either side: the document bounds both alike
+    worst = np.maximum(found[..., 1], 1.0 / found[..., 0])
+    file = "velocity-amplification.csv"
+    shown = np.where(worst <= HIGH, worst, np.nan)
+    half = 0.5 * np.sqrt([r.computed for r in square_rows()])
+    corners = {
+        f"corner at 45°, {2 * half[0]:.3f} m wide": (np.sqrt(2.0) * half[0], 0.0),
+        f"corner along the rails, {2 * half[1]:.3f} m wide": (half[1], half[1]),
+    }
+    return Chapter(
+        "amplification",
+        "How fast it moves its tool",
+        (
+            Text(
+                "The larger of the largest amplification of the drives' velocities and of the "
+                "least one's inverse, from the rows of the joints. It is 1 at S, where the legs "
+                "stand at right angles, and at most 3 within the document's bounds of 1/3 and 3. "
+                "The largest squares about S under these bounds touch them in their corners."
+            ),
+            Figure(
+                "amplification-map",
+                "Velocity amplification over the plane of the tool; blank: out of the bounds. "
+                "Marked are corners of the largest squares.",
+                heat(axis, axis, shown, ("x (m)", "y (m)", "amplification (m/s per m/s)"), corners),
+                "Map of the velocity amplification over x and y, from 1 in the middle to 3.",
+                file,
+                460,
+            ),
+        ),
+        (
+            csv_file(
+                file,
+                "least and largest velocity amplification over x and y",
+                ["x_m", "y_m", "least", "largest", "shown"],
+                np.stack(
+                    [x.ravel(), y.ravel(), *found.reshape(-1, 2).T, worst.ravel()], axis=-1
+                ).tolist(),
+            ),
+        ),
+    )
+
+
+def turning_chapter() -> Chapter:
+    """Map of the range of β over the lengths of arm and third leg."""
+    arms, thirds, ranges = range_map()
+    degrees = np.degrees(ranges.T)
+    file = "turning-range.csv"
+    return Chapter(
+        "turning",
+        "How far the third leg turns the tool",
+        (
+            Text(
+                f"Range of β about home that is allowed at every place of a square {SIDE:.3f} m "
+                "wide, the printed one along the rails, where leg and rail, and leg and arm, keep "
+                "the document's angles (sine and cosine 0.2). The ridge lies at L₂ = 1.8 L₁; "
+                "blank: the leg does not keep the bounds at β = 0."
+            ),
+            Figure(
+                "turning-map",
+                "Range of β over the lengths of the arm and of the third leg, as in Fig. 8.",
+                heat(
+                    arms,
+                    thirds,
+                    np.where(degrees > 0.0, degrees, np.nan),
+                    ("L1 (m)", "L2 (m)", "range of β (deg)"),
+                    {"L2 = 1.8 L1": (2.0, 3.6)},
+                ),
+                "Map of the range of beta over L1 and L2; the largest lie near L2 = 1.8 L1.",
+                file,
+                460,
+            ),
+        ),
+        (
+            csv_file(
+                file,
+                "range of beta over the lengths of arm and third leg",
+                ["L1_m", "L2_m", "range_deg"],
+                [
+                    [float(a), float(t), float(degrees[i, j])]
+                    for i, a in enumerate(arms)
+                    for j, t in enumerate(thirds)
+                ],
+            ),
+        ),
+    )
