@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import degrees
 from pathlib import Path
 from typing import Any, Literal
 
@@ -23,6 +22,7 @@ from strutwork.machines.model_poses import at_pose
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import counted, shown
+from strutwork.reports.cli.workspace_words import measure_word, parts_words, placed, unit_words
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words
 from strutwork.reports.numbers import count
@@ -300,9 +300,9 @@ def _print(result: Mapping[str, Any]) -> None:
     out = console()
     out.print(visible(result["model"] or result["target"]), markup=False, style="bold")
     unit = result["unit"]
-    scale, shown_unit = _shown_unit(unit)
+    scale, shown_unit = unit_words(unit)
     out.print(
-        f"{_what(unit)} {scale * result['measure']:.4g} ± {scale * result['error']:.2g} "
+        f"{measure_word(unit)} {scale * result['measure']:.4g} ± {scale * result['error']:.2g} "
         f"{shown_unit}; {result['poses_good']} of {result['poses']} poses of the grid are good",
         markup=False,
     )
@@ -328,7 +328,7 @@ def _print(result: Mapping[str, Any]) -> None:
     if result["interference"] is not None:
         safe = result["interference"]
         out.print(
-            f"Interference: {_counted(safe)}, {count(safe['pairs'], 'pair')} that may collide; "
+            f"Interference: {parts_words(safe)}, {count(safe['pairs'], 'pair')} that may collide; "
             "solids are looked at where they have [[shapes]]",
             markup=False,
             soft_wrap=True,
@@ -339,7 +339,7 @@ def _print(result: Mapping[str, Any]) -> None:
     near = result["nearest"]
     if near is not None:
         out.print(
-            f"Nearest to home it ends at {_place(near['at'])}, {1e3 * near['distance']:.4g} mm "
+            f"Nearest to home it ends at {placed(near['at'])}, {1e3 * near['distance']:.4g} mm "
             f"away: {near['reason']}",
             markup=False,
             soft_wrap=True,
@@ -347,39 +347,14 @@ def _print(result: Mapping[str, Any]) -> None:
     if result["largest"] is not None:
         big = result["largest"]
         out.print(
-            f"Largest {big['kind']}: {_place(big['sides'])} about {_place(big['centre'])}; "
-            f"critical at {_place(big['critical'])}: {big['reason']}; {big['confirmed']} poses "
+            f"Largest {big['kind']}: {placed(big['sides'])} about {placed(big['centre'])}; "
+            f"critical at {placed(big['critical'])}: {big['reason']}; {big['confirmed']} poses "
             "of it were found good",
             markup=False,
             soft_wrap=True,
         )
     for path in result["data"]:
         out.print(visible(path), markup=False, soft_wrap=True)
-
-
-def _counted(safe: Mapping[str, int]) -> str:
-    """Capsules and meshes that are there, in words."""
-    kinds = ((safe["capsules"], "capsule", "capsules"), (safe["shapes"], "mesh", "meshes"))
-    return " and ".join(count(n, one, many) for n, one, many in kinds if n)
-
-
-def _what(unit: str) -> str:
-    return {"m": "Length", "m²": "Area", "m³": "Volume"}.get(unit, "Measure")
-
-
-def _shown_unit(unit: str) -> tuple[float, str]:
-    """Factor and unit of a measure for people."""
-    return {"m": (1e3, "mm"), "m²": (1e4, "cm²"), "m³": (1e3, "dm³")}.get(unit, (1.0, unit))
-
-
-def _place(at: Mapping[str, float]) -> str:
-    words = []
-    for name, value in at.items():
-        turns = name.startswith("r")
-        # what is left of rounding is no place
-        shown_value = round((degrees(value) if turns else 1e3 * value), 9) + 0.0
-        words.append(f"{name} = {shown_value:.5g} {'deg' if turns else 'mm'}")
-    return ", ".join(words)
 
 
 def _angle(text: str, part: str) -> float:
