@@ -157,7 +157,7 @@ def test_drives_that_cross_a_singularity() -> None:
     linkage, home = slider_crank(0.7)
     found = Motion(linkage, home).move(joints={("guide", "z"): 0.2})
     assert not found.reached
-    assert "singularity lies on the way" in found.placement.reason(())
+    assert "a parallel singularity (type 2) lies on the way" in found.placement.reason(())
 
 
 def test_what_is_given_twice_must_agree() -> None:
