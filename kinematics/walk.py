@@ -37,6 +37,8 @@ SHORTEST, MOST = 1e-6, 2000
 SINGULAR = 3e-3
 #: Gap, as a share of the machine's size or rad, that no rest of the way explains.
 OPEN = 1e-4
+#: Share of the way within which it ends where only home allowed the first step.
+BESIDE = 1e-2
 #: How many times better the condition of other rows must be, and the first step with them.
 BETTER, RESTART = 2.0, 1e-2
 
@@ -45,6 +47,11 @@ PARALLEL = (
     "a parallel singularity (type 2) lies on the way, where what is given no longer holds the tool"
 )
 CONTRADICT = "what is given contradicts itself or the joints: no pose near the way has it"
+SPECIAL = (
+    "home is a special position, such as links in one line or a flat parallelogram, where the "
+    "joints allow motions that end at once or part into branches: give a home beside it, or "
+    "coordinates of further joints that name the branch"
+)
 LOST = "the way was not walked to its end in the steps allowed"
 
 
@@ -320,7 +327,10 @@ class Walk:
         singular &= ~((self.share[at] > 1.0 - OPEN) & other_open)
         tool = bool(self._tool_directions)
         self._end(at[singular], REACH if tool else PARALLEL)
-        self._end(at[~singular], CONTRADICT + self._follows())
+        # what home allows to first order and not beside it: rows were lost at home alone
+        special = ~singular & (self.share[at] < BESIDE) & self.independent
+        self._end(at[special], SPECIAL)
+        self._end(at[~singular & ~special], CONTRADICT + self._follows())
 
     def _follows(self) -> str:
         """Which of more coordinates than there are freedoms follow from those before them."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from strutwork.errors import ModelError
-from strutwork.kinematics import Placement, Poses, drive_values
+from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, drive_values
 from strutwork.kinematics.motion import Motion
 from strutwork.machines import (
     Alizade3PRPS,
@@ -157,7 +157,7 @@ def test_drives_that_cross_a_singularity() -> None:
     linkage, home = slider_crank(0.7)
     found = Motion(linkage, home).move(joints={("guide", "z"): 0.2})
     assert not found.reached
-    assert "singularity lies on the way" in found.placement.reason(())
+    assert "a parallel singularity (type 2) lies on the way" in found.placement.reason(())
 
 
 def test_what_is_given_twice_must_agree() -> None:
@@ -237,3 +237,39 @@ def test_a_joint_that_does_not_close_at_home() -> None:
     positions[linkage.node_index["s"], 0] += 1e-3
     with pytest.raises(ModelError, match=r"joint wrist: .* 0\.001 m apart"):
         Motion(linkage, Placement(positions, home.frames, np.zeros(0)))
+
+
+def parallelogram(angle: float) -> Motion:
+    """Cranks of 1 m on bases 2 m apart, turned from the line of the bases."""
+    end = np.array([np.cos(angle), np.sin(angle), 0.0])
+    base = np.array([2.0, 0.0, 0.0])
+    places = {"o1": 0 * end, "a1": 0 * end, "b1": end, "c1": end}
+    places |= {"c2": base + end, "b2": base + end, "a2": base, "o2": base}
+    bars = (("crank", "a1", "b1"), ("coupler", "c1", "c2"), ("rocker", "a2", "b2"))
+    hinges = (("j1", "o1", "a1"), ("j2", "b1", "c1"), ("j3", "c2", "b2"), ("j4", "o2", "a2"))
+    linkage = Linkage(
+        tuple(places),
+        (Body(GROUND, ("o1", "o2")), *(Body(n, (a, b)) for n, a, b in bars)),
+        tuple(Joint(n, "revolute", (a, b)) for n, a, b in hinges),
+    )
+    frames = np.tile(np.eye(3), (4, 1, 1))
+    return Motion(linkage, Placement(np.array(list(places.values())), frames, np.zeros(0)))
+
+
+def test_a_flat_parallelogram_says_that_home_is_special() -> None:
+    """Flat, it has two freedoms to first order, and two branches leave: parallel and crossed."""
+    flat, beside = parallelogram(0.0), parallelogram(0.1)
+    ended = flat.move(joints={("j1", "rz"): 0.2})
+    assert not ended.reached
+    assert "home is a special position" in ended.placement.reason(())
+    assert "give a home beside it" in ended.placement.reason(())
+    # the parallel branch, named by its other crank
+    named = flat.move(joints={("j1", "rz"): 0.2, ("j4", "rz"): 0.2})
+    assert named.reached
+    np.testing.assert_allclose(named.coordinate("j2", "rz"), -0.2, atol=1e-9)
+    # beside it nothing is special, and two that disagree contradict each other
+    np.testing.assert_allclose(
+        beside.move(joints={("j1", "rz"): 0.2}).coordinate("j4", "rz"), 0.2, atol=1e-9
+    )
+    wrong = beside.move(joints={("j1", "rz"): 0.2, ("j4", "rz"): 0.1})
+    assert "contradicts itself" in wrong.placement.reason(())
