@@ -49,6 +49,15 @@ class Walk:
     #: Poses from which on compiled steps are worth their load time.
     few = 64
 
+    length: float
+    joint: Indices
+    direction: Indices
+    select: NDArray[np.bool_]
+    order: Indices
+    kept: Indices
+    independent: bool
+    held_rows: int
+
     def __init__(
         self,
         joints: JointMotion,
@@ -242,12 +251,12 @@ class Walk:
     def _target(self, at: Indices, share: Array) -> Array:
         """Directions of the tool at a share of the way, (k, t)."""
         begin = self._begin(at)
-        return begin + share[:, None] * (self.given.task_values[at] - begin)
+        return np.asarray(begin + share[:, None] * (self.given.task_values[at] - begin))
 
     def _begin(self, at: Indices) -> Array:  # noqa: ARG002 - all begin at home
         start = self.given.start
         home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])
-        return home[list(self.given.task)]
+        return np.asarray(home[list(self.given.task)])
 
     def _goals(self, at: Indices, share: Array) -> Goals:
         asked = self._tool_directions

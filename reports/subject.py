@@ -259,7 +259,7 @@ class Subject:
         spans = np.array([np.ptp(axis) for axis in axes.values()])
         try:
             return largest_shape(
-                found.grid, margin, box_of(spans), centre=found.home, accuracy=BOX_ACCURACY
+                found.grid, margin, box_of(spans.tolist()), centre=found.home, accuracy=BOX_ACCURACY
             )
         except (ModelError, NumericalError):
             # a home at the end of a range has no box about it

@@ -141,7 +141,7 @@ def _figure(found: Workspace, inside: LargestShape | None) -> Figure | None:
         shape = Shape(found.border.points, triangles, "border of the workspace")
         traces = [mesh([shape], "border of the workspace", "#56b4e9", opacity=0.4)]
         if inside is not None:
-            block = box(inside.centre, np.eye(3), inside.sides, "largest box about home")
+            block = box(inside.centre, np.eye(3), inside.sides.tolist(), "largest box about home")
             traces.append(mesh([block], "largest box about home", BOX_COLOUR))
         return Figure(
             "workspace-border",
