@@ -66,6 +66,11 @@ class Follower:
         self.bodies = self.motion.joints.start(1)
         self.coordinates = np.zeros((1, len(self.motion.joints.names)))
 
+    @property
+    def quick(self) -> bool:
+        """Whether it has walked by compiled steps."""
+        return self._like is not None and self._like.quick is not None
+
     def place(self, points: Array) -> Placement:
         """Placements of poses, (p,), those not reached marked.
 

@@ -70,6 +70,7 @@ def row_system(joints: JointMotion, length: float) -> RowSystem:
     origin = np.concatenate([bodies, np.zeros((1, 3))])
     turning = ~joints.held[:, 3:]
     joint, direction = (found.astype(np.int64) for found in np.nonzero(joints.held))
+    free_joint, free_direction = (found.astype(np.int64) for found in np.nonzero(~joints.held))
     return RowSystem(
         owner,
         # the ground is −1, the last
@@ -81,7 +82,8 @@ def row_system(joints: JointMotion, length: float) -> RowSystem:
         np.ascontiguousarray(home.frames, dtype=float),
         joint,
         direction,
-        *(found.astype(np.int64) for found in np.nonzero(~joints.held)),
+        free_joint,
+        free_direction,
         6 * _places(owner[joints.nodes], len(bodies)),
         linkage.tool_body if linkage.tool is not None else -1,
         length,

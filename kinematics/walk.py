@@ -290,7 +290,7 @@ class Walk:
     def _begin(self, at: Indices) -> Array:  # noqa: ARG002 - all begin at home
         start = self.given.start
         home = np.concatenate([np.zeros(3) if start is None else start.position, np.zeros(3)])
-        return home[list(self.given.task)]
+        return np.asarray(home[list(self.given.task)])
 
     def _goals(self, at: Indices, share: Array) -> Goals:
         asked = self._tool_directions

@@ -11,9 +11,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError, StrutworkError
+from strutwork.errors import ModelError, NumericalError, StrutworkError
 from strutwork.fea.coupled import AnyDamping
 from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.inscribed_shape import box_of
+from strutwork.kinematics.largest_shape import LargestShape, largest_shape
 from strutwork.kinematics.singularity_curves import SingularPlane, singularities_in_plane
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.kinematics.task_surfaces import Plane
@@ -46,6 +48,9 @@ LISTED = 3
 #: along each of one, two and three directions.
 SPREAD = 2.0
 SIZED = {1: 81, 2: 31, 3: 13}
+
+#: Of the size of the largest box in the workspace, as a share of it.
+BOX_ACCURACY = 1e-3
 
 #: Poses along either direction of the plane in which singular poses are looked for.
 SINGULAR_STEPS = 21
@@ -226,6 +231,12 @@ class Subject:
             Too large a grid, or no direction to look along; shapes that collide at home, or
             that lack their library.
         """
+        margin, axes = self._sized
+        return workspace(margin, axes, progress=self._told("size of the workspace"))
+
+    @cached_property
+    def _sized(self) -> tuple[MachineMargin, dict[str, Array]]:
+        """Margin and axes of `workspace`."""
         wide = [(d, v) for d, v in self.grid.axes.items() if len(v) > 1][:3]
         points = SIZED.get(len(wide), 2)
         axes = {}
@@ -235,7 +246,29 @@ class Subject:
         step = np.array([axis[1] - axis[0] for axis in axes.values()])
         safe = interference_of(self.model, None) if self.model.shapes else None
         margin = MachineMargin(self.model, tuple(axes), step, interference=safe)
-        return workspace(margin, axes, progress=self._told("size of the workspace"))
+        return margin, axes
+
+    @cached_property
+    def largest_box(self) -> LargestShape | None:
+        """The largest box about home in the workspace, as long and wide as what is looked over.
+
+        None where turns are among the directions, where poses are slow to place, or where home is
+        outside.
+        """
+        margin, axes = self._sized
+        if len(axes) < 2 or any(d.startswith("r") for d in axes):
+            return None
+        found = self.workspace
+        if not (margin.quick and found.home_component):
+            return None
+        spans = np.array([np.ptp(axis) for axis in axes.values()])
+        try:
+            return largest_shape(
+                found.grid, margin, box_of(spans.tolist()), centre=found.home, accuracy=BOX_ACCURACY
+            )
+        except (ModelError, NumericalError):
+            # a home at the end of a range has no box about it
+            return None
 
     @cached_property
     def unassembled(self) -> str:

@@ -226,6 +226,11 @@ class MachineMargin:
             del fixed[d]
         return Follower(self.model.motion, self.directions, fixed, self.step, self._tell)
 
+    @property
+    def quick(self) -> bool:
+        """Whether many thousands of poses take seconds: by formulas, or by compiled steps."""
+        return self._by_formula or (self.follows and self._follower.quick)
+
     def _tell(self, done: int, total: int) -> None:
         if self.told is not None:
             self.told(done, total)

@@ -5,12 +5,15 @@ from __future__ import annotations
 from math import degrees
 
 import numpy as np
+import xarray as xr
 
+from strutwork.kinematics.largest_shape import LargestShape
 from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
 from strutwork.reports.figures.curves import heat
-from strutwork.reports.figures.shapes import Shape, mesh
+from strutwork.reports.figures.shapes import Shape, box, mesh
 from strutwork.reports.figures.solid import scene
+from strutwork.reports.figures.theme import rounded
 from strutwork.reports.numbers import MINUS, count, share, significant
 from strutwork.reports.subject import SPREAD, Subject
 from strutwork.reports.survey_words import pose_text
@@ -22,6 +25,10 @@ STEM = "workspace"
 
 #: Reasons that the table names.
 SHOWN = 12
+
+#: Of the largest box: its colour, and corners of a rectangle of halves one.
+BOX_COLOUR = "#d55e00"
+OUTLINE = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]])
 
 
 def missing(subject: Subject) -> str:
@@ -72,9 +79,11 @@ def write(subject: Subject) -> Chapter:
         ),
         Facts(tuple(facts)),
     ]
-    figure = _figure(
-        found, "reach, joint ranges and shapes" if shapes else "reach and joint ranges"
-    )
+    inside = subject.largest_box
+    if inside is not None:
+        blocks.append(Text(_box_words(found, inside)))
+    slacks = "reach, joint ranges and shapes" if shapes else "reach and joint ranges"
+    figure = _figure(found, inside, slacks)
     if figure is not None:
         blocks.append(figure)
     rows = [[_minus(words), share(part)] for words, part in found.shares.items()]
@@ -82,7 +91,9 @@ def write(subject: Subject) -> Chapter:
     if rows:
         blocks.append(Table("What it ends at", columns, rows[:SHOWN], f"{STEM}-border.csv"))
     files: tuple[DataFile, ...] = (
-        netcdf_file(f"{STEM}.nc", "margins of poses over the grid, NetCDF", found.to_dataset()),
+        netcdf_file(
+            f"{STEM}.nc", "margins of poses over the grid, NetCDF", _dataset(found, inside)
+        ),
         csv_file(
             f"{STEM}-border.csv",
             "what ends the workspace, shares of its border",
@@ -104,19 +115,44 @@ def shown_unit(unit: str) -> tuple[float, str]:
     return known.get(unit, (1.0, unit))
 
 
-def _figure(found: Workspace, slacks: str) -> Figure | None:
+def _box_words(found: Workspace, inside: LargestShape) -> str:
+    directions = found.grid.directions
+    sides = " × ".join(significant(1e3 * side) for side in inside.sides)
+    critical = dict(zip(directions, inside.critical.tolist(), strict=True))
+    what = "box" if len(directions) == 3 else "rectangle"
+    return (
+        f"The largest {what} about home inside, in the proportions of what is looked over, is "
+        f"{sides} mm along {', '.join(directions)}; it touches the border at "
+        f"{pose_text(critical)}: {_minus(inside.reason)}. {inside.confirmed} poses that fill it "
+        "were found good."
+    )
+
+
+def _dataset(found: Workspace, inside: LargestShape | None) -> xr.Dataset:
+    """The grid, with centre and sides of the box, m."""
+    data = found.to_dataset()
+    if inside is None:
+        return data
+    return data.assign_attrs(largest_box_centre=inside.centre, largest_box_sides=inside.sides)
+
+
+def _figure(found: Workspace, inside: LargestShape | None, slacks: str) -> Figure | None:
     directions = found.grid.directions
     if len(directions) == 3 and not any(d.startswith("r") for d in directions):
         triangles = found.border.facets
         if not len(triangles):
             return None
         shape = Shape(found.border.points, triangles, "border of the workspace")
-        spec = scene([mesh([shape], "border of the workspace", "#56b4e9", opacity=0.6)])
+        traces = [mesh([shape], "border of the workspace", "#56b4e9", opacity=0.4)]
+        if inside is not None:
+            block = box(inside.centre, np.eye(3), inside.sides.tolist(), "largest box about home")
+            traces.append(mesh([block], "largest box about home", BOX_COLOUR))
         return Figure(
             "workspace-border",
-            "The border of the workspace of the tool centre point, in mm. Drag to turn, scroll to "
-            "zoom.",
-            spec,
+            "The border of the workspace of the tool centre point, in mm"
+            + (", and the largest box about home in it. " if inside is not None else ". ")
+            + "Drag to turn, scroll to zoom.",
+            scene(traces),
             "Three-dimensional surface of the workspace.",
             f"{STEM}.nc",
             520,
@@ -135,10 +171,24 @@ def _figure(found: Workspace, slacks: str) -> Figure | None:
         np.where(values >= 0, values, np.nan),
         (titles[0], titles[1], "margin, 1 and more is far"),
     )
+    if inside is not None:
+        corners = inside.centre + 0.5 * inside.sides * OUTLINE
+        spec["data"].append(
+            {
+                "type": "scatter",
+                "mode": "lines",
+                "name": "largest rectangle about home",
+                "x": rounded(1e3 * corners[:, 0]),
+                "y": rounded(1e3 * corners[:, 1]),
+                "line": {"color": BOX_COLOUR, "width": 2},
+                "hovertemplate": "%{x:.4g}, %{y:.4g}<extra>largest rectangle about home</extra>",
+            }
+        )
     return Figure(
         "workspace-margin",
         f"Margin of the poses: the least slack of {slacks}, 0 at the border. "
-        "Blank: out of the workspace.",
+        "Blank: out of the workspace."
+        + (" Line: the largest rectangle about home inside." if inside is not None else ""),
         spec,
         f"Map of the margin over {' and '.join(directions)}.",
         f"{STEM}.nc",
