@@ -110,12 +110,12 @@ def _parallel(
     order = np.cumsum(change, axis=0)
     found = []
     for n in range(1, int(order.max()) + 1):
-        below, _ = _between(
-            tilt,
-            roll,
-            change & (order == n),
-            # the side of the pole counts as good, of an even zero the other one
-            lambda t, r, n=n: np.sign(s_at(t, r)) == np.sign(s[0, 0]) * (-1) ** (n - 1),
-        )
+        # the side of the pole counts as good, of an even zero the other one
+        side = float(np.sign(s[0, 0])) * (-1) ** (n - 1)
+
+        def good(t: Array, r: Array, side: float = side) -> Array:
+            return np.asarray(np.sign(s_at(t, r)) == side)
+
+        below, _ = _between(tilt, roll, change & (order == n), good)
         found.append((float(below.min()), float(below.max())))
     return tuple(found)

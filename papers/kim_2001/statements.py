@@ -325,7 +325,7 @@ def _directions() -> tuple[Statement, ...]:
 
 def _between(first: Array, second: Array) -> float:
     """Angle between two lines, deg."""
-    cosine = abs(first @ second) / (np.linalg.norm(first) * np.linalg.norm(second))
+    cosine = float(abs(first @ second)) / float(np.linalg.norm(first) * np.linalg.norm(second))
     return float(np.degrees(np.arccos(min(cosine, 1.0))))
 
 

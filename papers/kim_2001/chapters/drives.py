@@ -49,9 +49,10 @@ def barriers_chapter() -> Chapter:
         "Singular tilts and extra drives",
         (
             Text(
-                "With six drives the platform cannot be tilted from vertical to horizontal "
-                "without passing poses in which the drives do not hold it. At spindle angle 0 "
-                "each extra drive alone leaves one of them, that of leg 1 the lower and that of "
+                "With six drives and balls of ±55° the platform cannot be tilted from vertical to "
+                "horizontal without passing poses in which the drives do not hold it. "
+                "At spindle angle 0 each extra drive alone leaves one "
+                "of them, that of leg 1 the lower and that of "
                 "leg 2 the higher; both together leave none for spindle angles up to 30° to "
                 "either side. The second barrier is gone beyond spindle angles of 29°. The "
                 "first stays up to 113°; beyond, no singular tilt is left, but the balls with "
