@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import drive_values, jacobians
 from strutwork.machines import Biglide, BiglideThirdLeg
-from strutwork.papers.chablat_2003.squares import amplification, largest_square
+from strutwork.papers.chablat_2003.squares import amplification, largest_square, square_area
 from strutwork.papers.chablat_2003.statements import statements
 from strutwork.papers.chablat_2003.third_leg import SIDE, best_third, sines, turn_range
 
@@ -100,6 +100,12 @@ def test_largest_squares(angle: float, area: float) -> None:
     """Section 3.3 prints about half of them; ours are exact, found to 1e-8 of the size."""
     found = largest_square(angle)
     assert found.measure == pytest.approx(area, abs=1e-6)
+
+
+@pytest.mark.parametrize(("angle", "area"), [(45.0, 128 / 73), (0.0, 16 / 13)])
+def test_squares_about_s(angle: float, area: float) -> None:
+    """The same areas as the page shows them: 1e-6, and seen 1e-12."""
+    assert square_area(angle) == pytest.approx(area, abs=1e-6)
 
 
 @pytest.mark.parametrize(("angle", "area"), [(45.0, 128 / 73), (0.0, 16 / 13)])
