@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
 
 from strutwork.kinematics import Poses
 from strutwork.kinematics.inscribed_shape import InscribedShape, plane_turn
@@ -77,6 +78,27 @@ def largest_square(angle: float) -> LargestShape:
     return largest_shape(grid, margin, shape, centre=[0.0, 0.0], accuracy=1e-8)
 
 
+@cache
+def square_area(angle: float) -> float:
+    """Area of the largest square about S, m²: where its border first meets a bound.
+
+    As `largest_square` without its search between the border's points, in a fiftieth of its time;
+    the bounds are met in corners, which are among the points.
+
+    Parameters
+    ----------
+    angle : float
+        Of its sides to the rails, deg.
+    """
+    border = InscribedShape("box", np.ones(2), plane_turn(np.radians(angle))).border(9)
+
+    def slack(half: float) -> float:
+        found = amplification(*(half * border).T)
+        return float(np.minimum(HIGH / found[:, 1], found[:, 0] / LOW).min() - 1.0)
+
+    return float((2.0 * brentq(slack, 0.1, 0.68, xtol=1e-13)) ** 2)
+
+
 def square_rows() -> tuple[PublishedRow, ...]:
     """The two areas beside ours."""
     note = (
@@ -84,7 +106,7 @@ def square_rows() -> tuple[PublishedRow, ...]:
         "No reading of the bounds, of the legs' length or of the shape gives the half, and nothing "
         "is rescaled"
     )
-    found = (largest_square(45.0).measure, largest_square(0.0).measure)
+    found = (square_area(45.0), square_area(0.0))
     return tuple(
         PublishedRow(v.row, v.quantity, v.unit, v.value, ours, "not reproducible", note)
         for v, ours in zip(SQUARES, found, strict=True)

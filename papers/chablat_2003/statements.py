@@ -90,7 +90,7 @@ def statements() -> tuple[Statement, ...]:
         ),
     ]
     place = "section 3.3"
-    found += stated(square_rows(), place, f"{TESTS}::test_largest_squares")
+    found += stated(square_rows(), place, f"{TESTS}::test_squares_about_s")
     found += [
         _said(
             place,
@@ -99,7 +99,7 @@ def statements() -> tuple[Statement, ...]:
             "sides at 45° to the rails, by 1.425",
             "not reproducible",
             SQUARES.note.rstrip("."),
-            "test_largest_squares",
+            "test_squares_about_s",
         ),
         Statement(
             "section 3.4",

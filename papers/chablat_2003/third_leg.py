@@ -97,7 +97,7 @@ def turn_range(
     x, y = (g.ravel() for g in np.meshgrid([-half, 0.0, half], [0.0, half]))
 
     def slack(turn: Array) -> Array:
-        return sines(machine, x, y, turn[:, None]).min(axis=(1, 2)) - threshold
+        return np.asarray(sines(machine, x, y, turn[:, None]).min(axis=(1, 2)) - threshold)
 
     ends = [_first_end(slack, sign) for sign in (-1.0, 1.0)]
     return TurnRange(*ends)

@@ -50,7 +50,7 @@ def test_the_rows_are_the_derivative_of_the_formulas(machine: Biglide) -> None:
     """Complex steps in the directions that the tool has; both are exact but for rounding."""
     poses = machine.poses(*PLACES.T)
     if isinstance(machine, BiglideThirdLeg):
-        poses = machine.poses(*PLACES.T, TURNS)
+        poses = machine.poses(PLACES[:, 0], PLACES[:, 1], TURNS)
     rows = jacobians(machine.linkage, machine.place(poses)).inverse
     for k in (0, 1, 4) if machine.turning else (0, 1):
         twist = np.eye(6)[k]

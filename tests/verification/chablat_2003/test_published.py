@@ -12,13 +12,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from strutwork.kinematics import drive_values, jacobians
 from strutwork.machines import Biglide, BiglideThirdLeg
-from strutwork.papers.chablat_2003.squares import amplification, largest_square
+from strutwork.papers.chablat_2003.squares import amplification, largest_square, square_area
 from strutwork.papers.chablat_2003.statements import statements
 from strutwork.papers.chablat_2003.third_leg import SIDE, best_third, sines, turn_range
 
@@ -29,8 +31,8 @@ TURNS = RANDOM.uniform(-0.8, 1.8, 40)
 MACHINE = BiglideThirdLeg()
 
 
-def rows() -> np.ndarray:
-    placement = MACHINE.place(MACHINE.poses(*PLACES, TURNS))
+def rows() -> NDArray[Any]:
+    placement = MACHINE.place(MACHINE.poses(PLACES[0], PLACES[1], TURNS))
     return jacobians(MACHINE.linkage, placement).inverse[:, :, [0, 1, 4]]
 
 
@@ -45,7 +47,7 @@ def test_the_rows_are_eqs_2_and_4() -> None:
         [x / np.sqrt(1 - x**2), one, none],
         [ahead / sigma, y / sigma, 1.7 * (np.cos(b) - ahead * np.sin(b) / sigma)],
     ]
-    np.testing.assert_allclose(rows(), np.moveaxis(wanted, -1, 0), rtol=0.0, atol=1e-11)
+    np.testing.assert_allclose(rows(), np.moveaxis(np.array(wanted), -1, 0), rtol=0.0, atol=1e-11)
 
 
 def test_parallel_singularities() -> None:
@@ -73,7 +75,7 @@ def test_isotropic_at_home() -> None:
 def test_position_is_decoupled() -> None:
     """Section 3.2: the first two drives are those of the plane machine; rounding."""
     plane = Biglide()
-    own = drive_values(MACHINE, MACHINE.place(MACHINE.poses(*PLACES, TURNS)))[:, :2]
+    own = drive_values(MACHINE, MACHINE.place(MACHINE.poses(PLACES[0], PLACES[1], TURNS)))[:, :2]
     wanted = drive_values(plane, plane.place(plane.poses(*PLACES)))
     np.testing.assert_allclose(own, wanted, rtol=0.0, atol=1e-15)
     assert np.abs(rows()[:, :2, 2]).max() < 1e-11
@@ -81,7 +83,7 @@ def test_position_is_decoupled() -> None:
 
 def test_singularities_of_the_third_leg() -> None:
     """Section 3.2: the two sines against the rows of the joints, to 1e-11."""
-    found = sines(MACHINE, *PLACES, TURNS)
+    found = sines(MACHINE, PLACES[0], PLACES[1], TURNS)
     third = rows()[:, 2]
     cosine = 1.0 / np.sqrt(1.0 + third[:, 0] ** 2 + third[:, 1] ** 2)
     np.testing.assert_allclose(found[:, 0], cosine, atol=1e-11)
@@ -98,6 +100,12 @@ def test_largest_squares(angle: float, area: float) -> None:
     """Section 3.3 prints about half of them; ours are exact, found to 1e-8 of the size."""
     found = largest_square(angle)
     assert found.measure == pytest.approx(area, abs=1e-6)
+
+
+@pytest.mark.parametrize(("angle", "area"), [(45.0, 128 / 73), (0.0, 16 / 13)])
+def test_squares_about_s(angle: float, area: float) -> None:
+    """The same areas as the page shows them: 1e-6, and seen 1e-12."""
+    assert square_area(angle) == pytest.approx(area, abs=1e-6)
 
 
 @pytest.mark.parametrize(("angle", "area"), [(45.0, 128 / 73), (0.0, 16 / 13)])
