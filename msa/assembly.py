@@ -26,6 +26,7 @@ from strutwork.kinematics import (
 from strutwork.msa.beam import fixed_end_loads
 from strutwork.msa.loads import LoadCase
 from strutwork.msa.point_mass import mass_weight
+from strutwork.msa.row_blocks import row_blocks
 from strutwork.msa.structure import PlacedStructure, rigid_map
 from strutwork.msa.topology import Topology
 from strutwork.msa.triplets import sum_of_parts
@@ -173,26 +174,7 @@ class System:
 
         k is two, and four where a joint coordinate follows another.
         """
-        vertex, values = self._blocks(self.locked_rows)
-        tied = self.locked_rows.tied
-        if tied is None:
-            return vertex, values
-        more, others = self._blocks(tied.others)
-        vertex = np.concatenate([vertex, np.full_like(vertex, -1)], axis=1)
-        values = np.concatenate([values, np.zeros_like(values)], axis=2)
-        vertex[tied.rows, 2:] = more
-        values[:, tied.rows, 2:] = -tied.ratio[:, None, None] * others
-        return vertex, values
-
-    def _blocks(self, rows: ConstraintRows) -> tuple[NDArray[np.intp], Array]:
-        nodes = rows.nodes
-        vertex = self.placed.structure.vertex_of_node[nodes]
-        maps = rigid_map(self.placed.arms[:, nodes])
-        values = np.einsum("pri,prkij->prkj", rows.axes, maps)
-        values[:, :, 0] *= -1.0
-        # both sides on one cluster: only the rounding of its coordinates would be left
-        values[:, vertex[:, 0] == vertex[:, 1]] = 0.0
-        return vertex, values
+        return row_blocks(self.locked_rows, self.placed)
 
     @cached_property
     def rows(self) -> Array:
