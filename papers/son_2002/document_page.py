@@ -13,15 +13,24 @@ from strutwork.studies.progress import Teller
 
 #: Chapters of the page: key, title, and the places of the thesis that begin it.
 _PARTS = (
+    ("serial", "Where is a serial machine singular?", ("section 2.1.1", "eq. 9", "eq. 10")),
     ("manipulability", "How well do drives move a hexapod?", ("section 2.2",)),
-    ("scale", "What does size do?", ("eqs 14, 15", "eq. 24", "Fig. 9")),
-    ("reversals", "Where do drives turn back?", ("eq. 34", "section 4")),
+    (
+        "scale",
+        "What does size do?",
+        ("eqs 14, 15", "eq. 24", "Fig. 8", "Fig. 9", "eq. 22", "eq. 23"),
+    ),
+    (
+        "reversals",
+        "Where do drives turn back?",
+        ("eq. 34", "section 4", "section 4.4.4", "section 4.4.5"),
+    ),
     (
         "planar",
         "How does the planar machine move, and how stiff is it?",
         (
             *("section 6.4", "Fig. 34 (b), (c)", "section 6.1"),
-            *("eqs 43 to 45", "section 6.3", "section 6.2"),
+            *("eqs 43 to 45", "section 6.3", "section 6.2", "Fig. 32", "Fig. 51"),
         ),
     ),
     ("table-2", "Which forces lock in?", ("Table 2",)),
@@ -31,7 +40,7 @@ _PARTS = (
         "What was measured on it?",
         ("section 9.1.1", "Table 5", "section 9.1.3", "Table 6", "eq. 65", "section 9.2.1"),
     ),
-    ("modes", "How does it vibrate?", ("eq. 66", "sections 6.2, 9.2.2")),
+    ("modes", "How does it vibrate?", ("eq. 66", "sections 6.2, 9.2.2", "Fig. 61")),
     ("bridge", "What of the moving bridge?", ("chapter 10",)),
 )
 
@@ -49,9 +58,9 @@ def document_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[C
         (
             count_text(said),
             Text(
-                "The machines' own reports, “strutwork report mit-ss1” and “strutwork report "
-                "hexel-hexapod”, say how each number is found; here stands every result of the "
-                "thesis in its order, with the test that holds it."
+                "The machines' own reports, “strutwork report mit-ss1” and likewise hexel-hexapod, "
+                "serial-five-axis and moving-bridge, say how each number is found; here stands "
+                "every result of the thesis in its order, with the test that holds it."
             ),
         ),
         (file,),

@@ -94,16 +94,6 @@ def measured() -> tuple[Statement, ...]:
     ends = "not computed"
     return (
         Statement(
-            "section 9.1.1",
-            "straightness along x, from the plane",
-            "µm",
-            "within ±3",
-            ends,
-            "not reproducible",
-            f"{why}; the report of the machine shows what tolerances of pins and rails may do",
-            here,
-        ),
-        Statement(
             "Table 5",
             "repeatability of the end-effector, x and z, and of the blocks",
             "µm",

@@ -204,7 +204,7 @@ def _hexapod_row() -> FlatRow:
     return FlatRow(
         "Hexel hexapod",
         "6, none in the usual workspace",
-        f"{len(points)}, {strong} of them strong",
+        f"{len(points)}, " + ("all" if strong == len(points) else f"{strong} of them") + " strong",
         f"{min(away):.2f} mm from the middle" + ("" if np.ptp(away) < 0.01 else " and more"),
         away,
     )

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 from strutwork.machines import MovingBridge, get
-from strutwork.papers.son_2002.chapters.serial import flat_chapter, heads_chapter
+from strutwork.papers.son_2002.chapters.serial import (
+    assumptions_chapter,
+    flat_chapter,
+    heads_chapter,
+)
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter, Points, Text
 from strutwork.studies.description import parameters
@@ -31,7 +35,7 @@ def serial_chapters(
 ) -> tuple[str, str, tuple[Chapter, ...]]:
     """Title, subtitle and the chapters that the thesis adds to the machine's report."""
     entry = get(name)
-    chapters = [heads_chapter(), flat_chapter()]
+    chapters = [heads_chapter(), flat_chapter(), assumptions_chapter()]
     content = {"parameters": parameters(entry.factory())}
     chapters.append(closing_chapter(name, {"machine": name}, content, chapters))
     return entry.title, f"{entry.topology} · {entry.paper.citation}", tuple(chapters)

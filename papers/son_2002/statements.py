@@ -6,13 +6,7 @@ from math import nan
 
 import numpy as np
 
-from strutwork.kinematics import DIRECTIONS
-from strutwork.kinematics.drive_fields import MotionField
-from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.reversal_cones import cone
-from strutwork.kinematics.reversals import reversals
-from strutwork.kinematics.task_surfaces import Plane
-from strutwork.machines import HexelHexapod
 from strutwork.papers.son_2002.assembly_table import table_2_rows
 from strutwork.papers.son_2002.chapters.kinematics import condition_rows
 from strutwork.papers.son_2002.manipulability import hexapod_manipulability, manipulability_rows
@@ -24,10 +18,21 @@ from strutwork.papers.son_2002.measured_statements import (
     targets,
 )
 from strutwork.papers.son_2002.modes import mode_rows
+from strutwork.papers.son_2002.motion_statements import (
+    removal_statements,
+    screw_statement,
+    straightness_statement,
+    workspace_statements,
+)
 from strutwork.papers.son_2002.planar_kinematics import planar_kinematics
 from strutwork.papers.son_2002.published import (
     MACHINE,
     STIFFNESS,
+)
+from strutwork.papers.son_2002.serial_statements import (
+    bridge_statements,
+    flat_statements,
+    serial_statements,
 )
 from strutwork.papers.son_2002.size import FIGURE_9, figure_9_scale
 from strutwork.papers.son_2002.stiffness_table import computed_stiffness, table_6_rows
@@ -41,16 +46,20 @@ ENVELOPE = (0.9, 1.0, 1.5)
 def statements() -> tuple[Statement, ...]:
     """All of them, in the order of the document."""
     return (
+        *serial_statements(),
         *stated(
             manipulability_rows(hexapod_manipulability()),
             "section 2.2",
             f"{TESTS}/test_hexapod.py::test_figures_of_the_report",
         ),
+        *removal_statements(),
         *_scaling(),
         *_reversals(),
         *_planar(),
+        *workspace_statements(),
         *stated(table_2_rows(), "Table 2", f"{TESTS}/test_table_2.py::test_rows_of_the_table"),
         *targets(),
+        straightness_statement(),
         *measured(),
         *stated(table_6_rows(), "Table 6", f"{TESTS}/test_stiffness.py::test_rows_of_table_6"),
         *spindle(),
@@ -59,17 +68,8 @@ def statements() -> tuple[Statement, ...]:
             "sections 6.2, 9.2.2",
             f"{TESTS}/test_modes.py::test_rows_beside_the_published",
         ),
-        Statement(
-            "chapter 10",
-            "four-axis machine on a moving bridge",
-            "",
-            "the planar mechanism on a bridge, a stage of one axis below",
-            "not a machine of its own here",
-            "not reproducible",
-            "no dimension of bridge or stage is printed; the planar mechanism is the machine of "
-            "chapter 6 itself",
-            f"{TESTS}/test_statements.py::test_every_chapter_with_results_is_there",
-        ),
+        screw_statement(),
+        *bridge_statements(),
     )
 
 
@@ -124,21 +124,10 @@ def _figure_9(machine: str) -> tuple[Statement, ...]:
 
 
 def _reversals() -> tuple[Statement, ...]:
-    """Chapter 4: cones, and singular points over a flat surface with the tool upright."""
+    """Chapter 4: cones, and what drives do over surfaces."""
     gradient = np.array([[1.0, 2.0], [1.0, -1.0], [2.0, 3.0]])
     low, high = np.degrees(cone(gradient, [1, -1, 1]))
     cones_test = "tests/unit/test_kinematics_reversal_cones.py::test_cone_of_the_thesis"
-    machine = HexelHexapod()
-    home = machine.home()
-    field = MotionField(
-        Motion(machine.linkage, machine.place(home), home.rotation),
-        Plane(DIRECTIONS[:2]),
-        machine.place,
-    )
-    axis = np.linspace(-0.4, 0.4, 17)
-    points = [p for drive in reversals(field, axis, axis).singular for p in drive.points]
-    away = min(float(np.linalg.norm(p.place)) for p in points)
-    flat = "flat surface, tool upright"
     places = "tests/unit/test_kinematics_reversals.py"
     curved = "the patch of the curved surface is not published"
     return (
@@ -155,37 +144,7 @@ def _reversals() -> tuple[Statement, ...]:
             "the condition α + 2β ≥ 0 that is printed too bounds nothing",
             cones_test,
         ),
-        Statement(
-            "section 4",
-            f"hexapod, {flat}: singular points",
-            "",
-            6.0,
-            float(len(points)),
-            "predicted",
-            f"one a leg, all strong, the nearest {1e3 * away:.2f} mm from the axis, outside the "
-            "reach of section 2.2: none in the usual workspace, as printed",
-            f"{places}::test_flat_surface_and_vertical_tool_of_a_hexapod",
-        ),
-        Statement(
-            "section 4",
-            f"MIT-SS-1, {flat}: singular points",
-            "",
-            "none",
-            "no point; whole lines at x = −202.5, 212.5 and 157.5 mm, outside the workspace",
-            "predicted",
-            "",
-            f"{places}::test_planar_machine_with_a_table_has_whole_lines",
-        ),
-        Statement(
-            "section 4",
-            f"serial machine, {flat}: singular points",
-            "",
-            "none",
-            "none",
-            "predicted",
-            "",
-            f"{places}::test_serial_machine_never_turns_back",
-        ),
+        *flat_statements(),
         Statement(
             "section 4",
             "curved surface: singular points, three machines, two orientations",

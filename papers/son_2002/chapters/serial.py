@@ -4,25 +4,28 @@ from __future__ import annotations
 
 import numpy as np
 
+from strutwork.machines import SerialFiveAxis
+from strutwork.machines.serial_five_axis_parts import ROTARY, TRAVELS
 from strutwork.papers.son_2002.serial import (
     HALF,
     HEADS,
-    FlatRow,
     Head,
     flat_rows,
     heads,
 )
-from strutwork.papers.tables import numbers, texts
+from strutwork.papers.tables import assumed, numbers, texts
 from strutwork.reports.content import Cell, Chapter, Figure, Points, Table, Text
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.curves import Curve, curves
 from strutwork.reports.figures.theme import AXIS_COLOURS
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import MINUS, significant
 
 #: Tilts of the table, degrees.
 SHOWN = (0, 1, 5, 10, 30, 60, 80, 89, 90)
 
 SPEEDS, FLAT, HOME = "axis-speeds.csv", "flat-surface.csv", "heads-at-home.csv"
+
+OURS = "our choice"
 
 NOTES = (
     (
@@ -94,7 +97,7 @@ def _speeds_figure(found: tuple[Head, ...]) -> Figure:
                 Curve(HEADS[head.axes], head.least, colour)
                 for head, colour in zip(found, colours, strict=False)
             ],
-            ("tilt of the tool from upright (deg)", "least speed of the tool's axis (rad/rad)"),
+            ("tilt of the tool from upright (deg)", "least speed (rad/rad)"),
             from_zero=True,
         ),
         "Two curves over the tilt from 0 to 90 degrees: that of A–C rises from zero as a sine, "
@@ -185,4 +188,57 @@ def flat_chapter() -> Chapter:
     )
 
 
-__all__ = ["FlatRow", "flat_chapter", "heads_chapter"]
+def assumptions_chapter() -> Chapter:
+    """Every choice of ours, with its value."""
+    m = SerialFiveAxis()
+
+    def mm(*lengths: float) -> str:
+        return ", ".join(f"{1e3 * length:g}" for length in lengths) + " mm"
+
+    def reach(low: float, high: float) -> str:
+        return f"{1e3 * low:g} to {1e3 * high:g} mm".replace("-", MINUS)
+
+    turns = {name: end for pair in ROTARY.values() for name, end in pair}
+    rows = [
+        ["Rotary axes and the tool's axis", "C, A or A, B", "section 2.1.2, eqs 9 and 10"],
+        ["Order of the slides; both axes in the head", "x, z, y from the ground", OURS],
+        ["Both rotary axes and the tool's meet in one point", "the pivot", OURS],
+        ["Tool tip to pivot, pivot to the ram's axis", mm(m.tool_length, m.neck_length), OURS],
+        ["Column's axis to pivot, to the saddle's", mm(m.column_distance, m.saddle_depth), OURS],
+        ["Rails under the tool tip", mm(m.rail_depth), OURS],
+        [
+            "Sections of column; of ram and neck",
+            f"{m.column.name}; {m.ram.name}, {m.material.name}",
+            OURS,
+        ],
+        [
+            "Slide along its way, across it, about each axis",
+            (
+                f"{m.slide_drive_stiffness / 1e6:g}, {m.guide_stiffness / 1e6:g} N/µm, "
+                f"{m.guide_tilting_stiffness / 1e6:g} MN·m/rad"
+            ),
+            OURS,
+        ],
+        [
+            "Rotary axis about itself, in each direction, across itself",
+            (
+                f"{m.rotary_drive_stiffness / 1e6:g} MN·m/rad, {m.bearing_stiffness / 1e6:g} N/µm, "
+                f"{m.bearing_tilting_stiffness / 1e6:g} MN·m/rad"
+            ),
+            OURS,
+        ],
+        [
+            "Carriage, saddle, fork, housing",
+            f"{m.carriage_mass:g}, {m.saddle_mass:g}, {m.fork_mass:g}, {m.housing_mass:g} kg",
+            OURS,
+        ],
+        ["Spindle", f"{m.spindle_mass:g} kg", "section 9, of the MIT-SS-1"],
+        *([f"Travel of slide {name}", reach(*ends), OURS] for name, ends in TRAVELS.items()),
+        *([f"Range of axis {name}", f"±{np.degrees(end):g}°", OURS] for name, end in turns.items()),
+        ["Collisions, friction, play", "none", OURS],
+    ]
+    return Chapter(
+        "assumptions",
+        "Assumptions and their sources",
+        (assumed("Dimensions and properties", rows),),
+    )

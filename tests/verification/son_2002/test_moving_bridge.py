@@ -94,7 +94,7 @@ def test_machines_beside_each_other_over_a_flat_surface() -> None:
     planar = rows["MIT-SS-1, with a slide along y"]
     assert planar.places == pytest.approx((-202.5, 212.5, 157.5), abs=1e-9)
     hexapod = rows["Hexel hexapod"]
-    assert hexapod.found == "6, 6 of them strong"
+    assert hexapod.found == "6, all strong"
     assert hexapod.places == pytest.approx([305.01] * 6, abs=5e-3)
 
 
