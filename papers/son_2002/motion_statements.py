@@ -137,7 +137,7 @@ def workspace_statements() -> tuple[Statement, ...]:
             "x-z workspace with tilts of ±30° over that without",
             "",
             "smaller",
-            f"{(right - left) / (high - low):.2f} along x: {ends} mm".replace("-", "−"),
+            f"{(right - left) / (high - low):.2f} along x: {ends}".replace("-", "−"),
             "predicted",
             "by the reach of the struts alone; travels and the values of Fig. 31 are not printed",
             f"{HERE}::test_reach_along_x",
