@@ -53,13 +53,12 @@ def test_page_is_drawn_quiet_and_offline(
 
 
 #: Drawing in software takes a minute for these; the others show the same kinds of views.
-LONG_VIEWS = ["comparison", "machine", "planar", "tolerance"]
+LONG_VIEWS = ["comparison", "hexapod", "machine", "planar", "prototype", "tolerance"]
 
 
 @pytest.mark.parametrize(
     "kind",
-    ["prototype", "model", "hexapod"]
-    + [pytest.param(kind, marks=pytest.mark.slow) for kind in LONG_VIEWS],
+    ["model"] + [pytest.param(kind, marks=pytest.mark.slow) for kind in LONG_VIEWS],
 )
 def test_three_dimensional_views_show_something(
     browser: Browser, kind: str, request: pytest.FixtureRequest
@@ -74,8 +73,10 @@ def test_three_dimensional_views_show_something(
 
     colours = {key: browser.colours(f"#{key} canvas") for key in solids}
 
-    # walls, grid and labels of an empty scene make 200 to 260, lit links and joints over 1200
-    assert all(number > 600 for number in colours.values()), colours
+    # walls, grid and labels of an empty scene make 200 to 260, lit links and joints over 850, one
+    # smooth body of one colour 400
+    least = {key: 300 if key.startswith("ellipsoid") else 600 for key in colours}
+    assert all(number > least[key] for key, number in colours.items()), colours
 
 
 def test_names_of_a_model_are_text_and_never_markup(

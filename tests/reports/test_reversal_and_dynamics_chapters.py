@@ -44,6 +44,7 @@ def test_every_drive_has_its_row(hexapod: Subject) -> None:
         assert np.abs(trace["x"]).max() <= 150.0 + 1e-9
 
 
+@pytest.mark.slow
 def test_a_serial_machine_turns_back_nowhere() -> None:
     subject = Subject(load(EXAMPLES / "gantry.toml"), "gantry", "gantry")
     assert not reversals.missing(subject)
