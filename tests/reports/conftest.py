@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import fcntl
+import os
+import pickle
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -77,19 +80,34 @@ def browser() -> Iterator[Browser]:
         yield opened
 
 
+def shared(name: str, target: str, factory: pytest.TempPathFactory) -> WrittenReport:
+    """The report of a target, written by whichever of the workers of a run asks first."""
+    base = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        # what the workers have in common
+        base = base.parent
+    found = base / f"{name}.pickle"
+    with (base / f"{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not found.exists():
+            written = write_report(target, base / f"report-{name}")
+            found.write_bytes(pickle.dumps(written))
+    return pickle.loads(found.read_bytes())  # type: ignore[no-any-return]  # noqa: S301 - our own
+
+
 @pytest.fixture(scope="session")
 def machine_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    return write_report("proposed-3pprs", tmp_path_factory.mktemp("machine"))
+    return shared("machine", "proposed-3pprs", tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
 def comparison_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    return write_report("azulay-2014", tmp_path_factory.mktemp("comparison"))
+    return shared("comparison", "azulay-2014", tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
 def prototype_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    return write_report("prototype-3ppprs", tmp_path_factory.mktemp("prototype"))
+    return shared("prototype", "prototype-3ppprs", tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
@@ -102,23 +120,23 @@ def model_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
 
 @pytest.fixture(scope="session")
 def planar_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    return write_report("mit-ss1", tmp_path_factory.mktemp("planar"))
+    return shared("planar", "mit-ss1", tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
 def tolerance_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
     example = Path(__file__).parents[2] / "examples" / "06_table_on_two_rails.toml"
-    return write_report(str(example), tmp_path_factory.mktemp("tolerance"))
+    return shared("tolerance", str(example), tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
 def hexapod_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    return write_report("hexel-hexapod", tmp_path_factory.mktemp("hexapod"))
+    return shared("hexapod", "hexel-hexapod", tmp_path_factory)
 
 
 @pytest.fixture(scope="session")
 def document_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    return write_report("corbel-2008", tmp_path_factory.mktemp("document"))
+    return shared("document", "corbel-2008", tmp_path_factory)
 
 
 @pytest.fixture(

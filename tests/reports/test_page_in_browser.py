@@ -31,10 +31,23 @@ OVERFLOW = """
 """
 
 
-@pytest.mark.parametrize("width", [WIDTHS[0], pytest.param(WIDTHS[1], marks=pytest.mark.slow)])
+#: Pages that have every kind of figure; the others take long to draw in software.
+PAGES = ("machine", "model", "document")
+OTHER_PAGES = ("comparison", "prototype", "planar", "hexapod", "tolerance")
+
+
+@pytest.mark.parametrize(
+    ("kind", "width"),
+    [
+        *((kind, WIDTHS[0]) for kind in PAGES),
+        *(pytest.param(kind, WIDTHS[0], marks=pytest.mark.slow) for kind in OTHER_PAGES),
+        *(pytest.param(kind, WIDTHS[1], marks=pytest.mark.slow) for kind in (*PAGES, *OTHER_PAGES)),
+    ],
+)
 def test_page_is_drawn_quiet_and_offline(
-    browser: Browser, any_report: WrittenReport, width: int
+    browser: Browser, kind: str, width: int, request: pytest.FixtureRequest
 ) -> None:
+    any_report: WrittenReport = request.getfixturevalue(f"{kind}_report")
     browser.open(any_report.report, width)
 
     assert browser.evaluate("document.documentElement.dataset.plots") == "drawn"
@@ -101,8 +114,8 @@ def test_names_of_a_model_are_text_and_never_markup(
     assert browser.complaints == []
 
 
-def test_page_can_be_walked_by_keyboard(browser: Browser, machine_report: WrittenReport) -> None:
-    browser.open(machine_report.report, WIDTHS[0])
+def test_page_can_be_walked_by_keyboard(browser: Browser, model_report: WrittenReport) -> None:
+    browser.open(model_report.report, WIDTHS[0])
 
     targets: list[str] = browser.evaluate(
         "[...document.querySelectorAll('nav a, .skip')].map((a) => a.getAttribute('href'))"
@@ -118,9 +131,9 @@ def test_page_can_be_walked_by_keyboard(browser: Browser, machine_report: Writte
 
 
 def test_the_page_may_not_reach_the_network_even_if_asked(
-    browser: Browser, machine_report: WrittenReport
+    browser: Browser, model_report: WrittenReport
 ) -> None:
-    browser.open(machine_report.report, WIDTHS[0])
+    browser.open(model_report.report, WIDTHS[0])
 
     answer = browser.evaluate(
         "fetch('http://127.0.0.1:9/').then(() => 'reached', (error) => error.name)"

@@ -135,7 +135,7 @@ def test_what_was_calculated_is_called_synthetic(prototype_report: WrittenReport
     assert all("synthetic, not measured" in caption for caption in captions)
 
 
-@pytest.mark.parametrize("reduced", [False, True])
+@pytest.mark.parametrize("reduced", [False, pytest.param(True, marks=pytest.mark.slow)])
 def test_a_mode_swings_at_the_button(
     browser: Browser, model_report: WrittenReport, *, reduced: bool
 ) -> None:

@@ -29,6 +29,7 @@ def space(model: Model, points: tuple[int, int] = (61, 41)) -> Workspace:
     return workspace(MachineMargin(model, ("x", "y"), step, interference=safe), axes)
 
 
+@pytest.mark.slow
 def test_a_mesh_takes_more_of_the_workspace_than_its_capsule(tmp_path: Path) -> None:
     """Both as closed forms say, to the chords of a grid of 5 mm."""
     rods = space(load(str(written(tmp_path, TEXT))))
