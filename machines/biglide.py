@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from strutwork.errors import ModelError
 from strutwork.kinematics import Linkage, Placement, Poses, angle
 from strutwork.kinematics.frames import frame, gathered, vector
 from strutwork.machines import biglide_parts as parts
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import OR_RIGID, check_positive, check_proportions
 from strutwork.machines.legs import square_root
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.msa.materials import Material
@@ -85,17 +84,8 @@ class Biglide:
 
     def __post_init__(self) -> None:
         name = type(self).__name__
-        for field in (*self.lengths, "carriage_mass", "platform_mass"):
-            value = getattr(self, field)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(f"{name}.{field}", f"is {value!r}.", "Give a positive number, SI.")
-        k = self.drive_stiffness
-        if k is not None and not (np.isfinite(k) and k > 0):
-            raise ModelError(
-                f"{name}.drive_stiffness",
-                f"is {k!r}.",
-                "Give a positive number, N/m, or None for rigid.",
-            )
+        check_positive(self, (*self.lengths, "carriage_mass", "platform_mass"))
+        check_positive(self, ["drive_stiffness"], OR_RIGID)
         depths = {f"section, {k}": size for k, size in enumerate(self.section.outline)}
         check_proportions(name, {f: getattr(self, f) for f in self.lengths} | depths)
 

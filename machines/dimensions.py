@@ -1,8 +1,9 @@
-"""Whether a machine's dimensions fit one another."""
+"""Whether a machine's dimensions are positive, and fit one another."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from math import isfinite
 from statistics import median
 
 from strutwork.errors import ModelError
@@ -10,6 +11,33 @@ from strutwork.errors import ModelError
 #: A dimension this many times the middle one of the others, or a part of it as small, is taken
 #: for another unit: in the machines of the literature the ratio stays below fifteen.
 FARTHEST = 100.0
+
+
+POSITIVE, LENGTH = "Give a positive number, SI.", "Give a positive length, m."
+OR_RIGID = "Give a positive number, N/m, or None for rigid."
+
+
+def check_positive(machine: object, fields: Iterable[str], remedy: str = POSITIVE) -> None:
+    """Refuse fields of a machine that are not positive; None is welcome with `OR_RIGID`.
+
+    Parameters
+    ----------
+    machine : object
+        With the fields; its type is named in the error.
+    fields : iterable of str
+    remedy : str
+
+    Raises
+    ------
+    ModelError
+        Names the field and its value.
+    """
+    for name in fields:
+        value = getattr(machine, name)
+        if value is None and remedy == OR_RIGID:
+            continue
+        if not (isfinite(value) and value > 0):
+            raise ModelError(f"{type(machine).__name__}.{name}", f"is {value!r}.", remedy)
 
 
 def check_proportions(machine: str, dimensions: Mapping[str, float]) -> None:

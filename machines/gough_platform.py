@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import Poses
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import check_positive, check_proportions
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.machines.six_legs import LEGS, TOOL, SixLegs, foot, leg, seat
 from strutwork.msa.beam import Beam
@@ -107,12 +107,7 @@ class GoughPlatform(SixLegs):
             *("base_radius", "plate_radius", "plate_height", "workspace_side"),
             *("shortest_leg", "longest_leg", "cylinder_length"),
         )
-        for name in (*lengths, "plate_mass"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"GoughPlatform.{name}", f"is {value!r}.", "Give a positive number, SI."
-                )
+        check_positive(self, (*lengths, "plate_mass"))
         check_proportions("GoughPlatform", {name: getattr(self, name) for name in lengths})
         for name in ("base_pair", "plate_pair"):
             value = getattr(self, name)

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import Poses, rotation_x
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import LENGTH, OR_RIGID, check_positive, check_proportions
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.machines.pose_grid import PoseGrid
 from strutwork.machines.six_legs import LEGS, TOOL, SixLegs, foot, leg, seat
@@ -68,20 +68,9 @@ class HexelHexapod(SixLegs):
 
     def __post_init__(self) -> None:
         lengths = ("long_side", "short_side", "joint_height", "joint_radius", "base_height")
-        for name in lengths:
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"HexelHexapod.{name}", f"is {value!r}.", "Give a positive length, m."
-                )
+        check_positive(self, lengths, LENGTH)
         check_proportions("HexelHexapod", {name: getattr(self, name) for name in lengths})
-        k = self.leg_stiffness
-        if k is not None and not (np.isfinite(k) and k > 0):
-            raise ModelError(
-                "HexelHexapod.leg_stiffness",
-                f"is {k!r}.",
-                "Give a positive number, N/m, or None for rigid.",
-            )
+        check_positive(self, ["leg_stiffness"], OR_RIGID)
         home = self.place(self.home())
         if not home.reachable:
             raise ModelError(

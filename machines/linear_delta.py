@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, axes_frame
 from strutwork.kinematics.frames import cross, dot, frame, gathered, vector
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import OR_RIGID, check_positive, check_proportions
 from strutwork.machines.legs import square_root
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.msa.beam import Beam
@@ -105,20 +105,9 @@ class LinearDelta:
     def __post_init__(self) -> None:
         lengths = ("base_radius", "platform_radius", "rod_length", "rod_spacing", "workspace_side")
         masses = ("platform_mass", "carriage_mass")
-        for name in (*lengths, *masses):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"LinearDelta.{name}", f"is {value!r}.", "Give a positive number, SI."
-                )
+        check_positive(self, (*lengths, *masses))
         check_proportions("LinearDelta", {name: getattr(self, name) for name in lengths})
-        k = self.drive_stiffness
-        if k is not None and not (np.isfinite(k) and k > 0):
-            raise ModelError(
-                "LinearDelta.drive_stiffness",
-                f"is {k!r}.",
-                "Give a positive number, N/m, or None for rigid.",
-            )
+        check_positive(self, ["drive_stiffness"], OR_RIGID)
         if self.reach <= 0.0:
             raise ModelError(
                 "LinearDelta.base_radius",

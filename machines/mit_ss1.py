@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import Linkage, Placement, Poses, angle, rotation_y
 from strutwork.machines import mit_ss1_parts as parts
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import LENGTH, OR_RIGID, check_positive, check_proportions
 from strutwork.machines.legs import square_root
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.machines.pose_grid import PoseGrid
@@ -141,32 +141,20 @@ class MitSS1:
                 raise ModelError(
                     f"MitSS1.{name}", f"is {values!r}.", "Give three positive lengths, m."
                 )
-        for name in ("joint_height", "joint_radius", "joint_rise", "pin_width"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(f"MitSS1.{name}", f"is {value!r}.", "Give a positive length, m.")
+        single = ("joint_height", "joint_radius", "joint_rise", "pin_width")
+        check_positive(self, single, LENGTH)
         sizes = {
             f"{name}[{k}]": value
             for name in ("guide_distances", "strut_lengths")
             for k, value in enumerate(getattr(self, name))
         }
-        single = ("joint_height", "joint_radius", "joint_rise", "pin_width")
         check_proportions("MitSS1", sizes | {name: getattr(self, name) for name in single})
         for name in (
             *("radial_stiffness", "axial_stiffness", "block_radial_stiffness"),
             *("block_axial_stiffness", "drive_stiffness", "guide_stiffness"),
         ):
-            value = getattr(self, name)
-            if value is not None and not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"MitSS1.{name}",
-                    f"is {value!r}.",
-                    "Give a positive number, N/m, or None for rigid.",
-                )
-        for name in ("housing_mass", "housing_inertia", "strut_mass", "preload_factor"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(f"MitSS1.{name}", f"is {value!r}.", "Give a positive number, SI.")
+            check_positive(self, [name], OR_RIGID)
+        check_positive(self, ("housing_mass", "housing_inertia", "strut_mass", "preload_factor"))
         for name, words in (("struts", ("beams", "rigid")), ("pins", ("bearings", "revolute"))):
             if getattr(self, name) not in words:
                 raise ModelError(

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.errors import ModelError
 from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses
 from strutwork.machines import mit_ss1_parts as parts
+from strutwork.machines.dimensions import OR_RIGID, check_positive
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.msa.springs import PointMass
 from strutwork.msa.structure import Structure
@@ -51,15 +51,8 @@ class MovingBridge(MitSS1):
     bridge_stiffness: float | None = None
 
     def __post_init__(self) -> None:
-        mass, stiffness = self.bridge_mass, self.bridge_stiffness
-        if not (np.isfinite(mass) and mass > 0):
-            raise ModelError("MovingBridge.bridge_mass", f"is {mass!r}.", "Give a positive number.")
-        if stiffness is not None and not (np.isfinite(stiffness) and stiffness > 0):
-            raise ModelError(
-                "MovingBridge.bridge_stiffness",
-                f"is {stiffness!r}.",
-                "Give a positive number, N/m, or None for rigid.",
-            )
+        check_positive(self, ["bridge_mass"])
+        check_positive(self, ["bridge_stiffness"], OR_RIGID)
         super().__post_init__()
 
     @cached_property

@@ -15,7 +15,7 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import Linkage, Placement, Poses, angle, rotation_x, rotation_y
 from strutwork.kinematics.frames import rotation_z
 from strutwork.machines import serial_five_axis_parts as parts
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import check_positive, check_proportions
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.msa.materials import Material
 from strutwork.msa.sections import Section, box
@@ -128,12 +128,7 @@ class SerialFiveAxis:
                 f"is {self.axes!r}.",
                 'Choose "ac" or "ab", from the ram to the spindle.',
             )
-        for name in (*_LENGTHS, *_STIFFNESSES, *_MASSES):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"SerialFiveAxis.{name}", f"is {value!r}.", "Give a positive number, SI."
-                )
+        check_positive(self, (*_LENGTHS, *_STIFFNESSES, *_MASSES))
         check_proportions("SerialFiveAxis", {name: getattr(self, name) for name in _LENGTHS})
         at_home = self.place(self.home())
         if not at_home.reachable:

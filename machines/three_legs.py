@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, Poses, angle, axes_frame
 from strutwork.kinematics.frames import cross, dot, gathered, turned
-from strutwork.machines.dimensions import check_proportions
+from strutwork.machines.dimensions import LENGTH, OR_RIGID, check_positive, check_proportions
 from strutwork.machines.legs import CENTRE, SEAT, Leg, LegPlacement, full, seat
 from strutwork.machines.limits import Limit, joint_limits
 from strutwork.machines.radial import Radial
@@ -103,12 +103,7 @@ class ThreeLegs(ABC):
     guide_drive: Literal["turning", "sliding"] = "turning"
 
     def __post_init__(self) -> None:
-        for name in self.lengths:
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"{type(self).__name__}.{name}", f"is {value!r}.", "Give a positive length, m."
-                )
+        check_positive(self, self.lengths, LENGTH)
         check_proportions(
             type(self).__name__, {name: getattr(self, name) for name in self.dimensions}
         )
@@ -122,14 +117,7 @@ class ThreeLegs(ABC):
                     f"is {getattr(self, name)!r}.",
                     f'Choose "{words[0]}" or "{words[1]}".',
                 )
-        for name in ("guide_stiffness", "drive_stiffness"):
-            value = getattr(self, name)
-            if value is not None and not (np.isfinite(value) and value > 0):
-                raise ModelError(
-                    f"{type(self).__name__}.{name}",
-                    f"is {value!r}.",
-                    "Give a positive number, N/m, or None for a rigid drive.",
-                )
+        check_positive(self, ("guide_stiffness", "drive_stiffness"), OR_RIGID)
         at_home = self.place_legs(self.radial(self.home().position + self.seats))
         for reason, legs in at_home.faults.items():
             if legs.any():

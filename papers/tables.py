@@ -9,7 +9,7 @@ from strutwork.files import write_whole
 from strutwork.papers.published_rows import CLOSE, COLUMNS, FAIR, PublishedRow, file_name
 from strutwork.reports.content import Cell, Column, Table
 from strutwork.reports.data_files import DataFile, csv_file
-from strutwork.reports.numbers import percent
+from strutwork.reports.numbers import percent, significant
 
 
 def texts(*titles: str, group: str = "") -> tuple[Column, ...]:
@@ -50,6 +50,28 @@ def difference(row: PublishedRow) -> Cell:
 def nearly(percentage: float) -> float:
     """A difference in percent whose rounding to one decimal keeps no sign of zero."""
     return percentage if abs(percentage) >= 0.05 else 0.0
+
+
+def rows_table(title: str, rows: Iterable[PublishedRow], file: str) -> Table:
+    """Published rows beside ours, one a line, with their status and note."""
+    columns = (
+        *texts("quantity", "unit"),
+        *numbers("published", "ours", "difference"),
+        *texts("status", "note"),
+    )
+    lines: list[list[str | Cell]] = [
+        [
+            r.quantity,
+            r.unit,
+            significant(r.published, 4),
+            significant(r.computed, 4),
+            difference(r),
+            r.status,
+            r.note,
+        ]
+        for r in rows
+    ]
+    return Table(title, columns, lines, file)
 
 
 def rows_file(name: str, what: str, rows: Iterable[PublishedRow]) -> DataFile:

@@ -14,12 +14,11 @@ from strutwork.papers.corbel_2008.measuring import leg_range
 from strutwork.papers.corbel_2008.published import DELTA, PLATFORM, TABLE_1, TABLE_2, TEXT
 from strutwork.papers.published_rows import PublishedRow, Status, file_name
 from strutwork.papers.published_table import PublishedTable, PublishedValue
-from strutwork.papers.tables import assumed, difference, numbers, rows_file, texts
-from strutwork.reports.content import Cell, Chapter, Figure, Note, Row, Table, Text
+from strutwork.papers.tables import assumed, rows_file, rows_table
+from strutwork.reports.content import Chapter, Figure, Note, Row, Text
 from strutwork.reports.data_files import json_file
 from strutwork.reports.drawing_data import drawing_data
 from strutwork.reports.figures.model import model_view
-from strutwork.reports.numbers import significant
 
 _OURS = "ours"
 TITLES = {DELTA: "linear Delta", PLATFORM: "measuring platform"}
@@ -131,7 +130,7 @@ def published_chapter() -> Chapter:
                 "Most printed numbers are dimensions, which a model can only take. Results are "
                 "the ΔR that follows from the length of the rods and the ends of the legs' range."
             ),
-            *(_table(t, rows) for t, rows in groups),
+            *(rows_table(t.title, rows, file_name(t.key)) for t, rows in groups),
             Text(TABLE_2.note),
             Note(
                 "The copy that was read lacks its first lines and most figures. Title, authors and "
@@ -141,27 +140,6 @@ def published_chapter() -> Chapter:
         ),
         tuple(rows_file(file_name(t.key), t.title, rows) for t, rows in groups),
     )
-
-
-def _table(table: PublishedTable, rows: Sequence[PublishedRow]) -> Table:
-    columns = (
-        *texts("quantity", "unit"),
-        *numbers("published", "ours", "difference"),
-        *texts("status", "note"),
-    )
-    lines: list[list[str | Cell]] = [
-        [
-            r.quantity,
-            r.unit,
-            significant(r.published, 4),
-            significant(r.computed, 4),
-            difference(r),
-            r.status,
-            r.note,
-        ]
-        for r in rows
-    ]
-    return Table(table.title, columns, lines, file_name(table.key))
 
 
 def assumptions_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:

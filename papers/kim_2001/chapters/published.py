@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from strutwork.papers.kim_2001.comparison import (
     HORIZONTAL,
     at_plate,
@@ -12,12 +10,11 @@ from strutwork.papers.kim_2001.comparison import (
     table_2_rows,
 )
 from strutwork.papers.kim_2001.published import AXES, BARRIERS, MEASURED, TABLE_2
-from strutwork.papers.published_rows import PublishedRow, file_name
-from strutwork.papers.tables import difference, numbers, rows_file, texts
-from strutwork.reports.content import Cell, Chapter, Figure, Row, Table, Text
+from strutwork.papers.published_rows import file_name
+from strutwork.papers.tables import numbers, rows_file, rows_table, texts
+from strutwork.reports.content import Chapter, Figure, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.figures.ellipsoid import compliance_ellipsoid
-from strutwork.reports.numbers import significant
 
 DRAWN = "structural-ellipsoids.csv"
 
@@ -39,7 +36,7 @@ def published_chapter() -> Chapter:
                 "joints are rigid; compliance is taken at the platform's centre, singular tilts "
                 "with the tool on the guide's axis."
             ),
-            *(_table(t.title, file_name(t.key), rows) for t, rows in groups),
+            *(rows_table(t.title, rows, file_name(t.key)) for t, rows in groups),
             Text(TABLE_2.note),
             Row(tuple(_drawn(name, tilt) for name, tilt in TILTS.items()), 360),
         ),
@@ -75,27 +72,6 @@ def _drawn_file() -> DataFile:
         ("tilt_deg", "axis", "length_m_per_N", "x", "y", "z"),
         rows,
     )
-
-
-def _table(title: str, file: str, rows: Sequence[PublishedRow]) -> Table:
-    columns = (
-        *texts("quantity", "unit"),
-        *numbers("published", "ours", "difference"),
-        *texts("status", "note"),
-    )
-    lines: list[list[str | Cell]] = [
-        [
-            r.quantity,
-            r.unit,
-            significant(r.published, 4),
-            significant(r.computed, 4),
-            difference(r),
-            r.status,
-            r.note,
-        ]
-        for r in rows
-    ]
-    return Table(title, columns, lines, file)
 
 
 def measured_chapter() -> Chapter:
