@@ -28,9 +28,9 @@ from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
 from strutwork.machines.serial_five_axis import SerialFiveAxis
 from strutwork.machines.three_legs import ThreeLegs
+from strutwork.machines.variant import Variant
 from strutwork.machines.variants import (
     NamedMachine,
-    Variant,
     is_machine,
     named_machine,
     require_mass,

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import cos, hypot, pi, radians, sin, sqrt
 from types import MappingProxyType
 from typing import Any, Literal
@@ -26,6 +26,7 @@ from strutwork.machines.legs import seat
 from strutwork.machines.limits import Limit
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.three_legs import AISI_1018, TOOL, ThreeLegs
+from strutwork.machines.variant import Variant
 from strutwork.msa.springs import PointMass
 from strutwork.msa.structure import Structure
 
@@ -243,3 +244,22 @@ def dynamic_machine(name: str, which: DynamicSet = "calibrated") -> VibratingLeg
     if which == "blind":
         return VibratingLegs(base=base, platform=_BLIND_PLATFORM)
     return VibratingLegs(base=base, platform=_CALIBRATED_PLATFORM, tool_offset=_CALIBRATED_OFFSET)
+
+
+def models_for_statics_and_vibration(
+    name: str, machine: Callable[[], ThreeLegs]
+) -> tuple[Variant, ...]:
+    """A machine of the comparison as its static tables have it, and as it vibrates."""
+    return (
+        Variant("static", "true spherical joints, drives with their stiffness", machine),
+        Variant(
+            "apparent",
+            "links clamped in the platform, carriages that do not turn: as the paper's static "
+            "tables suggest",
+            lambda: machine().apparent(),
+        ),
+        *(
+            Variant(which, words, partial(dynamic_machine, name, which))
+            for which, words in DYNAMIC_SETS.items()
+        ),
+    )

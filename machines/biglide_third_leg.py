@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import radians
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,7 @@ from strutwork.kinematics.frames import frame, vector
 from strutwork.machines import biglide_parts as parts
 from strutwork.machines.biglide import PLANE, REACH, Biglide
 from strutwork.machines.legs import square_root
+from strutwork.machines.variant import Variant
 from strutwork.msa.sections import Section, box, tube
 from strutwork.msa.springs import PointMass
 from strutwork.msa.structure import Structure
@@ -140,3 +143,13 @@ class BiglideThirdLeg(Biglide):
         found = {reason: mask for reason, mask in faults.items() if "turned" not in reason}
         turned = np.abs(poses.rotation[..., 1].real - np.array([0.0, 1.0, 0.0])).max(axis=-1)
         return found | {TURNED: np.broadcast_to(turned > PLANE, poses.position.shape[:-1])}
+
+
+def models_by_legs(report: str) -> tuple[Variant, ...]:
+    """The machine in its plane, and with the leg that turns its tool, which has its own report."""
+    turning = {"x": (0.4, 5), "y": (0.4, 5), "ry": (radians(60.0), 5)}
+    words = "a third drive across the plane turns the tool"
+    return (
+        Variant("plane", "two drives, the tool does not turn", Biglide),
+        Variant("third-leg", words, BiglideThirdLeg, MappingProxyType(turning), report),
+    )

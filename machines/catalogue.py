@@ -11,10 +11,12 @@ from typing import Protocol
 from strutwork.errors import ModelError
 from strutwork.kinematics import Mechanism
 from strutwork.machines.alizade_3prps import Alizade3PRPS
+from strutwork.machines.azulay_dynamic import models_for_statics_and_vibration
 from strutwork.machines.biglide import Biglide
+from strutwork.machines.biglide_third_leg import models_by_legs
 from strutwork.machines.eclipse_3pprs import Eclipse3PPRS
 from strutwork.machines.eclipse_machine import EclipseMachine
-from strutwork.machines.eclipse_prototype import EclipsePrototype
+from strutwork.machines.eclipse_prototype import EclipsePrototype, models_by_drives
 from strutwork.machines.glozman_3prrs import Glozman3PRRS
 from strutwork.machines.gough_platform import GoughPlatform
 from strutwork.machines.hexel_hexapod import HexelHexapod
@@ -32,7 +34,8 @@ from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.moving_bridge import MovingBridge
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
-from strutwork.machines.serial_five_axis import SerialFiveAxis
+from strutwork.machines.serial_five_axis import SerialFiveAxis, models_by_head
+from strutwork.machines.variant import Variant
 from strutwork.msa.structure import Structure
 
 
@@ -76,7 +79,11 @@ class CatalogueEntry:
         What its maps and report look over, where nothing else is asked: so far to either side of
         home, m or rad, in so many points. Our choice, not its paper's.
 
-    The three before are references to `papers`, see `strutwork.machines.paper_reference.resolve`.
+    models : tuple of Variant
+        Its models, the first that of `factory`; empty of one that has no other.
+
+    Report, tolerances and scale are references to `papers`, see
+    `strutwork.machines.paper_reference.resolve`.
     """
 
     name: str
@@ -88,6 +95,7 @@ class CatalogueEntry:
     tolerances: str = ""
     scale: str = ""
     around_home: Mapping[str, tuple[float, int]] = field(default_factory=dict)
+    models: tuple[Variant, ...] = ()
 
 
 #: What compares a machine with the four of one paper.
@@ -102,6 +110,8 @@ _CORBEL = "strutwork.papers.corbel_2008.pages:machine_chapters"
 #: Their cube of 300 mm.
 _CUBE: Mapping[str, tuple[float, int]] = {"x": (0.15, 7), "y": (0.15, 7), "z": (0.15, 3)}
 
+_CHABLAT = "strutwork.papers.chablat_2003.pages:machine_chapters"
+
 _ENTRIES = (
     CatalogueEntry(
         "proposed-3pprs",
@@ -111,6 +121,7 @@ _ENTRIES = (
         Proposed3PPRS,
         _COMPARED,
         around_home=_UPRIGHT,
+        models=models_for_statics_and_vibration("proposed-3pprs", Proposed3PPRS),
     ),
     CatalogueEntry(
         "eclipse-3pprs",
@@ -120,6 +131,7 @@ _ENTRIES = (
         Eclipse3PPRS,
         _COMPARED,
         around_home=_UPRIGHT,
+        models=models_for_statics_and_vibration("eclipse-3pprs", Eclipse3PPRS),
     ),
     CatalogueEntry(
         "alizade-3prps",
@@ -129,6 +141,7 @@ _ENTRIES = (
         Alizade3PRPS,
         _COMPARED,
         around_home=_UPRIGHT,
+        models=models_for_statics_and_vibration("alizade-3prps", Alizade3PRPS),
     ),
     CatalogueEntry(
         "glozman-3prrs",
@@ -138,6 +151,7 @@ _ENTRIES = (
         Glozman3PRRS,
         _COMPARED,
         around_home=_UPRIGHT,
+        models=models_for_statics_and_vibration("glozman-3prrs", Glozman3PRRS),
     ),
     CatalogueEntry(
         "prototype-3ppprs",
@@ -147,6 +161,7 @@ _ENTRIES = (
         Prototype3PPPRS,
         "strutwork.papers.azulay_2014.prototype_page:prototype_chapters",
         around_home=_UPRIGHT,
+        models=models_for_statics_and_vibration("prototype-3ppprs", Prototype3PPPRS),
     ),
     CatalogueEntry(
         "mit-ss1",
@@ -185,6 +200,7 @@ _ENTRIES = (
         SerialFiveAxis,
         "strutwork.papers.son_2002.serial_page:serial_chapters",
         around_home={"x": (0.1, 5), "y": (0.1, 5), "rx": (radians(20.0), 5)},
+        models=models_by_head(),
     ),
     CatalogueEntry(
         "eclipse-prototype",
@@ -194,6 +210,7 @@ _ENTRIES = (
         EclipsePrototype,
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home=_UPRIGHT,
+        models=models_by_drives(EclipsePrototype),
     ),
     CatalogueEntry(
         "eclipse-machine",
@@ -203,6 +220,7 @@ _ENTRIES = (
         EclipseMachine,
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home={"x": (0.1, 5), "y": (0.1, 5), "z": (0.05, 3)},
+        models=models_by_drives(EclipseMachine),
     ),
     CatalogueEntry(
         "linear-delta",
@@ -228,8 +246,9 @@ _ENTRIES = (
         "planar, [P] parallelogram",
         CHABLAT_2003,
         Biglide,
-        "strutwork.papers.chablat_2003.pages:machine_chapters",
+        _CHABLAT,
         around_home={"x": (0.5, 11), "y": (0.5, 11)},
+        models=models_by_legs(_CHABLAT),
     ),
 )
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import radians
 from types import MappingProxyType
 from typing import Any, Literal
@@ -18,6 +18,7 @@ from strutwork.machines.dimensions import check_proportions
 from strutwork.machines.legs import Leg, LegPlacement, hinge_on_column
 from strutwork.machines.radial import Radial
 from strutwork.machines.three_legs import TOOL, ThreeLegs
+from strutwork.machines.variant import Variant
 from strutwork.msa.beam import Beam
 from strutwork.msa.materials import Material
 from strutwork.msa.sections import rod
@@ -225,3 +226,14 @@ class EclipsePrototype(ThreeLegs):
             return {"carriage": carriage, "overhang": hinge, "slider": hinge}
 
         return hinge_on_column(seats, self.base_radius, self.link_length, self.upward, along)
+
+
+def models_by_drives(machine: type[EclipsePrototype]) -> tuple[Variant, ...]:
+    """The machine with six, seven or eight drives."""
+    words: dict[Drives, str] = {
+        "6": "carriages and columns are driven",
+        "7a": "the hinge of leg 1 is driven as well",
+        "7b": "the hinge of leg 2 is driven as well",
+        "8": "the hinges of legs 1 and 2 are driven as well",
+    }
+    return tuple(Variant(w, text, partial(machine, drives=w)) for w, text in words.items())

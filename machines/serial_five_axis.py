@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from math import radians
 from typing import Any, Literal
 
@@ -17,6 +17,7 @@ from strutwork.kinematics.frames import rotation_z
 from strutwork.machines import serial_five_axis_parts as parts
 from strutwork.machines.dimensions import check_positive, check_proportions
 from strutwork.machines.limits import Limit, joint_limits
+from strutwork.machines.variant import Variant
 from strutwork.msa.materials import Material
 from strutwork.msa.sections import Section, box
 from strutwork.msa.structure import Structure
@@ -289,3 +290,12 @@ class SerialFiveAxis:
 def _point(x: Array, y: float, z: Array | float) -> Array:
     """Points, (..., 3), of which some coordinates are one number."""
     return np.stack([x, np.full_like(x, y), np.zeros_like(x) + z], axis=-1)
+
+
+def models_by_head() -> tuple[Variant, ...]:
+    """The machine with either head."""
+    words: dict[Axes, str] = {
+        "ac": "rotary axes C, then A: the vertical type, singular with the tool upright",
+        "ab": "rotary axes A, then B: the horizontal type, singular at b = ±90°",
+    }
+    return tuple(Variant(w, text, partial(SerialFiveAxis, axes=w)) for w, text in words.items())
