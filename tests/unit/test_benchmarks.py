@@ -54,7 +54,13 @@ def test_no_benchmark_is_forgotten() -> None:
     assert all((FOLDER / f"{part}.py").is_file() for part in PARTS)
 
 
-@pytest.mark.parametrize("name", PROGRAMS)
+#: Those that take longest even so; nightly, where their usual sizes run too.
+LONG = {"solid_speed", "static_speed", "tolerance_speed"}
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(n, marks=[pytest.mark.slow] * (n in LONG)) for n in PROGRAMS]
+)
 def test_a_benchmark_runs_at_its_smallest_size(name: str, tmp_path: Path) -> None:
     done = run(name, tmp_path, "--smallest")
     assert done.returncode == 0, done.stderr[-3000:]
