@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
-from scipy.stats import qmc
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.given import given
@@ -146,6 +145,9 @@ def _tile(values: Array, starts: int, width: int) -> Array:
 
 def _thrown(walk: Walk, starts: int, seed: int) -> BodyPoses:
     """Home, and bodies thrown about it; every other start turns them about one axis only."""
+    # read when asked for: statistics take longer to load than all else that a command needs
+    from scipy.stats import qmc  # noqa: PLC0415
+
     bodies = walk.joints.start(starts + 1)
     count = bodies.position.shape[1]
     points = qmc.Sobol(3, seed=seed).random(_power(starts * count))[: starts * count]

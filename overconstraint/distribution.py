@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import binom
-from scipy.stats import t as student
 
 from strutwork.errors import ModelError, NumericalError
 from strutwork.overconstraint.limits import Limits, limit_vector
@@ -251,6 +249,9 @@ class _Variables:
 
 def _by_ranks(tally: Tally, shares: Sequence[float]) -> tuple[Array, Array]:
     """Order statistics between which each quantile lies at `LEVEL`, whatever the distribution."""
+    # read when asked for: statistics take longer to load than all else that a command needs
+    from scipy.stats import binom  # noqa: PLC0415
+
     tail = (1 - LEVEL) / 2
     n = tally.count
     low = binom.ppf(tail, n, shares).astype(np.intp)
@@ -260,6 +261,9 @@ def _by_ranks(tally: Tally, shares: Sequence[float]) -> tuple[Array, Array]:
 
 def _over_scrambles(found: Array, each: list[Array], span: Array) -> tuple[Array, Array]:
     """Student's t over estimates that do not know each other."""
+    # read when asked for: statistics take longer to load than all else that a command needs
+    from scipy.stats import t as student  # noqa: PLC0415
+
     scatter = np.std(each, axis=0, ddof=1) / np.sqrt(len(each))
     half = student.ppf((1 + LEVEL) / 2, len(each) - 1) * scatter
     return np.maximum(found - half, 0.0), np.minimum(found + half, span[:, None])

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import gammainc, gammaincinv, ndtr, ndtri
-from scipy.stats import qmc
 
 from strutwork.errors import ModelError
 from strutwork.overconstraint.sources import MisfitSources
@@ -58,6 +57,9 @@ def uniform_numbers(
     ModelError
         An unknown method, nothing to draw, or fewer than one sample.
     """
+    # read when asked for: statistics take longer to load than all else that a command needs
+    from scipy.stats import qmc  # noqa: PLC0415
+
     if method not in METHODS:
         raise ModelError(
             "sampling", f'unknown method "{method}".', f"Choose one of: {', '.join(METHODS)}."

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
-from scipy.stats import qmc
 
 from strutwork.errors import ModelError, NumericalError, StrutworkError
 from strutwork.studies.calibration_problem import Model, Parameter, Problem, Target
@@ -288,6 +287,9 @@ def _check(parameters: tuple[Parameter, ...], targets: tuple[Target, ...], start
 
 def _starts(parameters: tuple[Parameter, ...], count: int, seed: int) -> Array:
     """Scaled starting points, (s, p)."""
+    # read when asked for: statistics take longer to load than all else that a command needs
+    from scipy.stats import qmc  # noqa: PLC0415
+
     low, high, own = (
         np.array([p.scaled(v) for p, v in zip(parameters, values, strict=True)])
         for values in zip(*((p.low, p.high, p.start) for p in parameters), strict=True)

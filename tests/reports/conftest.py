@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import fcntl
 import os
-import pickle
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,6 +10,7 @@ import pytest
 
 from strutwork.reports.build import WrittenReport, write_report
 from tests.reports.browser import Browser, chromium
+from tests.reports.shared import FOLDER, shared_report
 
 #: A structure with everything a page may stumble over: markup in names, a load case for each.
 HOSTILE = """
@@ -86,13 +85,7 @@ def shared(name: str, target: str, factory: pytest.TempPathFactory) -> WrittenRe
     if "PYTEST_XDIST_WORKER" in os.environ:
         # what the workers have in common
         base = base.parent
-    found = base / f"{name}.pickle"
-    with (base / f"{name}.lock").open("w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not found.exists():
-            written = write_report(target, base / f"report-{name}")
-            found.write_bytes(pickle.dumps(written))
-    return pickle.loads(found.read_bytes())  # type: ignore[no-any-return]  # noqa: S301 - our own
+    return shared_report(name, target, Path(os.environ.get(FOLDER, base)))
 
 
 @pytest.fixture(scope="session")
