@@ -1,5 +1,13 @@
-"""Machines of the literature: dimensions, kinematics and structures."""
+"""Machines of the literature: dimensions, kinematics and structures.
 
+Called as a function, `strutwork.machines()` lists them.
+"""
+
+import sys
+from collections.abc import Mapping
+from types import ModuleType
+
+from strutwork.html import table
 from strutwork.machines.alizade_3prps import Alizade3PRPS
 from strutwork.machines.azulay_dynamic import (
     DYNAMIC_SETS,
@@ -81,3 +89,25 @@ __all__ = [
     "roll_angles",
     "variants",
 ]
+
+
+class Listed(dict[str, CatalogueEntry]):
+    """The catalogue, shown as a table."""
+
+    def __repr__(self) -> str:
+        width = max(map(len, self), default=0)
+        return "\n".join(f"{name:<{width}}  {entry.title}" for name, entry in self.items())
+
+    def _repr_html_(self) -> str:
+        rows = [(e.name, e.title, e.topology, e.paper.key) for e in self.values()]
+        return table("Machines", rows, ("name", "machine", "topology", "document"))
+
+
+class _Callable(ModuleType):
+    def __call__(self) -> Mapping[str, CatalogueEntry]:
+        """Every machine of the catalogue by its name."""
+        return Listed(CATALOGUE)
+
+
+# one name for the room and for the list of what is in it, as a user looks for both
+sys.modules[__name__].__class__ = _Callable

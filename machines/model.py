@@ -115,7 +115,8 @@ class Model:
     shapes: tuple[MeshShape, ...] = ()
 
     def __repr__(self) -> str:
-        return f"<Model {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"
+        kind = type(self).__name__
+        return f"<{kind} {self.title!r}: {self.structure!r}, {len(self.cases)} load cases>"
 
     @property
     def tool(self) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite, pi, tanh
 
 from strutwork.errors import ModelError
@@ -76,16 +77,12 @@ def rod(diameter: float, name: str = "rod") -> Section:
     _positive(name, "diameter", diameter)
     inertia = pi * diameter**4 / 64.0
 
-    def coefficients(nu: float) -> tuple[float, float]:
-        k = 6.0 * (1.0 + nu) / (7.0 + 6.0 * nu)
-        return k, k
-
     return Section(
         pi * diameter**2 / 4.0,
         inertia,
         inertia,
         2.0 * inertia,
-        coefficients,
+        partial(_of_tube, 0.0),
         name=name,
         outline=(diameter, diameter),
     )
@@ -114,17 +111,12 @@ def tube(outer_diameter: float, inner_diameter: float, name: str = "tube") -> Se
     inertia = pi * (outer_diameter**4 - inner_diameter**4) / 64.0
     m2 = (inner_diameter / outer_diameter) ** 2
 
-    def coefficients(nu: float) -> tuple[float, float]:
-        square = (1.0 + m2) ** 2
-        k = 6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * m2)
-        return k, k
-
     return Section(
         pi * (outer_diameter**2 - inner_diameter**2) / 4.0,
         inertia,
         inertia,
         2.0 * inertia,
-        coefficients,
+        partial(_of_tube, m2),
         name=name,
         outline=(outer_diameter, outer_diameter),
     )
@@ -135,16 +127,12 @@ def rectangle(width_y: float, height_z: float, name: str = "rectangle") -> Secti
     _positive(name, "width_y", width_y)
     _positive(name, "height_z", height_z)
 
-    def coefficients(nu: float) -> tuple[float, float]:
-        k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu)
-        return k, k
-
     return Section(
         width_y * height_z,
         width_y * height_z**3 / 12.0,
         height_z * width_y**3 / 12.0,
         rectangle_torsion_constant(width_y, height_z),
-        coefficients,
+        _of_rectangle,
         name=name,
         outline=(width_y, height_z),
     )
@@ -191,6 +179,18 @@ def box(width_y: float, height_z: float, thickness: float, name: str = "box") ->
         name=name,
         outline=(width_y, height_z),
     )
+
+
+# no closures: a section is sent to other processes
+def _of_tube(m2: float, nu: float) -> tuple[float, float]:
+    square = (1.0 + m2) ** 2
+    k = 6.0 * (1.0 + nu) * square / ((7.0 + 6.0 * nu) * square + (20.0 + 12.0 * nu) * m2)
+    return k, k
+
+
+def _of_rectangle(nu: float) -> tuple[float, float]:
+    k = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu)
+    return k, k
 
 
 def _positive(name: str, field: str, value: float) -> None:

@@ -3,6 +3,11 @@
 This package is the ground floor: what every other package shares and nothing about machines.
 """
 
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from strutwork.errors import (
     InconsistentConstraintsError,
     MechanismError,
@@ -18,6 +23,9 @@ from strutwork.errors import (
 )
 from strutwork.loading import load
 from strutwork.outcome import Outcome
+
+if TYPE_CHECKING:
+    from types import ModuleType
 
 __version__ = "0.1.0"
 
@@ -37,3 +45,29 @@ __all__ = [
     "__version__",
     "load",
 ]
+
+#: Rooms, entered when somebody asks for one: importing strutwork stays quick.
+_ROOMS = (
+    "fea",
+    "kinematics",
+    "machines",
+    "meshes",
+    "msa",
+    "overconstraint",
+    "papers",
+    "reports",
+    "studies",
+)
+
+#: What completion shows; errors and the ground floor's files are there as well.
+_SHOWN = ("StrutworkError", "load", *_ROOMS)
+
+
+def __getattr__(name: str) -> ModuleType:
+    if name not in _ROOMS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return import_module(f"{__name__}.{name}")
+
+
+def __dir__() -> list[str]:
+    return [*_SHOWN, "__version__", "__all__", "__doc__", "__file__", "__path__", "__name__"]

@@ -6,10 +6,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from strutwork.machines.model import Model
+    from strutwork.front import Machine
 
 
-def load(name: str | Path) -> Model:
+def load(name: str | Path) -> Machine:
     """A machine by its name or from its file.
 
     Parameters
@@ -19,7 +19,7 @@ def load(name: str | Path) -> Model:
 
     Returns
     -------
-    strutwork.machines.model.Model
+    strutwork.front.Machine
         At home: for a file, the configuration that it describes.
 
     Raises
@@ -28,6 +28,7 @@ def load(name: str | Path) -> Model:
         No such machine, variant or file, or a wrong model.
     """
     # the rooms are entered only when somebody does: importing strutwork stays quick
-    from strutwork.machines.load import load as loaded  # noqa: PLC0415
+    from strutwork.front import Machine
+    from strutwork.machines.load import load as loaded
 
-    return loaded(name)
+    return Machine.of(loaded(name), str(name))

@@ -8,7 +8,7 @@ import json
 import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -94,6 +94,9 @@ def plain(value: object, part: str = "value") -> Any:
     if inspect.ismethod(value):
         owner = plain(value.__self__, part)
         return {"method": f"{value.__module__}.{value.__qualname__}", "of": owner}
+    if isinstance(value, partial):
+        given = {"of": value.func, "arguments": value.args, "named": value.keywords}
+        return {"partial": plain(given, part)}
     if inspect.isfunction(value):
         kept = inspect.getclosurevars(value).nonlocals
         return {"function": f"{value.__module__}.{value.__qualname__}", **plain(kept, part)}

@@ -1,0 +1,321 @@
+"""A machine that answers questions: what `strutwork.load` returns."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, fields
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from strutwork.errors import ModelError
+from strutwork.fea import FrequencyResponse, Modes, Port, frequency_response, modes
+from strutwork.html import table
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.model import Model
+from strutwork.machines.model_poses import at_pose
+from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
+from strutwork.units import ANGLE, LENGTH, quantity
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
+    import xarray as xr
+
+    from strutwork.reports.build import WrittenReport
+    from strutwork.reports.model_check import ModelCheck
+    from strutwork.reports.model_solution import ModelSolution
+    from strutwork.reports.subject import Subject
+    from strutwork.studies.answers import Answer
+    from strutwork.studies.tolerance_result import ToleranceStudy
+
+Array = NDArray[Any]
+
+#: What completion shows first; the model's own fields are there as well.
+QUESTIONS = (
+    "assembly_forces",
+    "at",
+    "check",
+    "frequency_response",
+    "modes",
+    "plot",
+    "report",
+    "solve",
+    "stiffness",
+    "survey",
+)
+
+
+@dataclass(frozen=True)
+class ToolStiffness:
+    """Stiffness at the tool centre point, global axes.
+
+    Parameters
+    ----------
+    compliance : (6, 6)
+        m/N, 1/N, rad/(N·m); translations first.
+    """
+
+    compliance: Array
+
+    @property
+    def free(self) -> Array:
+        """1/C_ii, the other directions free to follow, (6,): N/m, then N·m/rad."""
+        return axis_stiffness_free(self.compliance)
+
+    @property
+    def blocked(self) -> Array:
+        """(C⁻¹)_ii, the other directions blocked, (6,): N/m, then N·m/rad."""
+        return axis_stiffness_blocked(self.compliance)
+
+    def __repr__(self) -> str:
+        x, y, z = self.free[:3] / 1e6
+        return f"<ToolStiffness, free: x {x:.4g}, y {y:.4g}, z {z:.4g} N/µm>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (d, f"{f:.4g}", f"{b:.4g}", "N/m" if d in "xyz" else "N·m/rad")
+            for d, f, b in zip(DIRECTIONS, self.free, self.blocked, strict=True)
+        ]
+        return table("Stiffness at the tool", rows, ("", "others free", "others blocked", ""))
+
+
+@dataclass(frozen=True, repr=False)
+class Machine(Model):
+    """A model with its questions; the fields are those of `strutwork.machines.model.Model`.
+
+    Attributes
+    ----------
+    source : str
+        The name or file it was loaded from; empty once it was changed or moved.
+    """
+
+    source: str = field(default="", init=False)
+
+    @classmethod
+    def of(cls, model: Model, source: str = "") -> Self:
+        """The same model, with its questions."""
+        machine = cls(**{f.name: getattr(model, f.name) for f in fields(Model)})
+        # frozen for all who come later; not copied by `dataclasses.replace`, as it should not be
+        object.__setattr__(machine, "source", source)
+        return machine
+
+    def __dir__(self) -> list[str]:
+        hidden = {n for n in super().__dir__() if n.startswith("_")}
+        return sorted({*QUESTIONS, *hidden})
+
+    def _repr_html_(self) -> str:
+        linkage = self.structure.linkage
+        driven = [f"{j.name}:{d}" for j in linkage.joints for d in j.driven]
+        over = {} if self.workspace is None else self.workspace.axes
+        rows = [
+            ("bodies", len(linkage.bodies)),
+            ("joints", len(self.joints)),
+            ("nodes", len(self.nodes)),
+            ("drives", ", ".join(driven) or "none"),
+            ("tool", self.tool or "none"),
+            ("flexible", f"{len(self.structure.beams)} beams, {len(self.solids)} solids"),
+            ("workspace", ", ".join(f"{d}: {len(v)}" for d, v in over.items()) or "not stated"),
+            ("load cases", ", ".join(c.name for c in self.cases) or "none"),
+            ("tolerances", len(self.tolerances)),
+        ]
+        return table(self.title or "Machine", rows)
+
+    @cached_property
+    def _subject(self) -> Subject:
+        from strutwork.reports.subject import Subject
+
+        name = self.source or self.title or "machine"
+        return Subject(self, name, name)
+
+    def at(self, joints: Mapping[str, float | str] | None = None, **task: float | str) -> Self:
+        """The same machine standing elsewhere.
+
+        Parameters
+        ----------
+        joints : mapping of "JOINT:DIRECTION" to float or str, optional
+            Joint coordinates, m and rad or with a unit.
+        **task : float or str
+            Of the tool: x, y, z in m, rx, ry, rz in rad, or with a unit as "20 mm".
+
+        Raises
+        ------
+        ModelError, UnreachableError
+            As `strutwork.machines.model_poses.at_pose`; an unknown direction, a wrong unit.
+        """
+        where = {d: _coordinate(d, v) for d, v in task.items()}
+        turned = {}
+        for name, value in (joints or {}).items():
+            joint, _, direction = name.rpartition(":")
+            turned[joint, direction] = _coordinate(direction, value)
+        return type(self).of(at_pose(self, where, turned))
+
+    def check(self) -> ModelCheck:
+        """Freedoms, redundant constraints and mass.
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.reports.model_check.check_model`.
+        """
+        return self._subject.check
+
+    def solve(self) -> ModelSolution:
+        """Displacements and forces under every load case.
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.msa.solve`.
+        """
+        from strutwork.reports.model_solution import solve_model
+
+        return solve_model(self)
+
+    def stiffness(self) -> ToolStiffness:
+        """Stiffness at the tool where the machine stands.
+
+        Raises
+        ------
+        StrutworkError
+            No tool, or a tool that moves freely.
+        """
+        self.require_tool()
+        return ToolStiffness(np.asarray(tool_compliance(self.placed)))
+
+    def modes(self, count: int = 10) -> Modes:
+        """The lowest natural frequencies and shapes, under the preload where there is one.
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.fea.modes`.
+        """
+        return modes(self.vibrating, count)
+
+    def frequency_response(
+        self, frequencies: ArrayLike, axes: Sequence[str] = ("x", "y", "z")
+    ) -> FrequencyResponse:
+        """Receptances at the tool, (f, outputs, inputs).
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
+        axes : sequence of str
+            Directions at the tool that are loaded and observed.
+
+        Raises
+        ------
+        StrutworkError
+            No tool, no damping; else as `strutwork.fea.frequency_response`.
+        """
+        from strutwork.reports.model_damping import model_damping
+
+        damping = model_damping(self)
+        if damping is None:
+            raise ModelError(
+                "damping", "is missing.", "Add [damping], or give the machine a damping."
+            )
+        ports = [Port(self.require_tool(), axis) for axis in axes]
+        return frequency_response(self.vibrating, ports, ports, frequencies, damping)
+
+    def assembly_forces(self) -> ToleranceStudy:
+        """Forces that its tolerances lock in: worst case, distribution, causes.
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.studies.tolerance_study.tolerance_study`.
+        """
+        from strutwork.studies.tolerance_study import tolerance_study
+
+        return tolerance_study(self.placed, self.tolerances, self.force_limits, title=self.title)
+
+    def survey(
+        self, over: Mapping[str, ArrayLike] | None = None, *answers: Answer, **options: Any
+    ) -> xr.Dataset:
+        """Answers over poses of the tool.
+
+        Parameters
+        ----------
+        over : mapping of direction to (n,), optional
+            Values along each, m and rad; the machine's own workspace where it is left out.
+        *answers : Answer
+            `strutwork.studies.answers`; static stiffness where there is none.
+        **options
+            Of `strutwork.studies.survey.survey`: workers, progress, folder, executor.
+
+        Raises
+        ------
+        ModelError
+            No workspace is known; else as `strutwork.studies.survey.survey`.
+        """
+        from strutwork.studies.answers import Stiffness
+        from strutwork.studies.survey import survey
+
+        grid = (
+            self._subject.grid
+            if over is None
+            else TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})
+        )
+        return survey(self, grid, answers or [Stiffness()], **options)
+
+    def report(self, folder: Path | str | None = None) -> WrittenReport:
+        """Write the report with all that applies to the machine.
+
+        Parameters
+        ----------
+        folder : Path or str, optional
+            Default `report-NAME` in the working directory.
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.reports.build.write_report`.
+        """
+        from strutwork.reports.build import Composed, page_of, write_page, write_report
+        from strutwork.reports.composed import report_of
+
+        name = self.source or self.title or "machine"
+        plain = re.sub(r"\W+", "-", Path(name).stem).strip("-").lower() or "machine"
+        where = Path(f"report-{plain}" if folder is None else folder)
+        if self.source:
+            return write_report(self.source, where)
+        chapters = report_of(self._subject)
+        found = tuple(f for chapter in chapters for f in chapter.files)
+        page = page_of(self._subject.title, "", chapters)
+        return write_page(Composed(page, found, self._subject), where)
+
+    def plot(self, *, case: str | None = None, mode: int | None = None) -> go.Figure:
+        """A drawing to be turned by the pointer.
+
+        Parameters
+        ----------
+        case : str, optional
+            Deformed by this load case, exaggerated.
+        mode : int, optional
+            Swinging in this elastic mode, from 1.
+
+        Returns
+        -------
+        plotly.graph_objects.Figure
+
+        Raises
+        ------
+        ModelError
+            Both a case and a mode, or one that does not exist.
+        """
+        from strutwork.reports.notebook import machine_figure
+
+        return machine_figure(self, case, mode)
+
+
+def _coordinate(direction: str, value: float | str) -> float:
+    if not isinstance(value, str):
+        return float(value)
+    return quantity(value, ANGLE if direction.startswith("r") else LENGTH, direction)
