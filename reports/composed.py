@@ -21,13 +21,13 @@ from strutwork.reports.chapters import (
     workspace_vibration,
 )
 from strutwork.reports.chapters.closing import closing_chapter
-from strutwork.reports.chapters.cover import cover_facts
+from strutwork.reports.chapters.cover import answers_by_chapter, cover_blocks
 from strutwork.reports.chapters.model import check_chapter, structure_chapter, summary_chapter
 from strutwork.reports.chapters.model_loads import forces_chapter, loads_chapter
 from strutwork.reports.chapters.model_tool import budget_chapter, tool_chapter
 from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
 from strutwork.reports.chapters.vibration import vibration_chapter
-from strutwork.reports.content import Chapter, Facts, Links, Points, Text
+from strutwork.reports.content import Answers, Block, Chapter, Links, Points, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.subject import Subject
 
@@ -175,11 +175,27 @@ def chapters_beside(own: tuple[Chapter, ...], subject: Subject) -> tuple[Chapter
     written, _ = chapters_of(subject, offered)
     kept = [c for c in written if not files & {file.name for file in c.files}]
     known = keys | {chapter.key for chapter in kept}
-    facts = tuple(replace(f, link=f.link if f.link in known else "") for f in cover_facts(subject))
+    blocks, beside = cover_blocks(subject)
+    answers = Chapter(COVER, "What it does", (*_known(blocks, known), Text(COVER_TEXT)), beside)
     *before, closing = own
-    closing = _with_files(closing, [file for chapter in kept for file in chapter.files])
-    answers = Chapter(COVER, "What it does", (Text(COVER_TEXT), Facts(facts)))
-    return (answers, *before, *kept, closing)
+    more = [*beside, *(file for chapter in kept for file in chapter.files)]
+    return (answers, *_answered((*before, *kept), blocks), _with_files(closing, more))
+
+
+def _known(blocks: Sequence[Block], keys: set[str]) -> tuple[Block, ...]:
+    """Sentences that lead only to chapters that are there."""
+    return tuple(
+        Answers(tuple(replace(i, link=i.link if i.link in keys else "") for i in block.items))
+        if isinstance(block, Answers)
+        else block
+        for block in blocks
+    )
+
+
+def _answered(chapters: Sequence[Chapter], cover: tuple[Block, ...]) -> tuple[Chapter, ...]:
+    """Each chapter with what the cover says of it."""
+    said = answers_by_chapter(cover)
+    return tuple(replace(c, answer=c.answer or said.get(c.key, "")) for c in chapters)
 
 
 def _with_files(closing: Chapter, files: Sequence[DataFile]) -> Chapter:
@@ -201,7 +217,17 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
         The model is wrong, or moves freely under its loads.
     """
     written, left = chapters_of(subject)
-    chapters = (cover(subject), *written)
+    first = cover(subject)
+    known = {chapter.key for chapter in written}
+    first = replace(first, blocks=_known(first.blocks, known))
+    if first.files:
+        # how many nodes and freedoms it has stands in the back
+        plain = summary_chapter(subject.model, subject.check, subject.solution)
+        written = tuple(
+            replace(c, blocks=(*plain.blocks, *c.blocks)) if c.key == "check" else c
+            for c in written
+        )
+    chapters = (first, *_answered(written, first.blocks))
     if left:
         lines = tuple(f"{title} {reason[0].upper()}{reason[1:]}." for title, reason in left)
         absent = Chapter(
@@ -217,11 +243,10 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
 
 
 def cover(subject: Subject) -> Chapter:
-    """What the machine is, and its answers, a number each."""
+    """What the machine does, in sentences, and its picture; where there is none, what it is."""
     plain = summary_chapter(subject.model, subject.check, subject.solution)
-    text, facts = plain.blocks[0], plain.blocks[1:]
-    answers = cover_facts(subject)
-    return replace(plain, blocks=(text, *([Facts(answers)] if answers else []), *facts))
+    blocks, files = cover_blocks(subject)
+    return replace(plain, blocks=blocks if files else (*blocks, *plain.blocks), files=files)
 
 
 def _content(subject: Subject) -> dict[str, Any]:

@@ -88,6 +88,40 @@ class Cell:
 
 
 @dataclass(frozen=True)
+class Answer:
+    """One sentence of the cover with its number.
+
+    Parameters
+    ----------
+    before, number, after : str
+        The sentence; the number, with its unit, stands out.
+    link : str
+        Key of the chapter that says more; empty where there is none.
+    alarm : bool
+        Whether a limit is exceeded.
+    """
+
+    before: str
+    number: str
+    after: str
+    link: str = ""
+    alarm: bool = False
+
+    @property
+    def sentence(self) -> str:
+        """All of it."""
+        return f"{self.before}{self.number}{self.after}"
+
+
+@dataclass(frozen=True)
+class Answers:
+    """Sentences that answer first; one that alarms before the others."""
+
+    items: Sequence[Answer]
+    kind: ClassVar[str] = "answers"
+
+
+@dataclass(frozen=True)
 class Table:
     """A table.
 
@@ -179,7 +213,7 @@ class Points:
     kind: ClassVar[str] = "points"
 
 
-Block = Points | Text | Note | Facts | Table | Figure | Row | Links
+Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Links
 
 
 @dataclass(frozen=True)
@@ -194,12 +228,15 @@ class Chapter:
     blocks : tuple of Block
     files : tuple of DataFile
         What stands beside the report because of this chapter.
+    answer : str
+        What stands beside the title while the chapter is folded.
     """
 
     key: str
     title: str
     blocks: tuple[Block, ...]
     files: tuple[DataFile, ...] = ()
+    answer: str = ""
 
 
 @dataclass(frozen=True)

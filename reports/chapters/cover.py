@@ -1,189 +1,305 @@
-"""What the machine can do, in one sentence and a number each."""
+"""What the machine can do, in at most eight sentences with a number each, and its picture."""
 
 from __future__ import annotations
 
-import numpy as np
+from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import StrutworkError
 from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.model import Model
+from strutwork.machines.model_poses import at_pose
 from strutwork.msa import compliance_budget
 from strutwork.reports.chapters import (
+    accuracy,
+    singularities,
     workspace_assembly,
+    workspace_size,
     workspace_stiffness,
     workspace_vibration,
 )
-from strutwork.reports.content import Fact
-from strutwork.reports.numbers import share, significant
+from strutwork.reports.content import Answer, Answers, Block, Figure
+from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.figures.model import marked_view
+from strutwork.reports.numbers import count, share, significant
+from strutwork.reports.part_groups import PartGroup, part_groups
 from strutwork.reports.subject import Subject
-from strutwork.reports.survey_words import Extreme, least
+from strutwork.reports.survey_words import Extreme, largest, least
+
+Array = NDArray[Any]
+
+#: A part that is made stiffer by this share is what the cover speaks of.
+STIFFER = 0.1
+#: Stiffness that is not worth a word, N/m: the tool does not give way there.
+STIFF = 1e15
+FREE = "with the other directions free to follow"
 
 
-def cover_facts(subject: Subject) -> tuple[Fact, ...]:
-    """Stiffness at home and at worst, what gives way, vibration, what locks in."""
-    return (
-        *_stiffness(subject),
+@dataclass(frozen=True)
+class Softest:
+    """Where the tool gives way most, and what does.
+
+    Parameters
+    ----------
+    model : Model
+        Standing there.
+    axis : str
+    where : str
+        The pose in words; "home" where no other was looked at.
+    groups : tuple of PartGroup
+        By their share of the tool's displacement under a force along the axis.
+    """
+
+    model: Model
+    axis: str
+    where: str
+    groups: tuple[PartGroup, ...]
+
+    @property
+    def part(self) -> PartGroup:
+        """What gives way most."""
+        return self.groups[0]
+
+
+def cover_blocks(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, ...]]:
+    """Sentences, the machine where it is softest, and the file beside it."""
+    found = softest(subject)
+    sentences = [
+        *_stiffness(subject, found),
         *_vibration(subject),
         *_assembly(subject),
+        *_reach(subject),
+    ]
+    sentences.sort(key=lambda s: not s.alarm)
+    blocks: list[Block] = [Answers(tuple(sentences))] if sentences else []
+    if found is None:
+        return tuple(blocks), ()
+    name = "cover-softest.csv"
+    blocks.append(
+        Figure(
+            "cover-softest",
+            f"The machine at {found.where}, where it is softest along {found.axis}. In red "
+            f"{found.part.label}, which give{found.part.ending} way most. Drag to turn, scroll to "
+            "zoom.",
+            marked_view(found.model, found.part.members),
+            "Three-dimensional drawing of the machine with the part that gives way most in red.",
+            name,
+            height=430,
+        )
     )
+    rows = [(g.kind, "; ".join(g.members), g.share) for g in found.groups]
+    what = f"parts' shares of the tool's displacement along {found.axis} at {found.where}"
+    return tuple(blocks), (csv_file(name, what, ("kind", "parts", "share"), rows),)
 
 
-def _stiffness(subject: Subject) -> tuple[Fact, ...]:
+def softest(subject: Subject) -> Softest | None:
+    """Of the axes, the softest at the softest pose of the workspace; else at home."""
+    home = _home(subject)
+    if home is None:
+        return None
+    known = [e for e in _worst(subject) if e is not None]
+    model, where = subject.model, "home"
+    axis = DIRECTIONS[int(np.argmin(home))]
+    if known:
+        axis, extreme = min(known, key=lambda item: item[1].value)
+        try:
+            model, where = at_pose(subject.model, extreme.task), extreme.where
+        except StrutworkError:
+            # a survey goes pose by pose from its neighbours, one step from home may not arrive
+            axis = DIRECTIONS[int(np.argmin(home))]
+    budget = compliance_budget(model.placed, np.eye(6)[DIRECTIONS.index(axis)])
+    groups = part_groups(budget.to_dict())
+    return Softest(model, axis, where, groups) if groups else None
+
+
+def _home(subject: Subject) -> Array | None:
+    """Stiffness along x, y, z at home, N/m; None where the tool gives nowhere way."""
     solution = subject.solution
     if solution is None or solution.compliance is None:
-        return ()
+        return None
     diagonal = np.diag(solution.compliance)[:3]
-    soft = int(np.argmax(diagonal))
-    if diagonal[soft] <= 0:
+    with np.errstate(divide="ignore"):
+        free = np.where(diagonal > 0, 1.0 / diagonal, np.inf)
+    return free if np.min(free) < STIFF else None
+
+
+def _worst(subject: Subject) -> list[tuple[str, Extreme] | None]:
+    """Along x, y, z the softest pose; None where there is none. N/µm."""
+    if workspace_stiffness.missing(subject):
+        return []
+    found = subject.stiffness_survey
+    worst: list[tuple[str, Extreme] | None] = []
+    for direction in "xyz":
+        values = found["stiffness_free"].sel(direction=direction).to_numpy() / 1e6
+        values = np.where(np.isfinite(values), values, np.nan)
+        known = bool(np.isfinite(values).any())
+        worst.append((direction, least(found, values)) if known else None)
+    return worst
+
+
+def _stiffness(subject: Subject, found: Softest | None) -> tuple[Answer, ...]:
+    home = _home(subject)
+    if home is None:
         return ()
-    axis = DIRECTIONS[soft]
-    facts = [
-        Fact(
-            "Softest at home",
-            significant(1e-6 / float(diagonal[soft])),
-            "N/µm",
-            f"along {axis}, other directions free",
-            "tool",
-        )
+    moves = [(axis, k) for axis, k in zip("xyz", home, strict=True) if k < STIFF]
+    numbers = _listed([significant(k / 1e6) for _, k in moves])
+    axes = _listed([axis for axis, _ in moves])
+    said = [
+        Answer("At home the tool is ", f"{numbers} N/µm", f" stiff along {axes}, {FREE}.", "tool")
     ]
-    budget = compliance_budget(subject.model.placed, np.eye(6)[soft])
-    shares = budget.shares.reshape(-1)
-    if shares.size:
-        first = int(np.argmax(shares))
-        facts.append(
-            Fact(
-                "Gives way most",
-                share(float(shares[first])),
-                "",
-                f"{budget.parts[first]}, under a force along {axis} at home",
+    known = [e for e in _worst(subject) if e is not None]
+    if known:
+        numbers = _listed([significant(e.value) for _, e in known])
+        along = _listed([axis for axis, _ in known])
+        places = list(dict.fromkeys(e.where for _, e in known))
+        where = places[0] if len(places) == 1 else _listed(places, ";")
+        after = f" along {along}, at {where}."
+        key = workspace_stiffness.KEY
+        said.append(Answer("At worst in its workspace it is ", f"{numbers} N/µm", after, key))
+    if found is not None:
+        amount = found.part.share
+        # of its compliance the part keeps 1/1.1
+        gain = 1.0 / (1.0 - amount * (1.0 - 1.0 / (1.0 + STIFFER))) - 1.0
+        there = "Where it is softest," if known else "At home"
+        said.append(
+            Answer(
+                f"{there} {found.part.label} give{found.part.ending} way most: ",
+                share(amount),
+                f" of the displacement along {found.axis}. Stiffened by {100 * STIFFER:.0f} % "
+                f"{found.part.pronoun} the tool about {share(gain)} stiffer.",
                 "budget",
             )
         )
-    if not workspace_stiffness.missing(subject):
-        found = subject.stiffness_survey
-        poses = [_softest(subject, d) for d in "xyz"]
-        known = [(e.value, d, e) for d, e in zip("xyz", poses, strict=True) if e is not None]
-        if known:
-            value, axis, extreme = min(known, key=lambda item: item[0])
-            facts.append(
-                Fact(
-                    "Softest in the workspace",
-                    significant(value),
-                    "N/µm",
-                    f"along {axis}, at {extreme.where}",
-                    workspace_stiffness.KEY,
-                )
-            )
-        kept, all_ = int(found.attrs["poses_kept"]), int(found.attrs["poses"])
-        facts.append(
-            Fact(
-                "Workspace reached",
-                share(kept / all_),
-                "",
-                f"{kept} of {all_} poses asked for",
-                "motion",
-            )
-        )
-    return tuple(facts)
+    return tuple(said)
 
 
-def _softest(subject: Subject, direction: str) -> Extreme | None:
-    found = subject.stiffness_survey
-    values = found["stiffness_free"].sel(direction=direction).to_numpy() / 1e6
-    values = np.where(np.isfinite(values), values, np.nan)
-    return least(found, values) if np.isfinite(values).any() else None
+def _listed(words: list[str], mark: str = ",") -> str:
+    """`a, b and c`."""
+    if len(words) < 2:
+        return "".join(words)
+    return f"{mark} ".join(words[:-1]) + " and " + words[-1]
 
 
-def _vibration(subject: Subject) -> tuple[Fact, ...]:
+def _vibration(subject: Subject) -> tuple[Answer, ...]:
     if not subject.vibrates:
         return ()
-    study = subject.vibration
-    facts = []
+    study, said = subject.vibration, []
     if len(study.modes.frequencies):
-        facts.append(
-            Fact(
-                "Lowest frequency at home",
-                significant(float(study.modes.frequencies[0])),
-                "Hz",
-                "first natural frequency that strains something",
-                "vibration",
-            )
-        )
-    known = [(least.value, axis, least) for axis, least in zip("xyz", study.least, strict=False)]
+        lowest = significant(float(study.modes.frequencies[0]))
+        after = "."
+        if not workspace_vibration.missing(subject):
+            found = subject.vibration_survey
+            values = found["natural_frequency"].to_numpy()[..., 0]
+            low = least(found, values)
+            after = f"; in the workspace it falls to {significant(low.value)} Hz, at {low.where}."
+        text = "Its lowest natural frequency at home is "
+        said.append(Answer(text, f"{lowest} Hz", after, "vibration"))
+    known = [(dip.value, axis, dip) for axis, dip in zip("xyz", study.least, strict=False)]
     if known:
-        value, axis, where = min(known, key=lambda item: item[0])
-        facts.append(
-            Fact(
-                "Least dynamic stiffness at home",
-                significant(1e-6 * value),
-                "N/µm",
-                f"along {axis}, at {significant(where.frequency)} Hz",
-                "vibration",
+        value, axis, dip = min(known, key=lambda item: item[0])
+        after = f" along {axis}, at {significant(dip.frequency)} Hz"
+        if not workspace_vibration.missing(subject):
+            found = subject.vibration_survey
+            values = found["least_dynamic_stiffness"].to_numpy() / 1e6
+            worst = [least(found, values[..., k]) for k in range(3)]
+            k = int(np.argmin([w.value for w in worst]))
+            after += (
+                f"; in the workspace {significant(worst[k].value)} N/µm along {'xyz'[k]}, at "
+                f"{worst[k].where}"
             )
+        number = f"{significant(1e-6 * value)} N/µm"
+        said.append(
+            Answer("Its least dynamic stiffness at home is ", number, f"{after}.", "vibration")
         )
-    if not workspace_vibration.missing(subject):
-        found = subject.vibration_survey
-        values = found["least_dynamic_stiffness"].to_numpy() / 1e6
-        worst = [least(found, values[..., k]) for k in range(3)]
-        k = int(np.argmin([w.value for w in worst]))
-        facts.append(
-            Fact(
-                "Least dynamic stiffness in the workspace",
-                significant(worst[k].value),
-                "N/µm",
-                f"along {'xyz'[k]}, at {worst[k].where}",
-                workspace_vibration.KEY,
-            )
-        )
-    return tuple(facts)
+    return tuple(said)
 
 
-def _assembly(subject: Subject) -> tuple[Fact, ...]:
-    if not subject.model.tolerances:
-        return ()
+def _assembly(subject: Subject) -> tuple[Answer, ...]:
+    said = []
+    if subject.model.tolerances:
+        said.append(_locked(subject))
+    if not accuracy.missing(subject):
+        moved = _displaced(subject)
+        said += [moved] if moved is not None else []
+    return tuple(said)
+
+
+def _locked(subject: Subject) -> Answer:
     study = subject.tolerances.study
-    facts = []
-    forces = [i for i, q in enumerate(study.quantities) if q.unit == "N"]
-    if forces:
+    if not subject.check.mobility.redundant:
+        return Answer(
+            "Manufacturing errors lock in ",
+            "no force",
+            ": no constraint is redundant, they move the tool only.",
+            "tolerances",
+        )
+    used = study.utilisation
+    top = int(np.argmax(used))
+    if used[top] <= 0:
+        forces = [i for i, q in enumerate(study.quantities) if q.unit == "N"]
+        if not forces:
+            return Answer("Manufacturing errors lock in ", "moments only", ".", "tolerances")
         top = max(forces, key=lambda i: float(study.largest[i]))
-        value = float(study.largest[top])
-        redundant = subject.check.mobility.redundant
-        what = (
-            f"worst case of the {study.quantities[top].name}"
-            if redundant
-            else "no constraint is redundant: errors move the tool and lock nothing in"
-        )
-        facts.append(
-            Fact(
-                "Errors lock in",
-                significant(value) if redundant else "0",
-                "N",
-                what,
-                "tolerances",
-            )
-        )
+    quantity = study.quantities[top]
+    after = f": {quantity.name}, at worst, for which no limit is given."
+    if used[top] > 0:
+        limit = f"{significant(float(study.limit[top]))} {quantity.unit}"
+        beyond = "more than" if used[top] > 1 else f"{share(float(used[top]))} of"
+        after = f": {quantity.name}, at worst, {beyond} its limit of {limit}."
+    number = f"{significant(float(study.largest[top]))} {quantity.unit}"
+    return Answer(
+        "Manufacturing errors lock in up to ", number, after, "tolerances", bool(used[top] > 1)
+    )
+
+
+def _displaced(subject: Subject) -> Answer | None:
+    if not subject.model.tolerances:
+        return None
+    study = subject.tolerances.study
     moves = [i for i, q in enumerate(study.quantities) if q.joint is None and q.unit == "m"]
-    if moves:
-        top = max(moves, key=lambda i: float(study.largest[i]))
-        facts.append(
-            Fact(
-                "Errors move the tool",
-                significant(1e6 * float(study.largest[top])),
-                "µm",
-                f"worst case along {study.quantities[top].directions[0]} at home",
-                "tolerances",
-            )
-        )
-    if not workspace_assembly.missing(subject) and moves:
+    if not moves:
+        return None
+    top = max(moves, key=lambda i: float(study.largest[i]))
+    number = f"{significant(1e6 * float(study.largest[top]))} µm"
+    after = f" along {study.quantities[top].directions[0]} at home, at worst"
+    if not workspace_assembly.missing(subject):
         found = subject.assembly_survey
         names = [str(q) for q in found["quantity"].to_numpy()]
         some = [i for i, n in enumerate(names) if n.startswith("tool displacement")]
-        values = 1e6 * found["worst_case"].to_numpy()[..., some]
-        facts.append(
-            Fact(
-                "Errors move the tool at most",
-                significant(float(np.nanmax(values))),
-                "µm",
-                "along one axis, anywhere in the workspace",
-                workspace_assembly.KEY,
+        values = 1e6 * found["worst_case"].to_numpy()[..., some].max(axis=-1)
+        if np.isfinite(values).any():
+            most = largest(found, values)
+            after += f", and by up to {significant(most.value)} µm, at {most.where}"
+    return Answer("They displace the tool by up to ", number, f"{after}.", accuracy.KEY)
+
+
+def _reach(subject: Subject) -> tuple[Answer, ...]:
+    if subject.model.workspace is None or workspace_stiffness.missing(subject):
+        return ()
+    found = subject.stiffness_survey
+    kept, asked = int(found.attrs["poses_kept"]), int(found.attrs["poses"])
+    after = " poses of its stated workspace"
+    if not singularities.missing(subject):
+        plane = subject.singular_plane
+        inner = [] if plane is None else [c for c in plane.curves if not c.border]
+        if plane is not None:
+            many = (
+                f"{count(len(inner), 'curve')} of singular poses" if inner else "no singular pose"
             )
-        )
-    return tuple(facts)
+            verb = "crosses" if len(inner) < 2 else "cross"
+            after += f"; {many} {verb} the plane of its first two directions"
+    key = workspace_stiffness.KEY if workspace_size.missing(subject) else workspace_size.KEY
+    return (Answer("It takes ", f"{kept} of {asked}", f"{after}.", key),)
+
+
+def answers_by_chapter(blocks: tuple[Block, ...]) -> dict[str, str]:
+    """Sentences of the cover by the key of the chapter that says more."""
+    by: dict[str, list[str]] = {}
+    for block in blocks:
+        if isinstance(block, Answers):
+            for item in block.items:
+                by.setdefault(item.link, []).append(item.sentence)
+    return {key: " ".join(sentences) for key, sentences in by.items()}

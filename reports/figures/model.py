@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -77,6 +78,40 @@ def model_view(model: Model) -> dict[str, Any]:
         traces.append(mesh([tip], "tool centre point", "#a02c2c"))
     traces.append(_nodes(model, at))
     return scene(traces)
+
+
+def marked_view(model: Model, names: Sequence[str]) -> dict[str, Any]:
+    """The same with some beams, joints, springs or solids in red.
+
+    Parameters
+    ----------
+    model : Model
+    names : sequence of str
+    """
+    figure = model_view(model)
+    size = model_size(model)
+    at = dict(zip(model.structure.linkage.nodes, model.placement.positions, strict=True))
+    known = set(names)
+    shapes = []
+    start, end = model.placed.beam_ends
+    for beam, a, b in zip(model.structure.beams, start, end, strict=True):
+        if beam.name in known:
+            widest = max((min(w, 0.06 * size) for w in beam.section.outline), default=0.012 * size)
+            shapes.append(cylinder(a, b, 0.6 * widest, beam.name))
+    nodes = [(j.name, j.between[-1]) for j in model.structure.linkage.joints]
+    nodes += [(s.name, s.nodes[-1]) for s in model.structure.springs]
+    # larger than the symbols of joints
+    shapes += [ball(at[node], 0.042 * size, name) for name, node in nodes if name in known]
+    shapes += [
+        Shape(s.points_at(model.placed), s.triangles, _named(s))
+        for s in model.solids
+        if s.name in known
+    ]
+    if shapes:
+        figure["data"].append(mesh(shapes, "gives way most", "#c62828"))
+    # what the symbols mean stands beside the drawing of the structure
+    figure["layout"]["showlegend"] = False
+    return figure
 
 
 def deformed_view(

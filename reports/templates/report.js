@@ -72,9 +72,9 @@
     new IntersectionObserver(([seen]) => seen.isIntersecting || stop()).observe(drawing);
     stop();
   };
-  const solids = [];
   const failures = [];
-  for (const figure of document.querySelectorAll("figure.plot")) {
+  const state = document.documentElement.dataset;
+  const draw = async (figure) => {
     const drawing = figure.querySelector(".drawing");
     try {
       const spec = JSON.parse(figure.querySelector("script").textContent);
@@ -86,21 +86,64 @@
       }
       const modeBarButtons = spec.layout.scene ? solid : flat;
       await Plotly.newPlot(drawing, spec.data, spec.layout, { ...config, modeBarButtons });
+      if (spec.motion) swing(figure, drawing, spec.motion);
       if (spec.layout.scene) {
         drawing.classList.add("solid");
-        solids.push(drawing);
+        return drawing;
       }
-      if (spec.motion) swing(figure, drawing, spec.motion);
     } catch (error) {
       drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
       failures.push(figure.id);
       console.error(`figure ${figure.id}:`, error);
     }
+    return null;
+  };
+  // a folded chapter has no room to draw in: its plots wait until somebody opens it
+  const started = new Set();
+  let work = Promise.resolve();
+  const drawOpen = () => {
+    const figures = [...document.querySelectorAll("figure.plot")].filter(
+      (figure) => !started.has(figure) && !figure.closest("details:not([open])"),
+    );
+    figures.forEach((figure) => started.add(figure));
+    work = work.then(async () => {
+      const solids = [];
+      for (const figure of figures) solids.push(await draw(figure));
+      const all = document.querySelectorAll("figure.plot").length === started.size;
+      const done = all ? "drawn" : "drawn, folded ones apart";
+      state.plots = failures.length ? `failed: ${failures}` : done;
+      for (const drawing of solids.filter((one) => one !== null)) {
+        await new Promise((resolve) => setTimeout(resolve, 200));
+        await photograph(drawing);
+        drawing.on("plotly_relayout", () => photograph(drawing));
+      }
+    });
+    return work;
+  };
+  const chapters = [...document.querySelectorAll("main details")];
+  for (const chapter of chapters) {
+    chapter.addEventListener("toggle", () => chapter.open && drawOpen());
   }
-  document.documentElement.dataset.plots = failures.length ? `failed: ${failures}` : "drawn";
-  for (const drawing of solids) {
-    await new Promise((resolve) => setTimeout(resolve, 200));
-    await photograph(drawing);
-    drawing.on("plotly_relayout", () => photograph(drawing));
-  }
+  const unfold = () => {
+    for (const chapter of chapters) chapter.open = true;
+  };
+  document.querySelector(".unfold button")?.addEventListener("click", unfold);
+  window.addEventListener("beforeprint", unfold);
+  // a link into a folded chapter opens it
+  const arrive = () => {
+    const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
+    if (!target) return;
+    const chapter = target.closest("details") ?? target.querySelector(":scope > details");
+    if (!chapter || chapter.open) return;
+    chapter.open = true;
+    target.scrollIntoView();
+  };
+  window.addEventListener("hashchange", arrive);
+  // the same link a second time changes no hash
+  document.addEventListener("click", (event) => {
+    const link = event.target.closest?.('a[href^="#"]');
+    if (link && link.hash === location.hash) arrive();
+  });
+  arrive();
+  await drawOpen();
 })();

@@ -85,8 +85,11 @@ class Browser:
         assert "exceptionDetails" not in answer, (expression, answer["exceptionDetails"])
         return answer["result"].get("value")
 
-    def open(self, page: Path, width: int, height: int = 900) -> None:
-        """Open a file in a window of the given size and wait until its plots are drawn."""
+    def open(self, page: Path, width: int, height: int = 900, *, unfolded: bool = True) -> None:
+        """Open a file in a window of the given size and wait until its plots are drawn.
+
+        Its chapters are unfolded, unless the page is wanted as it comes.
+        """
         self.complaints.clear()
         self.requests.clear()
         self.resize(width, height)
@@ -96,6 +99,13 @@ class Browser:
         # the old document answers until the new one has begun
         arrived = f"location.href === {json.dumps(url)} && document.readyState === 'complete'"
         self.wait_for(f"{arrived} && document.documentElement.dataset.plots !== undefined")
+        if unfolded:
+            self.unfold()
+
+    def unfold(self) -> None:
+        """Open all chapters and wait until their plots are drawn."""
+        self.evaluate("document.querySelector('.unfold button')?.click()")
+        self.wait_for("!document.documentElement.dataset.plots.includes('folded')")
 
     def resize(self, width: int, height: int) -> None:
         self.send(
