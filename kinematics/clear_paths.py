@@ -15,7 +15,7 @@ from strutwork.kinematics.zero_lines import roots_between
 
 Array = NDArray[Any]
 
-#: A drive that moves less than this share of its fastest along a path stands still on it.
+#: A drive that moves less than this share of what such a path could ask of a drive stands still.
 STILL = 1e-9
 
 #: Samples along a straight path between which the signs are compared.
@@ -89,9 +89,9 @@ def path_reversals(field: DriveField, points: ArrayLike, samples: int = SAMPLES)
             f"leaves the reach of the machine on its piece {int(lost.argmax()) + 1}.",
             "Keep it within the reach.",
         )
-    start = np.where(_moves(speeds), np.sign(speeds[:, 1]), 0).astype(np.int8)
+    start, end = (np.sign(speeds[:, k]).astype(np.int8) for k in (1, -2))
     # a drive may also turn back where two pieces meet
-    corner = np.argwhere(start[1:] * np.where(_moves(speeds), np.sign(speeds[:, -2]), 0)[:-1] < 0)
+    corner = np.argwhere(start[1:] * end[:-1] < 0)
     owner = np.concatenate([owner, corner[:, 0] + 1])
     at = np.concatenate([at, np.zeros(len(corner))])
     drive = np.concatenate([drive, corner[:, 1]])
@@ -141,23 +141,29 @@ def longest_clear_path(
     return best
 
 
-def _moves(speeds: Array) -> NDArray[np.bool_]:
-    """Which drives move on each piece at all, (r, n)."""
-    largest = np.abs(speeds).max(axis=1)
-    moves = (largest > STILL * largest.max(axis=0, initial=0.0)) & (largest > 0.0)
-    return np.asarray(moves, dtype=bool)
+def _moves(speeds: Array, gradient: Array, way: Array) -> NDArray[np.bool_]:
+    """Which drives move on each piece at all, (r, n).
+
+    A drive that a way does not move has speeds of rounding alone, with signs of their own: they
+    are small beside what the gradients could make of a way of that length.
+    """
+    foreseen = np.nanmax(np.abs(gradient), initial=0.0) * np.linalg.norm(way, axis=-1)
+    return np.asarray(np.abs(speeds).max(axis=1) > STILL * foreseen[:, None])
 
 
 def _reversals(
     field: DriveField, low: Array, high: Array, samples: int
 ) -> tuple[Array, Array, NDArray[np.intp], NDArray[np.intp]]:
-    """Speeds along pieces (r, s, n); reversals' places on them, their pieces and drives."""
+    """Speeds along pieces (r, s, n), 0 of what stands still; reversals' places, pieces, drives."""
     shares = np.linspace(0.0, 1.0, samples + 1)
     way = high - low
     points = low[:, None] + shares[:, None] * way[:, None]
     g = field.gradient(points.reshape(-1, 2)).reshape(*points.shape[:2], -1, 2)
     speeds = np.einsum("rsna,ra->rsn", g, way)
-    signs = np.where(_moves(speeds)[:, None], np.sign(speeds), 0.0)
+    # out of reach they stay not a number
+    still = ~_moves(speeds, g, way)[:, None] & ~np.isnan(speeds)
+    speeds = np.where(still, 0.0, speeds)
+    signs = np.sign(speeds)
     # a sample that hits a reversal has the sign that comes before it, so that none is counted
     # twice; a reversal at the very start is none
     for s in range(1, signs.shape[1]):

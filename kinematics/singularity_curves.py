@@ -45,6 +45,9 @@ Indices = NDArray[np.intp]
 LARGEST = 1_000_000
 SECONDS, BYTES = 5e-3, 5e3
 
+#: Distances that differ by this share of the largest are the same.
+SAME = 1e-6
+
 #: A curve goes on to a pose at most this many cells from its end.
 CELL = 1.5
 
@@ -106,6 +109,12 @@ class SingularPlane:
     curves: tuple[SingularCurve, ...]
     points: tuple[Singularity, ...]
     missed: int
+
+    @property
+    def changes(self) -> bool:
+        """Whether the distance is not the same wherever the machine reaches."""
+        nearest = np.fmin(self.parallel, self.serial)[self.reach]
+        return bool(len(nearest)) and float(np.ptp(nearest)) > SAME * float(nearest.max())
 
     def __repr__(self) -> str:
         return (

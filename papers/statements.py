@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import astuple, dataclass, fields
@@ -13,6 +14,7 @@ from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.numbers import MINUS, percent, significant
 
 NONE = "–"
+HARD_SPACE = "\N{NO-BREAK SPACE}"
 
 
 @dataclass(frozen=True)
@@ -75,22 +77,24 @@ def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapt
     reasons = list(dict.fromkeys(s.reason for s in said if s.reason))
     tests = list(dict.fromkeys(s.test for s in said))
     columns = (
-        *texts("place", "what"),
+        Column("place", "", False, width="narrow"),
+        Column("what", "", False, width="wide"),
         # words wrap, numbers stand to the right
         Column("published", "", not any(isinstance(s.published, str) for s in said)),
         Column("ours", "", not any(isinstance(s.computed, str) for s in said)),
         Column("unit", "", False),
         Column("difference"),
-        *texts("status", "why"),
+        Column("status", "", False, width="narrow"),
+        *texts("why"),
         *(texts("test") if len(tests) > 1 else ()),
     )
     rows: list[list[str | Cell]] = [
         [
             s.place,
-            s.what,
+            _printed(s.what),
             _shown(s.published),
             _shown(s.computed),
-            s.unit,
+            _printed(s.unit),
             _difference(s),
             s.status,
             f"({reasons.index(s.reason) + 1})" if s.reason else NONE,
@@ -101,7 +105,7 @@ def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapt
     table = Table(f"Published and ours: {len(said)}", columns, rows)
     why = tuple(f"({n}) {reason[0].upper()}{reason[1:]}." for n, reason in enumerate(reasons, 1))
     held = tuple(
-        f"Held by {test}" if len(tests) == 1 else f"{_letter(n)}: {test}"
+        f"Held by {test}" if len(tests) == 1 else f"{_letter(n)}:{HARD_SPACE}{test}"
         for n, test in enumerate(tests)
     )
     return Chapter(key, title, (table, Points((*why, *held))))
@@ -137,9 +141,15 @@ def count_text(said: Sequence[Statement]) -> Text:
     )
 
 
+def _printed(text: str) -> str:
+    """Units and signs of a data file as a page prints them."""
+    text = re.sub(r"\bum\b", "µm", text).replace("^2", "²").replace("^3", "³")
+    return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, text)
+
+
 def _shown(value: float | str) -> str:
     if isinstance(value, str):
-        return value
+        return _printed(value)
     if value != value:  # noqa: PLR0124 - not a number
         return NONE
     # what is counted has no decimals

@@ -30,7 +30,7 @@ def ours(groups: Iterable[str], unit: str = "") -> tuple[Column, ...]:
         for column in (
             Column("ours", unit, True, group),
             *numbers("difference", group=group),
-            *texts("status", group=group),
+            Column("status", "", False, group, "narrow"),
         )
     )
 

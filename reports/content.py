@@ -71,12 +71,15 @@ class Column:
     numeric : bool
     group : str
         Heading over neighbouring columns of the same group.
+    width : "", "wide" or "narrow"
+        Of a column of words: more room than its neighbours, or lines broken early.
     """
 
     title: str
     unit: str = ""
     numeric: bool = True
     group: str = ""
+    width: Literal["", "wide", "narrow"] = ""
 
 
 @dataclass(frozen=True)

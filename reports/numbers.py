@@ -43,9 +43,13 @@ def significant(value: float, digits: int = 3) -> str:
 
 
 def fixed(value: float, decimals: int) -> str:
-    """A number with a fixed number of decimals."""
+    """A number with a fixed number of decimals; no sign where it rounds to zero.
+
+    >>> fixed(-2.5, 1), fixed(-0.04, 1)
+    ('−2.5', '0.0')
+    """
     text = f"{value:.{decimals}f}"
-    return text.replace("-", MINUS)
+    return text.replace("-", "" if _zero(text) else MINUS)
 
 
 def clean(values: Sequence[float], digits: int = 3) -> str:
@@ -135,14 +139,28 @@ def percent(value: float, decimals: int = 1) -> str:
     ('+3.1 %', '0.0 %', '−2.0 %')
     """
     text = f"{value:+.{decimals}f} %"
-    if not any(digit in text for digit in "123456789"):
-        return text[1:]
-    return text.replace("-", MINUS)
+    return text[1:] if _zero(text) else text.replace("-", MINUS)
 
 
 def share(value: float) -> str:
     """A share of one in percent."""
-    return f"{100 * value:.1f} %"
+    return f"{fixed(100 * value, 1)} %"
+
+
+def _zero(text: str) -> bool:
+    """Whether a number was rounded to zero."""
+    return not any(digit in text for digit in "123456789")
+
+
+def times(factor: float) -> str:
+    """A factor of exaggeration in two digits.
+
+    >>> times(0.2), times(543.0), times(9987.0) == f"10{chr(0x202F)}000"
+    ('0.2', '540', True)
+    """
+    whole = float(f"{factor:.2g}")
+    text = f"{whole:,.0f}" if whole >= 10.0 else f"{whole:g}"
+    return text.replace(",", "\N{NARROW NO-BREAK SPACE}")
 
 
 def count(number: int, singular: str, plural: str = "") -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import textwrap
 from functools import cache
 from html import escape
@@ -14,6 +15,14 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from strutwork.reports.content import Page
+
+HARD_SPACE = "\N{NO-BREAK SPACE}"
+
+#: Between a number and its unit, and between a direction and its coordinate.
+_UNIT = re.compile(
+    r"(?<=\d) (?=(?:%|°|[mµn]?m\b|[µm]?rad\b|deg\b|k?N\b|Hz\b|kg\b|[GM]Pa\b|[sJW]\b|times\b))"
+    r"|(?<=\b[xyz]) (?=[−\d])|(?<=\br[xyz]) (?=[−\d])"
+)
 
 #: Longest line of a name in a plot, characters.
 LINE = 40
@@ -58,6 +67,15 @@ def embedded(value: Any) -> Markup:
     return Markup(text)  # noqa: S704 - no character of markup is left in it
 
 
+def unbroken(text: str) -> str:
+    """Text whose lines end neither between a number and its unit nor within a coordinate.
+
+    >>> unbroken("at x 0 mm, rz 5°: 3.2 N/µm in 12 poses").replace(chr(0xA0), "_")
+    'at x_0_mm, rz_5°: 3.2_N/µm in 12 poses'
+    """
+    return _UNIT.sub(HARD_SPACE, text)
+
+
 def plain(text: str) -> str:
     """A name as plotly shows it literally, long ones on several lines.
 
@@ -77,6 +95,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["embedded"] = embedded
+    environment.filters["unbroken"] = unbroken
     return environment
 
 

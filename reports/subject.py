@@ -200,16 +200,31 @@ class Subject:
 
     @cached_property
     def singular_plane(self) -> SingularPlane | None:
-        """Singular poses over the first two directions of the workspace; None without them."""
-        axes = [] if self.model.workspace is None else list(self.model.workspace.axes.items())
-        wide = [(d, v) for d, v in axes if len(v) > 1][:2]
+        """Singular poses over two directions of the workspace; None without them.
+
+        The first two, or the first and a later one where over them the distance does not change.
+        """
+        wide = tuple(self.wide_directions)
         if len(wide) < 2:
             return None
-        names = tuple(d for d, _ in wide)
+        first = self._singular_over(wide[:2])
+        if len(wide) == 2 or first.changes:
+            return first
+        later = (self._singular_over((wide[0], name)) for name in wide[2:])
+        return next((plane for plane in later if plane.changes), first)
+
+    @property
+    def wide_directions(self) -> dict[str, Array]:
+        """Directions of its workspace with several points, each with its values."""
+        axes = {} if self.model.workspace is None else self.model.workspace.axes
+        return {d: v for d, v in axes.items() if len(v) > 1}
+
+    def _singular_over(self, names: tuple[str, ...]) -> SingularPlane:
         family = section_family(self.model, names)
         home = self.model.motion.task_of(self.model.motion.home_pose)
         middle = [float(home[DIRECTIONS.index(d)]) for d in names]
-        first, second = (np.linspace(float(v[0]), float(v[-1]), SINGULAR_STEPS) for _, v in wide)
+        axes = [self.wide_directions[d] for d in names]
+        first, second = (np.linspace(float(v[0]), float(v[-1]), SINGULAR_STEPS) for v in axes)
         return singularities_in_plane(
             family, (first, second), middle, self._told("singularities in a plane")
         )
@@ -293,8 +308,7 @@ class Subject:
     @cached_property
     def reversal_plane(self) -> dict[str, Array] | None:
         """The first two directions of its workspace with several points; None without them."""
-        axes = {} if self.model.workspace is None else self.model.workspace.axes
-        wide = [(d, v) for d, v in axes.items() if len(v) > 1][:2]
+        wide = list(self.wide_directions.items())[:2]
         if len(wide) < 2:
             return None
         return {d: np.linspace(float(v[0]), float(v[-1]), REVERSAL_STEPS) for d, v in wide}

@@ -84,7 +84,9 @@ def grid_text(grid: TaskGrid) -> str:
     for name, values in grid.axes.items():
         turns = name.startswith("r")
         low, high = (_number(name, float(v)) for v in (values[0], values[-1]))
-        words.append(f"{name} from {low} to {high} {'°' if turns else 'mm'} in {len(values)}")
+        words.append(
+            f"{name} from {low} to {high}{'°' if turns else ' mm'} at {len(values)} points"
+        )
     return f"{len(grid)} poses: {', '.join(words)}"
 
 

@@ -54,7 +54,7 @@ from strutwork.reports.chapters.overconstraint_forces import (
 from strutwork.reports.content import Block, Chapter, Figure, Text
 from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import assembled
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import significant, times
 from strutwork.studies.description import parameters
 from strutwork.studies.progress import Teller
 
@@ -158,7 +158,7 @@ def _misfit(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         "misfit-machine",
         f"The misfits at which the {label(own.quantities[top])} is largest, "
         f"{shown(float(own.largest[top]), 'N')} kN, at {pose_label(own, pose)}. Misfits and "
-        f"displacements drawn {significant(shape.factor, 2)} times as large as they are; arrows "
+        f"displacements drawn {times(shape.factor)} times as large as they are; arrows "
         "are the forces on the strut at the block's pins and on the housing at its own.",
         machine_misfit_view(study.machine, shape),
         "Three-dimensional drawing: the machine as designed, the axes of its pins as made, and "

@@ -51,11 +51,18 @@ def write(subject: Subject) -> Chapter:
 
 
 def _text(modes: MachineModes) -> str:
-    text = (
-        "With its drives held at home the joints allow these poses of the tool; the first is the "
-        "machine's own. Without taking it apart, it comes from one to another only through a "
-        "singularity (type 2). "
-    )
+    if len(modes) > 1:
+        text = (
+            "With its drives held at home the joints allow these poses of the tool; the first is "
+            "the machine's own. Without taking it apart, it comes from one to another only through "
+            "a singularity (type 2). "
+        )
+    else:
+        text = (
+            "With its drives held at home "
+            f"{'the joints allow' if modes.every else 'there was found'} no other pose of the tool "
+            "than the machine's own. "
+        )
     if modes.every:
         text += (
             "The platform's three balls each run on a circle then, and an elimination finds all "
@@ -63,8 +70,8 @@ def _text(modes: MachineModes) -> str:
         )
     else:
         text += (
-            f"They were found from {modes.starts} starts, of which {modes.ways} closed: there may "
-            "be others."
+            f"Looked for from {modes.starts} starts, of which {modes.ways} closed: there may be "
+            "others."
         )
     if modes.moves:
         text += " Bodies can move on where the drives are held: a way stands for a family."

@@ -145,18 +145,23 @@ def _circle_text(found: StandardMotion) -> Text:
 
 def _demands(study: TrajectoryStudy) -> Table:
     rows = []
+    # forces and moments, speeds and turning speeds side by side: what rounding leaves is far less
+    speeds, forces, powers = (
+        ROUNDING * max(float(getattr(d, what).value) for d in study.demands)
+        for what in ("speed", "force", "power")
+    )
     for demand in study.demands:
         turns = demand.direction.startswith("r")
         factor, speed = (degrees(1.0), "deg/s") if turns else (1e3, "mm/s")
         rows.append(
             [
                 demand.label,
-                _peak(demand.speed, factor),
+                _peak(demand.speed, factor, speeds),
                 speed,
-                _peak(demand.force, 1.0),
-                significant(demand.rms_force),
+                _peak(demand.force, 1.0, forces),
+                significant(demand.rms_force if demand.rms_force > forces else 0.0),
                 _unit(demand.label),
-                _peak(demand.power, 1.0),
+                _peak(demand.power, 1.0, powers),
             ]
         )
     columns = (
@@ -171,8 +176,8 @@ def _demands(study: TrajectoryStudy) -> Table:
     beyond = [d.label for d in study.demands if _exceeds(d)]
     words = f"; beyond their limits: {', '.join(beyond)}" if beyond else ""
     return Table(
-        f"Largest of each drive on the circle, of its limit where one is known{words}. Work and "
-        f"energy agree within {study.followed.imbalance:.0e}",
+        f"Largest values of each drive on the circle, with its limit where one is known{words}. "
+        f"Work and energy agree within {study.followed.imbalance:.0e}",
         columns,
         rows,
         "dynamics-circle.csv",
@@ -183,8 +188,8 @@ def _exceeds(demand: DriveDemand) -> bool:
     return any(p.exceeded for p in (demand.speed, demand.force, demand.power))
 
 
-def _peak(peak: Peak, factor: float) -> str:
-    value = significant(factor * peak.value)
+def _peak(peak: Peak, factor: float, rounding: float) -> str:
+    value = significant(factor * peak.value if peak.value > rounding else 0.0)
     return value if peak.limit is None else f"{value} of {significant(factor * peak.limit)}"
 
 

@@ -12,7 +12,7 @@ from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Tabl
 from strutwork.reports.data_files import DataFile, csv_file, json_file
 from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
 from strutwork.reports.model_solution import ModelSolution
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import significant, times
 from strutwork.reports.solution_tables import FORCE_TABLES, beam_ends, shown_energy, shown_tables
 
 #: Rows of a table a reader is shown; the file has all.
@@ -110,13 +110,12 @@ def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Fi
     ]
     forces = ", red the forces" if any(any(w[:3]) for _, w in case.wrenches) else ""
     edges = ", of solids along their edges" if model.solids else ""
-    times = f"{factor:,g}".replace(",", "\N{NARROW NO-BREAK SPACE}")
     return Figure(
         f"deformed-{number + 1}",
-        f"Case “{case.name}”: displacements drawn {times} times as large as they are. The largest "
-        f"of a node is {significant(1e6 * largest, 4)} µm. Colour gives the true displacement, "
-        f"between nodes as the beams' ends bend them{edges}; grey is the structure at rest"
-        f"{forces}.",
+        f"Case “{case.name}”: displacements drawn {times(factor)} times as large as they are. The "
+        f"largest of a node is {significant(1e6 * largest, 4)} µm. Colour gives the true "
+        f"displacement, between nodes as the beams' ends bend them{edges}; grey is the structure "
+        f"at rest{forces}.",
         deformed_view(model, shape, moved, case, "displacement (µm)"),
         f"Three-dimensional drawing of the deformed structure in case {case.name}.",
         "deformed-shapes.csv",

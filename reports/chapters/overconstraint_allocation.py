@@ -45,7 +45,7 @@ def allocation_blocks(
             tone: Tone = "poor" if scale < 1 - UNTOUCHED else "good"
             row += [
                 size_value(tolerance, float(allocation.sizes[t])),
-                Cell(f"{significant(scale)} x", tone),
+                Cell(f"{significant(scale)} ×", tone),
             ]
         rows.append(row)
     points = []

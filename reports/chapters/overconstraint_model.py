@@ -31,7 +31,7 @@ from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import ARROW, SHOWN, assembled
 from strutwork.reports.figures.misfits import force_arrows
 from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import times
 from strutwork.studies.tolerance_result import ToleranceStudy
 from strutwork.studies.tolerance_study import tolerance_study
 
@@ -133,7 +133,7 @@ def _misfit(model: Model, study: ToleranceStudy) -> tuple[list[Block], list[Data
         f"{KEY}-misfit",
         f"The structure assembled with the misfits at which the {label(study.quantities[top])} is "
         f"largest, {shown(float(study.largest[top]), 'N')} kN; displacements drawn "
-        f"{significant(factor, 2)} times as large as they are, arrows are the forces on the second "
+        f"{times(factor)} times as large as they are, arrows are the forces on the second "
         "side of each joint.",
         view,
         "Three-dimensional drawing of the structure, strained by the worst misfits, with the joint "

@@ -33,7 +33,9 @@ def missing(subject: Subject) -> str:
         return "it has no tool: add [tool] with tcp"
     if not subject.model.structure.linkage.driven:
         return "it has no drives: name driven directions of joints"
-    if subject.model.workspace is None or subject.reversal_plane is None:
+    if subject.model.workspace is None:
+        return "the file names no poses to look at: add [workspace] with ranges of the tool"
+    if subject.reversal_plane is None:
         return "its workspace has no plane: name two directions with several points"
     return subject.unreversed
 
@@ -51,7 +53,7 @@ def write(subject: Subject) -> Chapter:
         "A drive that turns back goes through its friction and its play and leaves a mark on the "
         f"work. The tool goes over {' and '.join(names)} and keeps its other directions as at "
         "home. At a strong point a drive turns back whichever way the tool goes; at a weak one on "
-        "some ways. Their difference must equal the turns of the gradient along the border."
+        "some ways. Strong less weak ones must be the turns of the gradient along the border."
     )
     if still:
         text += f" Drives that stand still: {', '.join(still)}."
@@ -73,7 +75,7 @@ def _facts(study: ReversalStudy, names: tuple[str, ...]) -> list[Fact]:
         size = degrees(path.length) if turns else 1e3 * path.length
         facts.append(
             Fact(
-                "Longest straight path without a reversal",
+                f"Longest straight path along {names[0]} without a reversal",
                 significant(size),
                 "deg" if turns else "mm",
                 f"from {_place(names, path.start)} to {_place(names, path.end)}",
@@ -191,7 +193,8 @@ def _figure(study: ReversalStudy, names: tuple[str, ...]) -> Figure:
     }
     caption = (
         f"Lines on which a feed along {names[0]} makes a drive turn back, points at which a drive "
-        "turns back whichever way the tool goes, and the longest straight path on which none does."
+        "turns back whichever way the tool goes, and the longest straight path along it on which "
+        "none does."
     )
     if not study.lines or not any(study.lines.values()):
         caption += f" No drive turns back when the tool is fed along {names[0]}."

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from math import degrees
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.kinematics.lost_motion import Lost
 from strutwork.kinematics.singularity_curves import SingularPlane
 from strutwork.reports.content import Block, Chapter, Column, Figure, Table, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.figures.curves import heat
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import MINUS, significant
 from strutwork.reports.singularity_words import (
     curves_csv,
     distance_csv,
     kind_words,
     lost_words,
-    place_words,
 )
 from strutwork.reports.subject import Subject
+from strutwork.reports.survey_words import pose_text
 
 KEY = "singularities"
 TITLE = "How far is it from a singularity?"
@@ -42,7 +44,7 @@ def missing(subject: Subject) -> str:
 
 
 def write(subject: Subject) -> Chapter:
-    """Distance at home, and curves in the plane of the workspace's first two directions."""
+    """Distance at home, and curves in a plane of two directions of the workspace."""
     here, plane = subject.singular_distance, subject.singular_plane
     distance = here.distance
     rows = [
@@ -62,7 +64,8 @@ def write(subject: Subject) -> Chapter:
         blocks.append(Text(f"Home itself is singular: {here.kind.meaning}."))
     if plane is None:
         return Chapter(KEY, TITLE, tuple(blocks))
-    blocks += [_figure(plane), *_found(plane)]
+    others = tuple(d for d in subject.wide_directions if d not in plane.names)
+    blocks += [_figure(plane, others), *_found(plane)]
     files = (
         _file("singularities.csv", "curves of singular poses", curves_csv(plane)),
         _file("singularities-distance.csv", "distance from singularities", distance_csv(plane)),
@@ -78,19 +81,24 @@ def _one(values: NDArray[Any]) -> str:
     return significant(float(np.ravel(values)[0]))
 
 
+def _lost(lost: Lost | None) -> str:
+    """What is lost, with the signs of a page."""
+    return re.sub(r"(?<!\w)-(?=\d)", MINUS, lost_words(lost, ""))
+
+
 def _found(plane: SingularPlane) -> list[Block]:
     inner = [c for c in plane.curves if not c.border]
     rows = [
         [
             kind_words(c.kind),
             c.kind.meaning,
-            place_words(c.at.parameters),
-            lost_words(c.at.lost, ""),
+            pose_text(dict(c.at.parameters)),
+            _lost(c.at.lost),
         ]
         for c in inner[:SHOWN]
     ]
     rows += [
-        [kind_words(p.kind), p.kind.meaning, place_words(p.parameters), lost_words(p.lost, "")]
+        [kind_words(p.kind), p.kind.meaning, pose_text(dict(p.parameters)), _lost(p.lost)]
         for p in plane.points[:SHOWN]
     ]
     if not rows:
@@ -105,7 +113,7 @@ def _found(plane: SingularPlane) -> list[Block]:
     return [Table(title, columns, rows, "singularities.csv")]
 
 
-def _figure(plane: SingularPlane) -> Figure:
+def _figure(plane: SingularPlane, others: tuple[str, ...]) -> Figure:
     x, y = (
         np.degrees(v) if n.startswith("r") else 1e3 * v
         for n, v in zip(plane.names, plane.axes, strict=True)
@@ -141,6 +149,13 @@ def _figure(plane: SingularPlane) -> Figure:
         f"directions at home; {reached} of {plane.reach.size} poses are reached. Each point of a "
         "curve is refined to rounding."
     )
+    if not plane.changes:
+        caption += " It is the same everywhere on this plane."
+    if others:
+        caption += (
+            f" The workspace also goes along {' and '.join(others)}: strutwork singularities "
+            "--plane shows other planes."
+        )
     return Figure(
         "singular-plane",
         caption,

@@ -43,6 +43,11 @@ def _print(found: ModelCheck) -> None:
             for s in found.model.solids
         ]
         out.print(table("Solids, reduced to their interfaces", heads, solids))
+    if found.model.shapes:
+        named = ", ".join(
+            f"{shape.name} ({len(shape.triangles):,} triangles)" for shape in found.model.shapes
+        )
+        out.print(f"Shapes that must not interfere: {named}.", soft_wrap=True)
     for title, motions in (
         ("Motions left with the drives held", counts.motions),
         ("Motions with the drives free", counts.driven_motions),

@@ -24,6 +24,9 @@ from strutwork.reports.page import plain
 
 Array = NDArray[Any]
 
+#: Bars of which one is so many times another stand on a logarithmic axis.
+FAR = 50.0
+
 #: Name and colour of what is left when the largest parts are told apart.
 REST, OTHERS = "all others", "#c9ced6"
 
@@ -95,7 +98,7 @@ class Bars:
 
 
 def grouped(categories: Sequence[str], bars: Sequence[Bars], title: str) -> dict[str, Any]:
-    """Bars side by side for each category, each with its number."""
+    """Bars side by side for each category, each with its number; logarithmic where they differ."""
     traces = [
         {
             "type": "bar",
@@ -122,9 +125,23 @@ def grouped(categories: Sequence[str], bars: Sequence[Bars], title: str) -> dict
             barmode="group",
             bargap=0.2,
             xaxis=axis(""),
-            # room for the numbers on top
-            yaxis=axis(title, range=[0, 1.18 * max(float(np.max(b.values)) for b in bars)]),
+            yaxis=axis(title, **_bar_range(np.concatenate([np.ravel(b.values) for b in bars]))),
         ),
+    }
+
+
+def _bar_range(values: NDArray[Any]) -> dict[str, Any]:
+    """An axis with room for the numbers on top; on a linear one the small bars would vanish."""
+    low, high = float(values.min(initial=np.inf)), float(values.max(initial=0.0))
+    if not 0.0 < FAR * low < high:
+        return {"range": [0, 1.18 * high]}
+    first, last = np.log10(low), np.log10(high)
+    room = 0.18 * (last - first)
+    return {
+        "type": "log",
+        "range": [first - room, last + room],
+        "dtick": 1,
+        "exponentformat": "power",
     }
 
 

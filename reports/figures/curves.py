@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +15,9 @@ from strutwork.reports.numbers import significant
 from strutwork.reports.page import plain
 
 Array = NDArray[Any]
+
+#: Longest line beside a colour bar, characters.
+BESIDE = 24
 
 LIMIT, WORST = "#a02c2c", "#000000"
 
@@ -180,7 +184,7 @@ def heat(
             "colorscale": MAP_SCALE,
             "hovertemplate": "%{x:.3g}, %{y:.3g}: %{z:.4g}<extra></extra>",
             "colorbar": {
-                "title": {"text": titles[2], "side": "right"},
+                "title": {"text": _two_lines(titles[2]), "side": "right"},
                 "thickness": 14,
                 "outlinewidth": 0,
             },
@@ -212,6 +216,11 @@ def heat(
             yaxis=axis(titles[1], zeroline=False, range=_around(y)),
         ),
     }
+
+
+def _two_lines(title: str) -> str:
+    """A long title beside a colour bar in two lines: one would run past a small map's ends."""
+    return "<br>".join(textwrap.wrap(title, BESIDE)) if len(title) > BESIDE else title
 
 
 def _around(places: ArrayLike) -> list[float]:

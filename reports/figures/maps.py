@@ -95,7 +95,8 @@ def hemisphere_map(
             yaxis=axis("y (mm)", scaleanchor="x", constrain="domain", range=[-span, span], **bare),
             margin={"l": 6, "r": 6, "t": 24, "b": 62}
             if small
-            else {"l": 52, "r": 10, "t": 30, "b": 122},
+            # the legend stands between the plot and the buttons
+            else {"l": 52, "r": 10, "t": 52, "b": 122},
             legend={"orientation": "h", "x": -0.1, "y": 1.01, "yanchor": "bottom"},
             showlegend=not small,
         ),

@@ -11,6 +11,7 @@ import pytest
 
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, drop, put, sample, toml
+from tests.shaped_arm import SHAPE, TEXT, written
 
 EXAMPLE = {path.stem: path for path in EXAMPLES}
 
@@ -33,6 +34,13 @@ COUNTS = {
     # 4 bodies; bearings, motor, guide 5 rows each, threads 5, belts 1: 20 + 10 + 2 = 32 of rank 23
     "10_screws_and_belt": (27, 1, 0, 9),
 }
+
+
+def test_shapes_are_named(tmp_path: Path, strutwork: Program) -> None:
+    heavy = TEXT.replace("[sections.rod]", 'density = "7850 kg/m^3"\n\n[sections.rod]')
+    text = strutwork("check", written(tmp_path, heavy + SHAPE)).out
+    assert "Shapes that must not interfere: post (12 triangles)." in text
+    assert "Shapes" not in strutwork("check", EXAMPLE["03_tripod"]).out
 
 
 @pytest.mark.parametrize("name", COUNTS)

@@ -128,6 +128,27 @@ def test_reversals_along_a_path_and_the_longest_clear_one() -> None:
     assert narrow.length == pytest.approx(2 * 0.7, abs=1e-9)
 
 
+def test_rounding_of_drives_that_stand_still_ends_no_path() -> None:
+    """Slides along u and v and one that stands: what is left of their rates has any sign."""
+
+    def gradient(p: Array) -> Array:
+        rest = 1e-17 * np.sin(1e3 * (p[:, 0] + 2 * p[:, 1]))
+        one = 1.0 + 0.0 * rest
+        rows = [(one, rest), (rest, one), (rest, -rest)]
+        return np.stack([np.stack(row, axis=-1) for row in rows], axis=1)
+
+    field = FormulaField(("u", "v", "still"), gradient)
+    found = reversals(field, np.linspace(-1, 1, 11), np.linspace(-1, 1, 11))
+    for way, length in (([1, 0], 2.0), ([0, 1], 2.0), ([1, 1], np.sqrt(8.0))):
+        path = found.longest([way])
+        assert path is not None
+        assert path.length == pytest.approx(length, rel=1e-12)
+    assert path_reversals(field, [[-1, -1], [1, -1], [1, 1]]).signs.tolist() == [
+        [1, 0, 0],
+        [0, 1, 0],
+    ]
+
+
 def test_length_of_a_path_over_a_dome_is_its_arc() -> None:
     field = hexapod(Dome(sphere(0.3, [0.0, 0.0, 0.4])))
     axis = np.linspace(-0.1, 0.1, 5)

@@ -17,7 +17,7 @@ from strutwork.papers.azulay_2014.published import TABLE_4
 from strutwork.reports.chapters.stiffness import AXES
 from strutwork.reports.content import Chapter, Fact, Facts, Figure, Note, Text
 from strutwork.reports.data_files import DataFile, json_file
-from strutwork.reports.numbers import micro, percent, significant
+from strutwork.reports.numbers import fixed, micro, percent, significant
 
 DRAWING = (
     "Drag to turn, scroll to zoom; names show under the pointer. Lengths are in mm and links at "
@@ -61,7 +61,7 @@ def summary_chapter(study: MachineStudy) -> Chapter:
             )
         )
     worst = min((found.axis(a) for a in AXES), key=lambda a: a.worst.value)
-    where = ", ".join(f"{1e3 * v:.1f}" for v in worst.worst.position)
+    where = ", ".join(fixed(1e3 * v, 1) for v in worst.worst.position)
     facts.append(
         Fact(
             "Softest of all",

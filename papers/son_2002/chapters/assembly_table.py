@@ -18,7 +18,7 @@ from strutwork.reports.chapters.overconstraint_forces import Published
 from strutwork.reports.content import Block, Cell, Figure, Note, Points, Table, Text
 from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import assembled
-from strutwork.reports.numbers import micro, percent, significant
+from strutwork.reports.numbers import micro, percent, significant, times
 
 RECONSTRUCTED = (
     "Reconstructed: figures 40 and 42 of the thesis, which show the structure and its dimensions, "
@@ -70,7 +70,7 @@ def misfit_blocks(study: MitSS1Study, case: str = "I") -> tuple[list[Block], lis
         f"misfit-case-{case}",
         f"Table 2, case {case}: the azimuths of the three axes at which the "
         f"{label(found.quantities[top])} is largest, {shown(float(found.largest[top]), 'N')} kN. "
-        f"Misfits and displacements drawn {significant(shape.factor, 2)} times as large as they "
+        f"Misfits and displacements drawn {times(shape.factor)} times as large as they "
         f"are (the largest misfit is {significant(1e6 * largest)} µm); arrows are the forces on "
         "the end-effector.",
         strut_assembly_view(assembly, shape),

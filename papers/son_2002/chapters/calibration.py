@@ -12,7 +12,7 @@ from strutwork.papers.tables import nearly, numbers, texts
 from strutwork.reports.content import Block, Cell, Chapter, Figure, Points, Table, Text
 from strutwork.reports.data_files import csv_file, json_file
 from strutwork.reports.figures.modes import singular_values
-from strutwork.reports.numbers import MINUS, percent, significant
+from strutwork.reports.numbers import MINUS, count, percent, significant
 from strutwork.studies.calibrate import Calibration
 
 FILE = "calibration.json"
@@ -178,7 +178,8 @@ def _open(found: Mapping[Part, Calibration]) -> tuple[str, ...]:
         if rank == number:
             what = "parameter" if number == 1 else "parameters"
             lines.append(
-                f"{STEPS[part].capitalize()}: {len(c.targets)} targets determine "
+                f"{STEPS[part].capitalize()}: {count(len(c.targets), 'target')} "
+                f"{'determines' if len(c.targets) == 1 else 'determine'} "
                 f"{'the' if number == 1 else 'all ' + str(number)} {what}."
             )
             continue
