@@ -144,6 +144,30 @@
     const link = event.target.closest?.('a[href^="#"]');
     if (link && link.hash === location.hash) arrive();
   });
+  // the list of chapters marks the one that is read
+  const entries = new Map(
+    [...document.querySelectorAll("nav a")].map((link) => [link.hash.slice(1), link]),
+  );
+  const mark = () => {
+    const read = [...document.querySelectorAll("main > section")]
+      .filter((section) => section.getBoundingClientRect().top < 0.35 * innerHeight)
+      .at(-1);
+    for (const [key, link] of entries) {
+      if (read && key === read.id) link.setAttribute("aria-current", "true");
+      else link.removeAttribute("aria-current");
+    }
+  };
+  let waiting = false;
+  const later = () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      mark();
+    });
+  };
+  window.addEventListener("scroll", later, { passive: true });
+  mark();
   arrive();
   await drawOpen();
 })();

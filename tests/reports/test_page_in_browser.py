@@ -114,6 +114,25 @@ def test_names_of_a_model_are_text_and_never_markup(
     assert browser.complaints == []
 
 
+def test_chapters_are_folded_until_somebody_follows_a_link(
+    browser: Browser, model_report: WrittenReport
+) -> None:
+    browser.open(model_report.report, WIDTHS[0], unfolded=False)
+    assert browser.evaluate("document.documentElement.scrollHeight") < 10 * 900
+    chapter = "document.querySelector('#budget details')"
+    plots = "document.querySelectorAll('#budget .js-plotly-plot').length"
+    assert browser.evaluate(f"[{chapter}.open, {plots}]") == [False, 0]
+    assert browser.evaluate("document.querySelectorAll('#cover-softest .js-plotly-plot').length")
+    browser.evaluate("document.querySelector('.answers a[href=\"#budget\"]').click()")
+    browser.wait_for(f"{chapter}.open && {plots} > 0")
+    browser.wait_for("document.querySelector('nav [aria-current]')?.hash === '#budget'")
+    # the same link opens it again after somebody has folded it
+    browser.evaluate(f"{chapter}.open = false")
+    browser.evaluate("document.querySelector('.answers a[href=\"#budget\"]').click()")
+    browser.wait_for(f"{chapter}.open")
+    assert browser.complaints == []
+
+
 def test_page_can_be_walked_by_keyboard(browser: Browser, model_report: WrittenReport) -> None:
     browser.open(model_report.report, WIDTHS[0])
 
