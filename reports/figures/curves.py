@@ -229,8 +229,14 @@ def _outlines(outlines: Mapping[str, Array]) -> list[dict[str, Any]]:
     traces: list[dict[str, Any]] = []
     for i, (label, points) in enumerate(outlines.items()):
         name = plain(label)
-        line = {"type": "scatter", "mode": "lines", "name": name, "legendgroup": name}
-        line |= {"x": rounded(points[:, 0]), "y": rounded(points[:, 1])}
+        line: dict[str, Any] = {
+            "type": "scatter",
+            "mode": "lines",
+            "name": name,
+            "legendgroup": name,
+            "x": rounded(points[:, 0]),
+            "y": rounded(points[:, 1]),
+        }
         dash = DASHES[i % len(DASHES)]
         edge = {"color": "#ffffff", "width": 5}
         traces += [

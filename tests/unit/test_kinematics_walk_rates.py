@@ -63,12 +63,12 @@ def test_rates_are_those_of_what_is_open(name: str, shift: dict[str, float]) -> 
         change.reshape(-1)[column] = by
         place = bodies.position + walk.length * change[..., :3]
         turned = rotation_matrix(change[..., 3:]) @ bodies.rotation
-        return walk.system(at, BodyPoses(place, turned), share, near)[0][0]
+        return np.asarray(walk.system(at, BodyPoses(place, turned), share, near)[0][0])
 
     step = 1e-5
     slopes = [(opened(c, step) - opened(c, -step)) / (2.0 * step) for c in range(columns)]
     # a clamp goes with the node that slides through it, and never turns
-    clamps = motion.joints.still.all(axis=1)[walk.joint]
+    clamps = np.asarray(motion.joints.still.all(axis=1))[walk.joint]
     chosen = np.setdiff1d(np.arange(matrix.shape[1]), np.flatnonzero(clamps))
     # differences of the second order: the step's square, and rounding over the step
     np.testing.assert_allclose(np.stack(slopes, axis=-1)[chosen], matrix[0][chosen], atol=1e-9)
