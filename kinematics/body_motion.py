@@ -70,7 +70,7 @@ class BodyMotion:
         held, given = home_rows(self.motion, self.coordinates)
         kept, _ = independent_rows(np.concatenate([held, given]), len(held))
         rows = [*held[kept[kept < len(held)]], *given]
-        free = null_space(np.array(rows)[None], HELD * float(np.linalg.norm(rows, 2)))[0]
+        free = null_space(np.array(rows)[None], share=HELD)[0]
         free = free[:, np.abs(free).max(axis=0) > 0]
         free = free.reshape(len(free) // 6, 6, free.shape[1])
         spins: list[tuple[int, Array]] = []

@@ -156,13 +156,7 @@ class JointMotion:
             mine = owner == b
             arms = home[mine] - self._references[b]
             positions[:, mine] = bodies.position[:, b, None] + turned(bodies.rotation[:, b], arms)
-        first, second = self._frames(bodies)
-        frames = first.copy()
-        two = np.flatnonzero(self._turning == 2)
-        for j in two:
-            frames[:, j] = _crossed(
-                first[:, j], second[:, j], int(np.flatnonzero(self._locks[j])[0])
-            )
+        frames = self._axes(*self._frames(bodies))
         a, b_ = self.nodes.T
         gaps = positions[:, b_] - positions[:, a]
         moved = np.flatnonzero(self.sliding)
@@ -210,6 +204,14 @@ class JointMotion:
         # the ground is −1, the last
         return tuple(turns[:, owner[:, k]] @ self.home.frames for k in (0, 1))
 
+    def _axes(self, first: Array, second: Array) -> Array:
+        """The joints' own axes, between those of their two bodies, (p, j, 3, 3)."""
+        frames = first.copy()
+        for j in np.flatnonzero(self._turning == 2):
+            locked = int(np.flatnonzero(self._locks[j])[0])
+            frames[:, j] = _crossed(first[:, j], second[:, j], locked)
+        return frames
+
     def residuals(self, bodies: BodyPoses, gaps: Array, near: Array | None = None) -> Array:
         """What the held directions leave open, m and rad, zero in the others, (p, j, 6).
 
@@ -219,7 +221,10 @@ class JointMotion:
         first, second = self._frames(bodies)
         relative = np.swapaxes(first, -1, -2) @ second
         open_ = np.zeros((len(gaps), len(self.still), 6))
-        open_[..., :3] = np.einsum("pjik,pji->pjk", first, gaps)
+        # along the axes of the rows, so that these are its rates; free translations go with the
+        # first body
+        axes = np.where(self.sliding[:, None, None], first, self._axes(first, second))
+        open_[..., :3] = np.einsum("pjik,pji->pjk", axes, gaps)
         for j, locks in enumerate(self._locks):
             turn = relative[:, j]
             if locks.all():

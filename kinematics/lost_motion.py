@@ -236,7 +236,7 @@ def _unit(rows: Array) -> Array:
 
 
 def _null(rows: Array) -> Array:
-    found = null_space(rows[None], float(ZERO * np.linalg.norm(rows, 2)))[0]
+    found = null_space(rows[None], share=ZERO)[0]
     return np.asarray(found[:, np.abs(found).max(axis=0) > 0])
 
 

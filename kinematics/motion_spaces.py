@@ -132,21 +132,20 @@ def _inverted(values: Array, limit: float) -> Array:
 def _allowed(rows: Array) -> Array:
     """Motions of all bodies that the passive rows allow, (p, n, n)."""
     norm = np.linalg.norm(rows, axis=-1, keepdims=True)
-    rows = rows / np.where(norm == 0.0, 1.0, norm)
-    largest = np.linalg.norm(rows, 2, axis=(-2, -1)) if rows.size else 0.0
-    return null_space(rows, HELD * largest)
+    return null_space(rows / np.where(norm == 0.0, 1.0, norm), share=HELD)
 
 
-def null_space(rows: Array, tolerance: Array | float) -> Array:
+def null_space(rows: Array, tolerance: Array | float = 0.0, *, share: float = 0.0) -> Array:
     """Null space of a stack of matrices, (p, r, n) to (p, n, n): unit columns, the rest zero.
 
     Columns are blanked instead of cut, so that poses of different rank stay one stack. Singular
-    values of at most `tolerance`, (p,), count as zero.
+    values of at most `tolerance`, (p,), or of this share of the matrix's largest count as zero.
     """
     _, values, right = np.linalg.svd(rows)
     held = np.zeros(right.shape[:-1], dtype=bool)
     if values.shape[-1]:
-        held[:, : values.shape[-1]] = values > np.broadcast_to(tolerance, len(rows))[:, None]
+        limit = np.maximum(np.broadcast_to(tolerance, len(rows)), share * values[:, 0])
+        held[:, : values.shape[-1]] = values > limit[:, None]
     return np.swapaxes(np.where(held[..., None], 0.0, right), -1, -2)
 
 

@@ -13,7 +13,7 @@ POSE, TASK = 1, 2
 
 
 @jit()
-def _held(s, position, rotation, work, left):  # type: ignore[no-untyped-def]
+def _held(s, position, rotation, frames, work, left):  # type: ignore[no-untyped-def]
     """What the held directions leave open, lengths over L."""
     first, _, turn, log, ends = work
     last = -1
@@ -26,8 +26,11 @@ def _held(s, position, rotation, work, left):  # type: ignore[no-untyped-def]
                 rotation_log(turn, log, 0)
         if d < 3:
             left[r] = 0.0
+            # along the axes of the rows, so that these are its rates; free translations go with
+            # the first body
             for i in range(3):
-                left[r] += first[d, i] * (ends[1, i] - ends[0, i])
+                axis = first[d, i] if s.slides[j] else frames[j, i, d]
+                left[r] += axis * (ends[1, i] - ends[0, i])
             left[r] /= s.length
         elif s.locks[j] == 3:
             left[r] = log[d - 3]
@@ -132,10 +135,10 @@ def newton_step(s, asks, rows, rules, position, rotation, good, error):  # type:
     for p in range(position.shape[0]):
         before, first = np.inf, 0.0
         for step in range(most):
-            _held(s, position[p], rotation[p], work, left)
+            place_pose(s, position[p : p + 1], rotation[p : p + 1], nodes, frames)
+            _held(s, position[p], rotation[p], frames[0], work, left)
             _tool(s, asks, p, position[p], rotation[p], work, left)
             whole, size = np.abs(left).max(), 0.0
-            place_pose(s, position[p : p + 1], rotation[p : p + 1], nodes, frames)
             for i in range(n):
                 r = rows[p, i]
                 size = max(size, abs(left[r]))

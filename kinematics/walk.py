@@ -59,7 +59,7 @@ class Walk:
     """Poses on their way, each at its own share of it."""
 
     shortest = SHORTEST
-    #: Poses from which on compiled steps are worth their load time.
+    #: Poses, or steps of a single one, from which on compiled steps are worth their load time.
     few = 64
 
     length: float
@@ -104,7 +104,8 @@ class Walk:
             self.kept, self.independent, self.spins = like.kept, like.independent, like.spins
         # of each pose: rows that are independent at home may depend on each other elsewhere
         self.rows = np.tile(self.kept, (count, 1))
-        self.quick = self._quickly(count)
+        self.passes = 0
+        self.quick = self._quickly() if count >= self.few else None
 
     def _rows_at_home(self, *, lenient: bool) -> None:
         joints, wanted = self.joints, self.given
@@ -121,11 +122,10 @@ class Walk:
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)
 
-    def _quickly(self, count: int) -> QuickStep | None:
-        """Compiled steps, where there are many poses and as many rows as unknowns."""
+    def _quickly(self) -> QuickStep | None:
+        """Compiled steps, where there are as many rows as unknowns."""
         if (
-            count < self.few
-            or len(self.given.joint)
+            len(self.given.joint)
             or len(self.late)
             or len(self.kept) != 6 * self.bodies.position.shape[1]
         ):
@@ -151,6 +151,10 @@ class Walk:
 
     def _step(self, at: Indices) -> None:
         self.steps[at] += 1
+        self.passes += 1
+        # a few poses may go a long way, as those that end at a singularity do
+        if self.passes == self.few and self.quick is None:
+            self.quick = self._quickly()
         share = np.minimum(self.share[at] + self.stride[at], 1.0)
         if self.quick is None:
             bodies, good, error, near = self._newton(at, share)

@@ -31,7 +31,8 @@ def roots_between(functions: Functions, low: Array, high: Array) -> Array:
     Returns
     -------
     (r, 2)
-        The points. Not a number where the function has no value on the way.
+        The points. Not a number where the function has no value on the way; an end at which it is
+        zero but for rounding, whose sign was another when the ends were chosen, is the root.
     """
     # imported late: it takes a third of a small command's start
     from scipy.optimize.elementwise import find_root  # noqa: PLC0415
@@ -50,7 +51,13 @@ def roots_between(functions: Functions, low: Array, high: Array) -> Array:
         args=(np.arange(count, dtype=float),),
         tolerances={"xatol": WIDTH, "xrtol": 0.0, "fatol": 0.0, "frtol": 0.0},
     )
-    return np.asarray(low + np.asarray(found.x)[:, None] * (high - low))
+    share = np.array(found.x, dtype=float)
+    lost = np.flatnonzero(np.isnan(share))
+    if lost.size:
+        ends = np.stack([along(np.full(lost.size, end), lost) for end in (0.0, 1.0)])
+        alike = ends[0] * ends[1] >= 0.0
+        share[lost[alike]] = np.abs(ends[:, alike]).argmin(axis=0)
+    return np.asarray(low + share[:, None] * (high - low))
 
 
 def zero_lines(functions: Functions, values: Array, u: Array, v: Array) -> list[list[Array]]:

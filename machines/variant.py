@@ -24,8 +24,8 @@ class Variant:
     around_home : mapping of direction to (float, int), optional
         As its entry's, where it moves in other directions.
     report : str
-        As its entry's, where this model has a report of its own; empty where it is shown beside
-        the others.
+        As its entry's, where a document has chapters for this model; empty where its report is that
+        of any machine.
     """
 
     name: str

@@ -52,6 +52,15 @@ class NamedMachine:
         )
 
     @property
+    def report(self) -> str:
+        """What writes its document's chapters: its own, or its entry's of the first model.
+
+        Empty for another model, which has what every machine has.
+        """
+        first = self.variant.name == next(iter(variants(self.entry.name)))
+        return self.variant.report or (self.entry.report if first else "")
+
+    @property
     def around_home(self) -> Mapping[str, tuple[float, int]]:
         """What its maps and report look over."""
         own = self.variant.around_home

@@ -76,28 +76,27 @@ def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapt
     """A chapter with one table of statements, and below it reasons and tests, each once."""
     reasons = list(dict.fromkeys(s.reason for s in said if s.reason))
     tests = list(dict.fromkeys(s.test for s in said))
+    # among words a unit stands with its number, which leaves the words more room
+    words = any(isinstance(v, str) for s in said for v in (s.published, s.computed))
     columns = (
         Column("place", "", False, width="narrow"),
         Column("what", "", False, width="wide"),
         # words wrap, numbers stand to the right
         Column("published", "", not any(isinstance(s.published, str) for s in said)),
         Column("ours", "", not any(isinstance(s.computed, str) for s in said)),
-        Column("unit", "", False),
+        *(() if words else texts("unit")),
         Column("difference"),
         Column("status", "", False, width="narrow"),
-        *texts("why"),
         *(texts("test") if len(tests) > 1 else ()),
     )
     rows: list[list[str | Cell]] = [
         [
             s.place,
             _printed(s.what),
-            _shown(s.published),
-            _shown(s.computed),
-            _printed(s.unit),
+            *(_shown(v) + (_unit(v, s.unit) if words else "") for v in (s.published, s.computed)),
+            *(() if words else (_printed(s.unit),)),
             _difference(s),
-            s.status,
-            f"({reasons.index(s.reason) + 1})" if s.reason else NONE,
+            s.status + (f" ({reasons.index(s.reason) + 1})" if s.reason else ""),
             *([_letter(tests.index(s.test))] if len(tests) > 1 else ()),
         ]
         for s in said
@@ -154,6 +153,14 @@ def _shown(value: float | str) -> str:
         return NONE
     # what is counted has no decimals
     return f"{value:.0f}".replace("-", MINUS) if value == round(value) else significant(value)
+
+
+def _unit(value: float | str, unit: str) -> str:
+    """Behind a number of its own; words have theirs in them."""
+    if isinstance(value, str) or value != value or not unit:  # noqa: PLR0124 - not a number
+        return ""
+    # a number and its unit stay on one line
+    return f"\u00a0{_printed(unit)}"
 
 
 def _difference(said: Statement) -> Cell:

@@ -137,7 +137,7 @@ def compose(
         A model that cannot be solved.
     """
     from strutwork.machines.catalogue import CATALOGUE
-    from strutwork.machines.variants import MARK, is_machine, named_machine
+    from strutwork.machines.variants import is_machine
 
     pages = paper_pages()
     subject: Subject | None = None
@@ -147,12 +147,6 @@ def compose(
                 target, "is a comparison, which has no pose of its own.", "Name a machine."
             )
         title, subtitle, chapters = _paper(pages[target], progress)
-    elif is_machine(target) and MARK in target and not named_machine(target).variant.report:
-        raise ModelError(
-            f"report {target}",
-            "names one model, and a machine's report shows all of them beside each other.",
-            f"Leave the variant out: {target.partition(MARK)[0]}.",
-        )
     elif is_machine(target):
         title, subtitle, chapters, subject = _machine(target, progress, put)
     elif Path(target).suffix == ".toml" or Path(target).exists():
@@ -187,7 +181,10 @@ def _paper(page: str, progress: Teller | None) -> tuple[str, str, tuple[Chapter,
 def _machine(
     name: str, progress: Teller | None, put: Callable[[Model], Model] | None
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
-    """What every machine has, then what its document adds: of one name, the document's."""
+    """What every machine has, then what its document adds: of one name, the document's.
+
+    A model beside the machine's own has what every machine has, where the document has no more.
+    """
     from strutwork.machines.load import load
     from strutwork.machines.paper_reference import resolve
     from strutwork.machines.variants import named_machine
@@ -197,5 +194,9 @@ def _machine(
     subject = Subject(model if put is None else put(model), name, name, progress)
     if put is not None:
         return subject.title, found.entry.topology, report_of(subject), subject
-    title, subtitle, own = resolve(found.variant.report or found.entry.report)(name, progress)
+    if not found.report:
+        beside = f"what is printed stands in the report of {found.entry.name}"
+        return subject.title, f"{found.entry.topology} · {beside}", report_of(subject), subject
+    asked = name if found.variant.report else found.entry.name
+    title, subtitle, own = resolve(found.report)(asked, progress)
     return title, subtitle, chapters_beside(own, subject), subject

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.assembly_modes import AssemblyModes, assembly_modes
-from strutwork.kinematics.branches import Branches, branches
+from strutwork.kinematics.branches import SAME, branches
 from strutwork.kinematics.circle_kernel import ROOTS
 from strutwork.kinematics.mechanism import Poses
 from strutwork.kinematics.motion import Motion
@@ -26,7 +26,7 @@ STARTS = 60
 
 @dataclass(frozen=True)
 class MachineModes:
-    """Assembly modes, the machine's own first.
+    """Assembly modes, the machine's own first; a rod's turn about itself makes no other.
 
     Parameters
     ----------
@@ -135,9 +135,11 @@ def _found(motion: Motion, placement: Placement | None, starts: int) -> MachineM
     drives = {pair: float(values[names.index(pair)]) for pair in motion.linkage.driven}
     found = branches(motion, joints=drives, starts=starts)
     assert found.tool is not None  # noqa: S101 - asked by the caller
+    positions, _, _ = motion.joints.place(found.bodies)
+    kept = _apart(positions, found.tool, SAME * motion.length)
     return MachineModes(
-        found.tool,
-        _skeletons(motion, found),
+        found.tool[kept],
+        _skeletons(motion, positions[kept]),
         ways=found.closed,
         starts=found.starts,
         apart=float("nan"),
@@ -145,9 +147,23 @@ def _found(motion: Motion, placement: Placement | None, starts: int) -> MachineM
     )
 
 
-def _skeletons(motion: Motion, found: Branches) -> tuple[tuple[Array, ...], ...]:
+def _apart(positions: Array, tool: Poses, near: float) -> NDArray[np.intp]:
+    """Ways (m) that put nodes (m, n, 3) or the tool elsewhere than those before.
+
+    A rod between two universal joints fits turned about itself by half a turn as well: that is no
+    other place of anything.
+    """
+    kept: list[int] = []
+    for k in range(len(positions)):
+        moved = np.abs(positions[kept] - positions[k]).max(axis=(1, 2), initial=0.0) > near
+        turned = np.abs(tool.rotation[kept] - tool.rotation[k]).max(axis=(1, 2), initial=0.0) > SAME
+        if np.all(moved | turned):
+            kept.append(k)
+    return np.asarray(kept, dtype=np.intp)
+
+
+def _skeletons(motion: Motion, positions: Array) -> tuple[tuple[Array, ...], ...]:
     """Every body as a line through its nodes."""
     owner = motion.linkage.body_of_node
-    positions, _, _ = motion.joints.place(found.bodies)
     members = [np.flatnonzero(owner == b) for b in range(len(motion.linkage.body_names))]
     return tuple(tuple(p[m] for m in members if len(m) > 1) for p in positions)

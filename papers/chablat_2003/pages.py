@@ -9,18 +9,27 @@ import numpy as np
 from strutwork.machines.literature import CHABLAT_2003
 from strutwork.machines.variants import named_machine
 from strutwork.papers.chablat_2003.published import HIGH, SQUARES
-from strutwork.papers.chablat_2003.squares import amplification, square_rows
+from strutwork.papers.chablat_2003.squares import (
+    ANGLES,
+    amplification,
+    square_area,
+    square_corners,
+    square_rows,
+)
 from strutwork.papers.chablat_2003.statements import statements
 from strutwork.papers.chablat_2003.third_leg import SIDE, range_map
 from strutwork.papers.published_rows import file_name
-from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.statements import NONE, count_text, statements_chapter, statements_file
 from strutwork.papers.tables import rows_file
 from strutwork.reports.chapters.closing import closing_chapter
-from strutwork.reports.content import Chapter, Figure, Text
+from strutwork.reports.content import Chapter, Column, Figure, Table, Text
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.curves import heat
 from strutwork.studies.description import parameters, plain
 from strutwork.studies.progress import Teller
+
+#: Squares by the angle of their sides.
+SQUARES_CSV = "largest-squares.csv"
 
 Contents = tuple[str, str, tuple[Chapter, ...]]
 
@@ -69,10 +78,10 @@ def amplification_chapter() -> Chapter:
     worst = np.maximum(found[..., 1], 1.0 / found[..., 0])
     file = "velocity-amplification.csv"
     shown = np.where(worst <= HIGH, worst, np.nan)
-    half = 0.5 * np.sqrt([r.computed for r in square_rows()])
-    corners = {
-        f"corner at 45°, {2 * half[0]:.3f} m wide": (np.sqrt(2.0) * half[0], 0.0),
-        f"corner along the rails, {2 * half[1]:.3f} m wide": (half[1], half[1]),
+    areas = {angle: square_area(angle) for angle in ANGLES}
+    squares = {
+        f"{angle:g}° to the rails, {np.sqrt(area):.3f} m wide": square_corners(angle)
+        for angle, area in areas.items()
     }
     return Chapter(
         "amplification",
@@ -82,19 +91,36 @@ def amplification_chapter() -> Chapter:
                 "The larger of the largest amplification of the drives' velocities and of the "
                 "least one's inverse, from the rows of the joints. It is 1 at S, where the legs "
                 "stand at right angles, and at most 3 within the document's bounds of 1/3 and 3. "
-                "The largest squares about S under these bounds touch them in their corners."
+                "The largest squares about S under these bounds touch them in their corners. The "
+                "document has those at 45° and along the rails; the more the sides turn to the "
+                "rails, the larger."
             ),
             Figure(
                 "amplification-map",
                 "Velocity amplification over the plane of the tool; blank: out of the bounds. "
-                "Marked are corners of the largest squares.",
-                heat(axis, axis, shown, ("x (m)", "y (m)", "amplification (m/s per m/s)"), corners),
-                "Map of the velocity amplification over x and y, from 1 in the middle to 3.",
+                "Outlined are the largest squares about S, by the angle of their sides to the "
+                "rails.",
+                heat(
+                    axis,
+                    axis,
+                    shown,
+                    ("x (m)", "y (m)", "amplification (m/s per m/s)"),
+                    outlines=squares,
+                ),
+                "Map of the velocity amplification over x and y, from 1 in the middle to 3, with "
+                "four squares about the middle.",
                 file,
-                460,
+                560,
             ),
+            _squares_table(areas),
         ),
         (
+            csv_file(
+                SQUARES_CSV,
+                "largest squares about S by the angle of their sides to the rails",
+                ["angle_deg", "side_m", "area_m2", "of_that_along_the_rails"],
+                [[k, float(np.sqrt(area)), area, area / areas[0.0]] for k, area in areas.items()],
+            ),
             csv_file(
                 file,
                 "least and largest velocity amplification over x and y",
@@ -105,6 +131,28 @@ def amplification_chapter() -> Chapter:
             ),
         ),
     )
+
+
+def _squares_table(areas: dict[float, float]) -> Table:
+    printed = dict(zip((45.0, 0.0), SQUARES.values, strict=True))
+    columns = (
+        Column("sides to the rails", "deg"),
+        Column("side", "m"),
+        Column("area", "m²"),
+        Column("of that along the rails"),
+        Column("printed area", "m²"),
+    )
+    rows = [
+        [
+            f"{angle:g}",
+            f"{np.sqrt(area):.3f}",
+            f"{area:.3f}",
+            f"{area / areas[0.0]:.3f}",
+            f"{printed[angle].value:g}" if angle in printed else NONE,
+        ]
+        for angle, area in areas.items()
+    ]
+    return Table("Largest squares about S", columns, rows, SQUARES_CSV)
 
 
 def turning_chapter() -> Chapter:

@@ -26,7 +26,6 @@ Array = NDArray[Any]
 #: The grid reaches a little less far on one side: none of its points is a centre that is sought.
 ENDS, POINTS = (-1.1, 1.067), 11
 
-
 #: Angles of the square's sides to the rails, deg; the document has the first and the last.
 ANGLES = (45.0, 30.0, 15.0, 0.0)
 
@@ -97,6 +96,19 @@ def square_area(angle: float) -> float:
         return float(np.minimum(HIGH / found[:, 1], found[:, 0] / LOW).min() - 1.0)
 
     return float((2.0 * brentq(slack, 0.1, 0.68, xtol=1e-13)) ** 2)
+
+
+def square_corners(angle: float) -> Array:
+    """Corners of the largest square about S, the first once more at the end, (5, 2), m.
+
+    Parameters
+    ----------
+    angle : float
+        Of its sides to the rails, deg.
+    """
+    reach = float(np.sqrt(square_area(angle) / 2.0))
+    turn = np.radians(angle + 45.0 + 90.0 * np.arange(5))
+    return np.asarray(reach * np.stack([np.cos(turn), np.sin(turn)], axis=-1))
 
 
 def square_rows() -> tuple[PublishedRow, ...]:

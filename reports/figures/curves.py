@@ -21,6 +21,9 @@ BESIDE = 24
 
 LIMIT, WORST = "#a02c2c", "#000000"
 
+#: Lines over a map, told apart by their dashes as well.
+OUTLINES, DASHES = ("#000000", "#a02c2c"), ("solid", "dash", "dot", "dashdot")
+
 
 def limit_lines(limits: Mapping[str, float]) -> tuple[list[Any], list[Any]]:
     """Dashed lines across a plot and their labels: plotly shapes and annotations."""
@@ -163,6 +166,7 @@ def heat(
     values: Array,
     titles: tuple[str, str, str],
     marks: Mapping[str, tuple[float, float]] | None = None,
+    outlines: Mapping[str, Array] | None = None,
 ) -> dict[str, Any]:
     """A coloured map over two coordinates with some places marked.
 
@@ -174,6 +178,8 @@ def heat(
     titles : (str, str, str)
         Of x, y and the colour bar, with units.
     marks : mapping of label to (x, y), optional
+    outlines : mapping of label to (k, 2), optional
+        Lines over the map; both axes then have one scale, so that shapes are drawn as they are.
     """
     traces: list[dict[str, Any]] = [
         {
@@ -209,11 +215,15 @@ def heat(
                 "hovertemplate": plain(label) + "<extra></extra>",
             }
         )
+    traces += _outlines(outlines or {})
+    # the map stays beside its colours
+    scale = {"constrain": "domain", "constraintoward": "right"} if outlines else {}
+    anchor = {"scaleanchor": "x", "constrain": "domain"} if outlines else {}
     return {
         "data": traces,
         "layout": layout(
-            xaxis=axis(titles[0], zeroline=False, range=_around(x)),
-            yaxis=axis(titles[1], zeroline=False, range=_around(y)),
+            xaxis=axis(titles[0], zeroline=False, range=_around(x), **scale),
+            yaxis=axis(titles[1], zeroline=False, range=_around(y), **anchor),
         ),
     }
 
@@ -221,6 +231,32 @@ def heat(
 def _two_lines(title: str) -> str:
     """A long title beside a colour bar in two lines: one would run past a small map's ends."""
     return "<br>".join(textwrap.wrap(title, BESIDE)) if len(title) > BESIDE else title
+
+
+def _outlines(outlines: Mapping[str, Array]) -> list[dict[str, Any]]:
+    """Lines over a map, on a white edge: they are seen on every colour."""
+    traces: list[dict[str, Any]] = []
+    for i, (label, points) in enumerate(outlines.items()):
+        name = plain(label)
+        line: dict[str, Any] = {
+            "type": "scatter",
+            "mode": "lines",
+            "name": name,
+            "legendgroup": name,
+            "x": rounded(points[:, 0]),
+            "y": rounded(points[:, 1]),
+        }
+        dash = DASHES[i % len(DASHES)]
+        edge = {"color": "#ffffff", "width": 5}
+        traces += [
+            {**line, "line": edge, "hoverinfo": "skip", "showlegend": False},
+            {
+                **line,
+                "line": {"color": OUTLINES[i % len(OUTLINES)], "width": 2.5, "dash": dash},
+                "hovertemplate": name + "<extra></extra>",
+            },
+        ]
+    return traces
 
 
 def _around(places: ArrayLike) -> list[float]:

@@ -6,6 +6,9 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
+
+from strutwork.machines.variants import named_machine
 from strutwork.reports.manifest import MANIFEST
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, put, sample
@@ -45,6 +48,19 @@ def test_path_for_people(strutwork: Program, tmp_path: Path) -> None:
     run = strutwork("report", EXAMPLES[0], "-o", tmp_path)
     assert run.status == 0
     assert f"Report: {tmp_path / 'report.html'}" in run.out
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["eclipse-3pprs:apparent", "eclipse-machine:7a", "biglide:plane"])
+def test_models_of_a_machine_have_reports(
+    strutwork: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    found = strutwork("report", name, "--json").result
+    page = tmp_path / found["report"]
+    assert page.parent == tmp_path / "out" / named_machine(name).stem
+    assert named_machine(name).variant.name in page.read_text(encoding="utf-8").partition("<h2")[0]
+    assert strutwork("report", page.parent, "--verify").status == 0
 
 
 def test_nothing_is_written_for_a_wrong_target(

@@ -63,9 +63,3 @@ def test_an_unknown_variant_lists_those_there_are(strutwork: Program) -> None:
     run = strutwork("map", "proposed-3pprs:nothing", *FEW)
     assert run.status == 1
     assert "Variants: proposed-3pprs:static" in run.err
-
-
-def test_a_report_shows_every_model(strutwork: Program) -> None:
-    run = strutwork("report", "proposed-3pprs:blind")
-    assert run.status == 1
-    assert "Leave the variant out: proposed-3pprs" in run.err

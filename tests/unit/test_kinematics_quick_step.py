@@ -27,6 +27,7 @@ CASES = [
     ("examples/machines/3-rps.toml", ("z", "rx", "ry"), 0.6),
     ("examples/machines/planar-3-rrr.toml", ("x", "y"), 0.2),
     ("examples/machines/gantry.toml", ("x", "y", "z"), 0.3),
+    ("biglide:third-leg", ("x", "y", "ry"), 0.5),
 ]
 
 

@@ -13,6 +13,7 @@ from strutwork.kinematics.drive_fields import FormulaField, MotionField
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.reversals import reversals
 from strutwork.kinematics.task_surfaces import Dome, sphere
+from strutwork.kinematics.zero_lines import roots_between
 from strutwork.machines import HexelHexapod
 
 Array = NDArray[Any]
@@ -156,3 +157,15 @@ def test_length_of_a_path_over_a_dome_is_its_arc() -> None:
     assert longest is not None
     low, high = (np.arcsin(p[0] / 0.3) for p in (longest.start, longest.end))
     assert longest.length == pytest.approx(0.3 * (high - low), abs=1e-9)
+
+
+def test_a_root_at_an_end_whose_sign_rounding_has_changed() -> None:
+    """Signs of zeros differ from batch to batch; a way through a gap has no root."""
+    low, high = np.array([[0.0, 0.0], [-1.0, 0.0]]), np.array([[1.0, 0.0], [0.0, 0.0]])
+    found = roots_between(lambda p, _: np.where(p[:, 0] == 0.0, 1e-17, p[:, 0] ** 2), low, high)
+    assert np.array_equal(found, np.zeros((2, 2)))
+
+    def gap(points: Array, _: Any) -> Array:
+        return np.where(np.abs(points[:, 0] - 0.5) < 0.2, np.nan, points[:, 0] - 0.5)
+
+    assert np.isnan(roots_between(gap, low[:1], high[:1])).any()

@@ -20,7 +20,13 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import drive_values, jacobians
 from strutwork.machines import Biglide, BiglideThirdLeg
-from strutwork.papers.chablat_2003.squares import amplification, largest_square, square_area
+from strutwork.papers.chablat_2003.squares import (
+    ANGLES,
+    amplification,
+    largest_square,
+    square_area,
+    square_corners,
+)
 from strutwork.papers.chablat_2003.statements import statements
 from strutwork.papers.chablat_2003.third_leg import SIDE, best_third, sines, turn_range
 
@@ -116,6 +122,22 @@ def test_corners_of_the_squares_are_at_the_bounds(angle: float, area: float) -> 
     found = amplification(corner * np.cos(turn), corner * np.sin(turn))
     worst = np.maximum(found[:, 1], 1.0 / found[:, 0])
     assert worst.max() == pytest.approx(3.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("angle", ANGLES)
+def test_squares_that_are_drawn_keep_the_bounds(angle: float) -> None:
+    """Nowhere on a border beyond 3 or 1/3, and one of them is met in a corner: both to 1e-9."""
+    corners = square_corners(angle)
+    np.testing.assert_allclose(corners[0], corners[-1], atol=1e-12)
+    sides = np.diff(corners, axis=0)
+    np.testing.assert_allclose((sides**2).sum(axis=1), square_area(angle), rtol=1e-12)
+    turned = np.degrees(np.arctan2(sides[:, 1], sides[:, 0])) - angle
+    np.testing.assert_allclose(np.sin(np.radians(2.0 * turned)), 0.0, atol=1e-12)
+    share = np.linspace(0.0, 1.0, 201)[:, None, None]
+    found = amplification(*np.moveaxis(corners[:-1] + share * sides, -1, 0))
+    worst = np.maximum(found[..., 1], 1.0 / found[..., 0])
+    assert worst.max() <= 3.0 + 1e-9
+    assert worst[0].max() == pytest.approx(3.0, abs=1e-9)
 
 
 def test_bounds_as_angles() -> None:
