@@ -145,4 +145,5 @@ def any_report(request: pytest.FixtureRequest) -> WrittenReport:
 
 
 def text_of(path: Path) -> str:
-    return path.read_text(encoding="utf-8")
+    """A page's text; its hard spaces, which keep units with their numbers, as plain ones."""
+    return path.read_text(encoding="utf-8").replace("\N{NO-BREAK SPACE}", " ")

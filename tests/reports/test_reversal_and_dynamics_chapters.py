@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.load import load
 from strutwork.reports.chapters import dynamics, reversals
 from strutwork.reports.content import Chapter, Facts, Figure, Table
@@ -88,4 +89,18 @@ def test_why_a_chapter_is_not_there() -> None:
     model = load(EXAMPLES / "6-ups.toml")
     still = Subject(replace(model, workspace=None), "s", "s")
     assert "[workspace]" in dynamics.missing(still)
-    assert "plane" in reversals.missing(still)
+    assert "[workspace]" in reversals.missing(still)
+    axes = {"x": np.linspace(-0.1, 0.1, 3)}
+    line = Subject(replace(model, workspace=TaskGrid(axes)), "l", "l")
+    assert "plane" in reversals.missing(line)
+
+
+@pytest.mark.slow
+def test_singularities_are_drawn_where_their_distance_changes() -> None:
+    """Three slides carry the head: over x and y nothing changes, over its tilt all does."""
+    subject = Subject(load("serial-five-axis"), "s", "s")
+    assert list(subject.wide_directions) == ["x", "y", "rx"]
+    plane = subject.singular_plane
+    assert plane is not None
+    assert plane.names == ("x", "rx")
+    assert plane.changes
