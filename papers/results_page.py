@@ -1,0 +1,138 @@
+"""One page of documentation with every result that the documents print, beside ours.
+
+``python -m strutwork.papers.results_page OUT docs/published-results.md`` reads the files of
+statements that ``strutwork report --all -o OUT`` has written.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+
+from strutwork.errors import ModelError
+from strutwork.files import write_text
+from strutwork.papers.statements import NONE
+from strutwork.reports.numbers import percent, significant
+
+#: Kinds of status in the order in which they are counted.
+STATUSES = ("predicted", "calibrated", "not reproducible")
+
+HEAD = """# Published results
+
+Every result that the five documents print, beside ours, with its status, the reason, and the test
+that holds it. *Predicted* means that no choice was made with the published value in sight;
+*calibrated*, that one was; *not reproducible*, that the document does not say enough, or that it
+errs, as the reason tells.
+The page is written from the reports' files:
+
+    strutwork report --all -o out/all
+    python -m strutwork.papers.results_page out/all docs/published-results.md
+"""
+
+
+def files(folder: Path) -> dict[str, Path]:
+    """Files of statements below a folder of reports, by the key of their document.
+
+    Raises
+    ------
+    ModelError
+        There is none.
+    """
+    found = sorted(folder.rglob("published-*-statements.csv"))
+    if not found:
+        raise ModelError(
+            str(folder),
+            "has no file published-*-statements.csv.",
+            "Write the documents' reports there first: strutwork report --all.",
+        )
+    return {f.name.removeprefix("published-").removesuffix("-statements.csv"): f for f in found}
+
+
+def page(documents: Mapping[str, Path]) -> str:
+    """The page in Markdown.
+
+    Parameters
+    ----------
+    documents : mapping of str to Path
+        File of statements of each document, as `strutwork.papers.statements.statements_file`
+        makes it.
+    """
+    said = {}
+    for key, path in documents.items():
+        with path.open(encoding="utf-8", newline="") as stream:
+            said[key] = list(csv.DictReader(stream))
+    rows = []
+    for key, of in said.items():
+        counts = Counter(s["status"] for s in of)
+        rows.append([f"[{key}](#{key})", f"{len(of)}", *(f"{counts[k]}" for k in STATUSES)])
+    text = HEAD + "\n" + _table(["document", "results", *STATUSES], rows)
+    return text + "".join(f"\n## {key}\n\n{_statements(of)}" for key, of in said.items())
+
+
+def _statements(said: Sequence[Mapping[str, str]]) -> str:
+    reasons = list(dict.fromkeys(s["reason"] for s in said if s["reason"]))
+    tests = list(dict.fromkeys(s["test"] for s in said))
+    rows = [
+        [
+            s["place"],
+            s["what"],
+            _shown(s["published"], s["unit"]),
+            _shown(s["computed"], s["unit"]),
+            _difference(s["published"], s["computed"]),
+            s["status"],
+            f"{reasons.index(s['reason']) + 1}" if s["reason"] else "",
+            f"T{tests.index(s['test']) + 1}",
+        ]
+        for s in said
+    ]
+    columns = ["place", "what", "published", "ours", "difference", "status", "reason", "test"]
+    why = "".join(f"{n}. {reason}\n" for n, reason in enumerate(reasons, 1))
+    held = "".join(f"- T{n}: `{test}`\n" for n, test in enumerate(tests, 1))
+    return f"{_table(columns, rows)}\nReasons:\n\n{why}\nTests:\n\n{held}"
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _shown(text: str, unit: str) -> str:
+    value = _number(text)
+    if value is None:
+        return text or NONE
+    if value != value:  # noqa: PLR0124 - not a number
+        return NONE
+    shown = f"{value:.0f}" if value == round(value) and abs(value) < 1e6 else significant(value)
+    return f"{shown} {unit}".strip()
+
+
+def _difference(published: str, computed: str) -> str:
+    first, second = _number(published), _number(computed)
+    if not first or second is None or first != first or second != second:  # noqa: PLR0124
+        return NONE
+    return percent(100.0 * (second - first) / first)
+
+
+def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    def line(cells: Sequence[str]) -> str:
+        return "| " + " | ".join(c.replace("|", "\\|").replace("\n", " ") for c in cells) + " |\n"
+
+    return line(columns) + line(["---"] * len(columns)) + "".join(line(r) for r in rows)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Write the page."""
+    parser = argparse.ArgumentParser(description="Write the page of all published results.")
+    parser.add_argument("reports", type=Path, help="folder that report --all has written")
+    parser.add_argument("page", type=Path)
+    given = parser.parse_args(arguments)
+    write_text(given.page, page(files(given.reports)))
+
+
+if __name__ == "__main__":
+    main()
