@@ -36,7 +36,7 @@ def test_units_stand_with_numbers_among_words() -> None:
 def test_numbers_alone_have_a_column_of_units() -> None:
     heads, rows = table_of(said(0.5, 0.25))
     assert heads[4] == "unit"
-    assert rows[0][2:5] == ["0.500", "0.250", "m^2"]
+    assert rows[0][2:5] == ["0.500", "0.250", "m²"]
 
 
 @pytest.mark.slow
