@@ -15,6 +15,7 @@ from strutwork.machines.catalogue import CATALOGUE, Machine
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
 from strutwork.machines.variants import is_machine, named_machine, require_mass
+from strutwork.names import meant
 
 
 def load(name: str | Path) -> Model:
@@ -44,7 +45,8 @@ def load(name: str | Path) -> Model:
         raise ModelError(
             text,
             "is no machine of the catalogue and no model file.",
-            "Machines: " + ", ".join(CATALOGUE) + "; a model file ends in .toml.",
+            meant(text, CATALOGUE)
+            + f"Machines: {', '.join(CATALOGUE)}; a model file ends in .toml.",
         )
     return read_model(text)
 

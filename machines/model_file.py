@@ -13,8 +13,11 @@ from strutwork.machines.model import Model
 from strutwork.machines.model_builder import build_model
 from strutwork.machines.model_errors import model_error
 from strutwork.machines.model_schema import ModelTable
+from strutwork.names import meant
 from strutwork.stages import stage
 
+#: Model files beside one that is missing, among which the nearest name is looked for.
+FILES_BESIDE = 1000
 #: A larger file is no description of a structure that a person wrote, bytes.
 MAX_BYTES = 10_000_000
 
@@ -90,7 +93,9 @@ def _text(path: Path) -> str:
             )
         content = path.read_bytes()
     except FileNotFoundError:
-        raise ModelError(str(path), "does not exist.", "Check the path.") from None
+        beside = [p.name for p in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+        question = meant(path.name, beside[:FILES_BESIDE])
+        raise ModelError(str(path), "does not exist.", f"{question}Check the path.") from None
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else str(error)
         raise ModelError(str(path), f"cannot be read ({reason}).", "Check the path.") from None

@@ -9,6 +9,7 @@ from pathlib import Path
 from strutwork import __version__
 from strutwork.errors import ModelError
 from strutwork.machines.model import Model
+from strutwork.names import meant
 from strutwork.reports.content import Chapter, Page
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.page import render
@@ -157,7 +158,8 @@ def compose(
         raise ModelError(
             f"report {target}",
             "is no machine of the catalogue and no model file.",
-            f"Machines: {', '.join(CATALOGUE)}; comparison: {', '.join(pages)}; or the path of a "
+            meant(target, [*CATALOGUE, *pages])
+            + f"Machines: {', '.join(CATALOGUE)}; comparison: {', '.join(pages)}; or the path of a "
             "TOML file.",
         )
     files = tuple(f for chapter in chapters for f in chapter.files)

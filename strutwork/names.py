@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterable
+from difflib import get_close_matches
 
 #: Joiners without which words of some scripts and some signs fall apart; they turn nothing.
 _JOINERS = "\u200c\u200d"
@@ -56,3 +58,15 @@ def _written(character: str) -> str:
     if code < 0x100:
         return f"\\x{code:02x}"
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """A question after the nearest of some names, with a space behind; empty where none is near.
+
+    >>> meant("mit-ss2", ["mit-ss1", "biglide"])
+    'Did you mean "mit-ss1"? '
+    >>> meant("other", ["mit-ss1", "biglide"])
+    ''
+    """
+    near = get_close_matches(name, list(known), n=1, cutoff=0.75)
+    return f'Did you mean "{visible(near[0])}"? ' if near else ""

@@ -154,8 +154,8 @@ def _stiffness(subject: Subject, found: Softest | None) -> tuple[Answer, ...]:
     if known:
         numbers = _listed([significant(e.value) for _, e in known])
         along = _listed([axis for axis, _ in known])
-        places = list(dict.fromkeys(e.where for _, e in known))
-        where = places[0] if len(places) == 1 else _listed(places, ";")
+        places = [e.where for _, e in known]
+        where = places[0] if len(set(places)) == 1 else _listed(places, ";")
         after = f" along {along}, at {where}."
         key = workspace_stiffness.KEY
         said.append(Answer("At worst in its workspace it is ", f"{numbers} N/µm", after, key))
