@@ -246,6 +246,8 @@ def _found(
     moving: NDArray[np.intp],
     turns: dict[int, int | None],
 ) -> dict[int, DriveSingularities]:
+    if not moving.size:
+        return {}
     # derivatives and places count by the patch's own size
     scaled = gradient * patch.span
     sizes = np.nanmax(np.linalg.norm(scaled, axis=-1), axis=(0, 1))
