@@ -106,7 +106,11 @@ def path_reversals(field: DriveField, points: ArrayLike, samples: int = SAMPLES)
 
 
 def longest_clear_path(
-    field: DriveField, patch: Patch, ways: ArrayLike, lines: int = 21
+    field: DriveField,
+    patch: Patch,
+    ways: ArrayLike,
+    moving: NDArray[np.intp],
+    lines: int = 21,
 ) -> ClearPath | None:
     """Longest straight path on a patch on which no drive turns back.
 
@@ -116,6 +120,8 @@ def longest_clear_path(
     patch : Patch
     ways : (w, 2)
         Directions of the parameters that are tried.
+    moving : (a,) of int
+        Drives that move on the patch; the others turn back nowhere.
     lines : int
         Evenly spaced lines along each way across the patch, its middle among them.
 
@@ -127,7 +133,7 @@ def longest_clear_path(
     best: ClearPath | None = None
     for way in np.asarray(ways, dtype=float):
         low, high = _chords(patch, way, lines)
-        speeds, at, owner, _ = _reversals(field, low, high, SAMPLES)
+        speeds, at, owner, _ = _reversals(field, low, high, SAMPLES, moving)
         for n in np.flatnonzero(~np.isnan(speeds).any(axis=(1, 2))):
             stops = np.sort(np.concatenate([[0.0, 1.0], at[owner == n]]))
             starts, ends = stops[:-1], stops[1:]
@@ -152,7 +158,11 @@ def _moves(speeds: Array, gradient: Array, way: Array) -> NDArray[np.bool_]:
 
 
 def _reversals(
-    field: DriveField, low: Array, high: Array, samples: int
+    field: DriveField,
+    low: Array,
+    high: Array,
+    samples: int,
+    moving: NDArray[np.intp] | None = None,
 ) -> tuple[Array, Array, NDArray[np.intp], NDArray[np.intp]]:
     """Speeds along pieces (r, s, n), 0 of what stands still; reversals' places, pieces, drives."""
     shares = np.linspace(0.0, 1.0, samples + 1)
@@ -161,7 +171,10 @@ def _reversals(
     g = field.gradient(points.reshape(-1, 2)).reshape(*points.shape[:2], -1, 2)
     speeds = np.einsum("rsna,ra->rsn", g, way)
     # out of reach they stay not a number
-    still = ~_moves(speeds, g, way)[:, None] & ~np.isnan(speeds)
+    moves = _moves(speeds, g, way)
+    if moving is not None:
+        moves &= np.isin(np.arange(g.shape[2]), moving)
+    still = ~moves[:, None] & ~np.isnan(speeds)
     speeds = np.where(still, 0.0, speeds)
     signs = np.sign(speeds)
     # a sample that hits a reversal has the sign that comes before it, so that none is counted

@@ -20,6 +20,7 @@ from strutwork.kinematics.walk import (
     SHORTEST,
     SHRINK,
 )
+from strutwork.names import listed
 
 Array = NDArray[Any]
 
@@ -104,9 +105,7 @@ class LegWalk:
         system = self.system
         steps = system.steps[system.legs["start"][leg] : system.legs["stop"][leg]]
         names = [self.joints.linkage.joints[j].name for j in steps["joint"]]
-        reason = ENDS[kind - 1].format(
-            " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
-        )
+        reason = ENDS[kind - 1].format(listed(names))
         if reason not in self.reasons:
             self.reasons.append(reason)
         self.status[at] = self.reasons.index(reason) + 1

@@ -141,12 +141,31 @@ def null_space(rows: Array, tolerance: Array | float = 0.0, *, share: float = 0.
     Columns are blanked instead of cut, so that poses of different rank stay one stack. Singular
     values of at most `tolerance`, (p,), or of this share of the matrix's largest count as zero.
     """
-    _, values, right = np.linalg.svd(rows)
+    values, right = _decomposed(rows)
     held = np.zeros(right.shape[:-1], dtype=bool)
     if values.shape[-1]:
         limit = np.maximum(np.broadcast_to(tolerance, len(rows)), share * values[:, 0])
         held[:, : values.shape[-1]] = values > limit[:, None]
     return np.swapaxes(np.where(held[..., None], 0.0, right), -1, -2)
+
+
+def _decomposed(rows: Array) -> tuple[Array, Array]:
+    """Singular values and right singular vectors of a stack.
+
+    The method by halves is fast and does not converge for some matrices of low rank; these are
+    done by the older one.
+    """
+    try:
+        _, values, right = np.linalg.svd(rows)
+    except np.linalg.LinAlgError:
+        if len(rows) > 1:
+            each = [_decomposed(one[None]) for one in rows]
+            return np.concatenate([v for v, _ in each]), np.concatenate([r for _, r in each])
+        from scipy import linalg  # noqa: PLC0415 - for the rare matrix that needs it
+
+        _, value, vectors = linalg.svd(rows[0], lapack_driver="gesvd")
+        return value[None], vectors[None]
+    return values, right
 
 
 def _standing(cosines: Array, seen: Mask) -> Array:

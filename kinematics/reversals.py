@@ -124,7 +124,7 @@ class Reversals:
 
     def longest(self, ways: ArrayLike, lines: int = 21) -> ClearPath | None:
         """Longest straight path without a reversal along directions (w, 2) of the parameters."""
-        return longest_clear_path(self.field, self.patch, ways, lines)
+        return longest_clear_path(self.field, self.patch, ways, self.moving, lines)
 
 
 def reversals(field: DriveField, u: ArrayLike, v: ArrayLike) -> Reversals:

@@ -7,18 +7,17 @@ statements that ``strutwork report --all -o OUT`` has written.
 from __future__ import annotations
 
 import argparse
-import csv
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from strutwork.errors import ModelError
 from strutwork.files import write_text
-from strutwork.papers.statements import NONE
-from strutwork.reports.numbers import percent, significant
+from strutwork.papers.published_rows import Status
+from strutwork.papers.statements import Statement, read_statements, shown
 
 #: Kinds of status in the order in which they are counted.
-STATUSES = ("predicted", "calibrated", "not reproducible")
+STATUSES: tuple[Status, ...] = ("predicted", "calibrated", "not reproducible")
 
 HEAD = """# Published results
 
@@ -60,31 +59,28 @@ def page(documents: Mapping[str, Path]) -> str:
         File of statements of each document, as `strutwork.papers.statements.statements_file`
         makes it.
     """
-    said = {}
-    for key, path in documents.items():
-        with path.open(encoding="utf-8", newline="") as stream:
-            said[key] = list(csv.DictReader(stream))
+    said = {key: read_statements(path) for key, path in documents.items()}
     rows = []
     for key, of in said.items():
-        counts = Counter(s["status"] for s in of)
+        counts = Counter(s.status for s in of)
         rows.append([f"[{key}](#{key})", f"{len(of)}", *(f"{counts[k]}" for k in STATUSES)])
     text = HEAD + "\n" + _table(["document", "results", *STATUSES], rows)
     return text + "".join(f"\n## {key}\n\n{_statements(of)}" for key, of in said.items())
 
 
-def _statements(said: Sequence[Mapping[str, str]]) -> str:
-    reasons = list(dict.fromkeys(s["reason"] for s in said if s["reason"]))
-    tests = list(dict.fromkeys(s["test"] for s in said))
+def _statements(said: Sequence[Statement]) -> str:
+    reasons = list(dict.fromkeys(s.reason for s in said if s.reason))
+    tests = list(dict.fromkeys(s.test for s in said))
     rows = [
         [
-            s["place"],
-            s["what"],
-            _shown(s["published"], s["unit"]),
-            _shown(s["computed"], s["unit"]),
-            _difference(s["published"], s["computed"]),
-            s["status"],
-            f"{reasons.index(s['reason']) + 1}" if s["reason"] else "",
-            f"T{tests.index(s['test']) + 1}",
+            s.place,
+            s.what,
+            shown(s.published, s.unit),
+            shown(s.computed, s.unit),
+            s.difference,
+            s.status,
+            f"{reasons.index(s.reason) + 1}" if s.reason else "",
+            f"T{tests.index(s.test) + 1}",
         ]
         for s in said
     ]
@@ -92,30 +88,6 @@ def _statements(said: Sequence[Mapping[str, str]]) -> str:
     why = "".join(f"{n}. {reason}\n" for n, reason in enumerate(reasons, 1))
     held = "".join(f"- T{n}: `{test}`\n" for n, test in enumerate(tests, 1))
     return f"{_table(columns, rows)}\nReasons:\n\n{why}\nTests:\n\n{held}"
-
-
-def _number(text: str) -> float | None:
-    try:
-        return float(text)
-    except ValueError:
-        return None
-
-
-def _shown(text: str, unit: str) -> str:
-    value = _number(text)
-    if value is None:
-        return text or NONE
-    if value != value:  # noqa: PLR0124 - not a number
-        return NONE
-    shown = f"{value:.0f}" if value == round(value) and abs(value) < 1e6 else significant(value)
-    return f"{shown} {unit}".strip()
-
-
-def _difference(published: str, computed: str) -> str:
-    first, second = _number(published), _number(computed)
-    if not first or second is None or first != first or second != second:  # noqa: PLR0124
-        return NONE
-    return percent(100.0 * (second - first) / first)
 
 
 def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+from typing import cast
 
 from strutwork.papers.published_rows import PublishedRow, Status
 from strutwork.papers.tables import difference, texts
@@ -93,7 +96,7 @@ def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapt
         [
             s.place,
             _printed(s.what),
-            *(_shown(v) + (_unit(v, s.unit) if words else "") for v in (s.published, s.computed)),
+            *(shown(v, s.unit if words else "") for v in (s.published, s.computed)),
             *(() if words else (_printed(s.unit),)),
             _difference(s),
             s.status + (f" ({reasons.index(s.reason) + 1})" if s.reason else ""),
@@ -130,6 +133,32 @@ def statements_file(paper: str, said: Sequence[Statement]) -> DataFile:
     )
 
 
+def read_statements(path: Path) -> tuple[Statement, ...]:
+    """What `statements_file` has written; what is a number there is one again."""
+    with path.open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    return tuple(
+        Statement(
+            row["place"],
+            row["what"],
+            row["unit"],
+            _read(row["published"]),
+            _read(row["computed"]),
+            cast(Status, row["status"]),
+            row["reason"],
+            row["test"],
+        )
+        for row in rows
+    )
+
+
+def _read(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
 def count_text(said: Sequence[Statement]) -> Text:
     """How many have which status."""
     counts = Counter(s.status for s in said)
@@ -146,21 +175,16 @@ def _printed(text: str) -> str:
     return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, text)
 
 
-def _shown(value: float | str) -> str:
+def shown(value: float | str, unit: str = "") -> str:
+    """A number with its unit, or words, which have theirs in them, as a page prints them."""
     if isinstance(value, str):
-        return _printed(value)
+        return _printed(value) or NONE
     if value != value:  # noqa: PLR0124 - not a number
         return NONE
     # what is counted has no decimals
-    return f"{value:.0f}".replace("-", MINUS) if value == round(value) else significant(value)
-
-
-def _unit(value: float | str, unit: str) -> str:
-    """Behind a number of its own; words have theirs in them."""
-    if isinstance(value, str) or value != value or not unit:  # noqa: PLR0124 - not a number
-        return ""
+    text = f"{value:.0f}".replace("-", MINUS) if value == round(value) else significant(value)
     # a number and its unit stay on one line
-    return f"\u00a0{_printed(unit)}"
+    return f"{text}{HARD_SPACE}{_printed(unit)}" if unit else text
 
 
 def _difference(said: Statement) -> Cell:

@@ -8,16 +8,15 @@ import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.machines.model import Model
-from strutwork.reports.chapters.model_loads import DRAWN, round_factor
+from strutwork.reports.chapters.model_loads import exaggeration
 from strutwork.reports.figures.model import (
     deformed_shape,
     deformed_view,
-    model_size,
     model_view,
 )
 from strutwork.reports.figures.vibration import mode_view
 from strutwork.reports.model_solution import solve_model
-from strutwork.reports.numbers import significant
+from strutwork.reports.numbers import significant, times
 from strutwork.reports.vibration_study import study_model_vibration
 
 if TYPE_CHECKING:
@@ -57,12 +56,10 @@ def machine_figure(model: Model, case: str | None = None, mode: int | None = Non
 
 def _deformed(model: Model, name: str) -> tuple[dict[str, Any], str]:
     case = model.case(name)
-    statics, number = solve_model(model).statics, model.cases.index(case)
-    moves = np.linalg.norm(statics.displacements[:, :3, number], axis=-1)
-    largest, size = float(moves.max(initial=0.0)), model_size(model)
-    factor = round_factor(DRAWN * size / largest) if largest > 1e-15 * size else 1.0
-    shape, moved = deformed_shape(model, statics, number, factor)
-    title = f"{name}: drawn {factor:,g} times as large, at most {significant(1e6 * largest)} µm"
+    solution, number = solve_model(model), model.cases.index(case)
+    largest, factor = exaggeration(solution, number)
+    shape, moved = deformed_shape(model, solution.statics, number, factor)
+    title = f"{name}: drawn {times(factor)} times as large, at most {significant(1e6 * largest)} µm"
     return deformed_view(model, shape, moved, case, "displacement (µm)"), title
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 
 #: Joiners without which words of some scripts and some signs fall apart; they turn nothing.
@@ -70,3 +70,14 @@ def meant(name: str, known: Iterable[str]) -> str:
     """
     near = get_close_matches(name, list(known), n=1, cutoff=0.75)
     return f'Did you mean "{visible(near[0])}"? ' if near else ""
+
+
+def listed(words: Sequence[str], mark: str = ",") -> str:
+    """Words as a sentence lists them.
+
+    >>> listed(["x", "y", "z"]), listed(["x"]), listed([])
+    ('x, y and z', 'x', '')
+    """
+    if len(words) < 2:
+        return "".join(words)
+    return f"{mark} ".join(words[:-1]) + f" and {words[-1]}"

@@ -13,6 +13,7 @@ from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import at_pose
 from strutwork.msa import compliance_budget
+from strutwork.names import listed
 from strutwork.reports.chapters import (
     accuracy,
     singularities,
@@ -35,6 +36,7 @@ Array = NDArray[Any]
 STIFFER = 0.1
 #: Stiffness that is not worth a word, N/m: the tool does not give way there.
 STIFF = 1e15
+HOME = "home"
 FREE = "with the other directions free to follow"
 
 
@@ -66,9 +68,10 @@ class Softest:
 
 def cover_blocks(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, ...]]:
     """Sentences, the machine where it is softest, and the file beside it."""
-    found = softest(subject)
+    worst = _worst(subject)
+    found = softest(subject, worst)
     sentences = [
-        *_stiffness(subject, found),
+        *_stiffness(subject, worst, found),
         *_vibration(subject),
         *_assembly(subject),
         *_reach(subject),
@@ -81,7 +84,7 @@ def cover_blocks(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, .
     blocks.append(
         Figure(
             "cover-softest",
-            f"The machine at {found.where}, where it is softest along {found.axis}. In red "
+            f"The machine at {found.where}, softest along {found.axis}. In red "
             f"{found.part.label}, which give{found.part.ending} way most. Drag to turn, scroll to "
             "zoom.",
             marked_view(found.model, found.part.members),
@@ -95,16 +98,22 @@ def cover_blocks(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, .
     return tuple(blocks), (csv_file(name, what, ("kind", "parts", "share"), rows),)
 
 
-def softest(subject: Subject) -> Softest | None:
-    """Of the axes, the softest at the softest pose of the workspace; else at home."""
+def softest(subject: Subject, worst: list[tuple[str, Extreme]]) -> Softest | None:
+    """Of the axes, the softest at the softest pose of the workspace; else at home.
+
+    Parameters
+    ----------
+    subject : Subject
+    worst : list of (axis, Extreme)
+        Softest poses of the workspace; empty where none was looked at.
+    """
     home = _home(subject)
     if home is None:
         return None
-    known = [e for e in _worst(subject) if e is not None]
-    model, where = subject.model, "home"
+    model, where = subject.model, HOME
     axis = DIRECTIONS[int(np.argmin(home))]
-    if known:
-        axis, extreme = min(known, key=lambda item: item[1].value)
+    if worst:
+        axis, extreme = min(worst, key=lambda item: item[1].value)
         try:
             model, where = at_pose(subject.model, extreme.task), extreme.where
         except StrutworkError:
@@ -126,36 +135,36 @@ def _home(subject: Subject) -> Array | None:
     return free if np.min(free) < STIFF else None
 
 
-def _worst(subject: Subject) -> list[tuple[str, Extreme] | None]:
-    """Along x, y, z the softest pose; None where there is none. N/µm."""
+def _worst(subject: Subject) -> list[tuple[str, Extreme]]:
+    """The softest pose along each of x, y, z that has one; N/µm."""
     if workspace_stiffness.missing(subject):
         return []
-    found = subject.stiffness_survey
-    worst: list[tuple[str, Extreme] | None] = []
+    found, worst = subject.stiffness_survey, []
     for direction in "xyz":
         values = found["stiffness_free"].sel(direction=direction).to_numpy() / 1e6
         values = np.where(np.isfinite(values), values, np.nan)
-        known = bool(np.isfinite(values).any())
-        worst.append((direction, least(found, values)) if known else None)
+        if np.isfinite(values).any():
+            worst.append((direction, least(found, values)))
     return worst
 
 
-def _stiffness(subject: Subject, found: Softest | None) -> tuple[Answer, ...]:
+def _stiffness(
+    subject: Subject, worst: list[tuple[str, Extreme]], found: Softest | None
+) -> tuple[Answer, ...]:
     home = _home(subject)
     if home is None:
         return ()
     moves = [(axis, k) for axis, k in zip("xyz", home, strict=True) if k < STIFF]
-    numbers = _listed([significant(k / 1e6) for _, k in moves])
-    axes = _listed([axis for axis, _ in moves])
+    numbers = listed([significant(k / 1e6) for _, k in moves])
+    axes = listed([axis for axis, _ in moves])
     said = [
         Answer("At home the tool is ", f"{numbers} N/µm", f" stiff along {axes}, {FREE}.", "tool")
     ]
-    known = [e for e in _worst(subject) if e is not None]
-    if known:
-        numbers = _listed([significant(e.value) for _, e in known])
-        along = _listed([axis for axis, _ in known])
-        places = [e.where for _, e in known]
-        where = places[0] if len(set(places)) == 1 else _listed(places, ";")
+    if worst:
+        numbers = listed([significant(e.value) for _, e in worst])
+        along = listed([axis for axis, _ in worst])
+        places = [e.where for _, e in worst]
+        where = places[0] if len(set(places)) == 1 else listed(places, ";")
         after = f" along {along}, at {where}."
         key = workspace_stiffness.KEY
         said.append(Answer("At worst in its workspace it is ", f"{numbers} N/µm", after, key))
@@ -163,7 +172,7 @@ def _stiffness(subject: Subject, found: Softest | None) -> tuple[Answer, ...]:
         amount = found.part.share
         # of its compliance the part keeps 1/1.1
         gain = 1.0 / (1.0 - amount * (1.0 - 1.0 / (1.0 + STIFFER))) - 1.0
-        there = "Where it is softest," if known else "At home"
+        there = "At home" if found.where == HOME else "Where it is softest,"
         said.append(
             Answer(
                 f"{there} {found.part.label} give{found.part.ending} way most: ",
@@ -174,13 +183,6 @@ def _stiffness(subject: Subject, found: Softest | None) -> tuple[Answer, ...]:
             )
         )
     return tuple(said)
-
-
-def _listed(words: list[str], mark: str = ",") -> str:
-    """`a, b and c`."""
-    if len(words) < 2:
-        return "".join(words)
-    return f"{mark} ".join(words[:-1]) + " and " + words[-1]
 
 
 def _vibration(subject: Subject) -> tuple[Answer, ...]:

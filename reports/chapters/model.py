@@ -6,6 +6,7 @@ import numpy as np
 
 from strutwork.machines.model import Model
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
+from strutwork.names import listed
 from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
 from strutwork.reports.data_files import json_file
 from strutwork.reports.figures.model import model_view
@@ -30,9 +31,8 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
         count(len(model.cases), "load case"),
     ]
     present = [part for part in parts if not part.startswith("0 ")]
-    listed = " and ".join(filter(None, [", ".join(present[:-1]), present[-1]]))
     where = "in one configuration" if model.workspace is None else "as it stands at home"
-    text = f"A structure of {listed}, {where}."
+    text = f"A structure of {listed(present)}, {where}."
     facts = [
         Fact("Degrees of freedom", str(check.degrees_of_freedom), "", "of the flexible structure"),
         Fact(

@@ -95,11 +95,9 @@ def _six(
 def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Figure | Note | None:
     model, statics = solution.model, solution.statics
     case = model.cases[number]
-    largest = float(np.linalg.norm(statics.displacements[:, :3, number], axis=-1).max(initial=0.0))
-    size = model_size(model)
-    if largest < 1e-15 * size:
+    largest, factor = exaggeration(solution, number)
+    if not factor:
         return Note(f"Nothing moves in case “{case.name}”.")
-    factor = round_factor(DRAWN * size / largest)
     shape, moved = deformed_shape(model, statics, number, factor)
     if not len(shape):
         return None
@@ -121,6 +119,17 @@ def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Fi
         "deformed-shapes.csv",
         height=520,
     )
+
+
+def exaggeration(solution: ModelSolution, number: int) -> tuple[float, float]:
+    """The largest displacement of a node in a case, m, and how many times as large to draw it.
+
+    0 times where nothing moves.
+    """
+    moves = solution.statics.displacements[:, :3, number]
+    largest = float(np.linalg.norm(moves, axis=-1).max(initial=0.0))
+    size = model_size(solution.model)
+    return largest, round_factor(DRAWN * size / largest) if largest >= 1e-15 * size else 0.0
 
 
 def round_factor(value: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from pathlib import Path
 
 import pytest
 
@@ -31,6 +32,16 @@ def test_ten_thousand() -> None:
     # most mutants must reach a solver: refused ones alone would show little
     assert 0.1 < done.refused / done.runs < 0.9
     assert [str(fault) for fault in done.faults] == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [1750])
+def test_faults_of_before(number: int, tmp_path: Path) -> None:
+    """1750: a hexapod whose legs have come off their parts, so that no drive moves."""
+    model = tmp_path / "mutant.toml"
+    model.write_text(mutant(number, seeds()).text, encoding="utf-8", errors="surrogatepass")
+    runs = judge.commands(number, model, tmp_path / "out")
+    assert [fault for command in runs for fault in judge.faults(number, command)] == []
 
 
 def test_a_number_is_one_mutant() -> None:

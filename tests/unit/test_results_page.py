@@ -34,10 +34,11 @@ def test_numbers_and_words_stand_beside_each_other(tmp_path: Path) -> None:
     text = (tmp_path / "page.md").read_text(encoding="utf-8")
     assert "| [a-2000](#a-2000) | 3 | 1 | 1 | 1 |" in text
     assert (
-        "| Table 1 | Kx \\| blocked | 2 N/um | 2.10 N/um | +5.0 % | calibrated | 1 | T1 |" in text
+        "| Table 1 | Kx \\| blocked | 2\u00a0N/µm | 2.10\u00a0N/µm | +5.0 % | calibrated | 1 | T1 |"
+        in text
     )
     assert "| section 2 | ways | four | sixteen | – | not reproducible |  | T1 |" in text
-    assert "| section 3 | nothing of ours | 3 mm | – | – | predicted | 1 | T1 |" in text
+    assert "| section 3 | nothing of ours | 3\u00a0mm | – | – | predicted | 1 | T1 |" in text
     assert text.count("1. fitted") == 1
     assert "- T1: `tests/t.py::test_it`" in text
 
