@@ -8,7 +8,7 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from math import isinf
-from typing import Any, TextIO
+from typing import IO, Any
 
 from rich.console import Console
 from rich.table import Table
@@ -73,7 +73,7 @@ class Rows(Table):
         super().__init__(title=visible(title), title_justify="left", title_style="bold")
         self.kept = (title, columns, rows)
 
-    def write_csv(self, out: TextIO, *, first: bool) -> None:
+    def write_csv(self, out: IO[str], *, first: bool) -> None:
         """Write it as CSV with every digit, below a line of its title."""
         title, columns, rows = self.kept
         words = " ".join(visible(title).split())
