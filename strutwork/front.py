@@ -250,11 +250,19 @@ class Machine(Model):
         **options
             Of `strutwork.studies.survey.survey`: workers, progress, folder, executor.
 
+        Returns
+        -------
+        xarray.Dataset
+            With `dataset.strutwork.to_dataframe()`, `.split_units()` and `.plot()`, see
+            `strutwork.surveyed.Surveyed`.
+
         Raises
         ------
         ModelError
             No workspace is known; else as `strutwork.studies.survey.survey`.
         """
+        # gives the dataset its table, its units and its plot
+        import strutwork.surveyed  # noqa: F401
         from strutwork.studies.answers import Stiffness
         from strutwork.studies.survey import survey
 

@@ -14,10 +14,9 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
+from strutwork.studies.dataset_units import stated_unit, unit_of_label
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.netcdf import netcdf_bytes
-
-_UNITS = {"direction": ("N/m", "N m/rad")}
 
 
 def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
@@ -93,7 +92,7 @@ def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
     dims = kinds.pop()
     places = [dataset[d].to_numpy() for d in dims]
     arrays = {**{d: dataset[d] for d in dims}, **dataset.data_vars}
-    units = {name: array.attrs.get("units", "1") for name, array in arrays.items()}
+    units = {name: stated_unit(array) for name, array in arrays.items()}
     head = [str(n) if unit == "1" else f"{n} [{unit}]" for n, unit in units.items()]
     values = [variable.to_numpy() for variable in dataset.data_vars.values()]
 
@@ -158,15 +157,14 @@ def _columns(dataset: xr.Dataset, dim: str) -> Iterator[tuple[str, NDArray[Any]]
         if name == "status":
             yield "status", np.array([s.word for s in PoseStatus])[values]
             continue
-        unit = variable.attrs.get("units", "1")
+        units = stated_unit(variable)
         labels = [
             dataset[d].to_numpy() if d in dataset.coords else np.arange(dataset.sizes[d])
             for d in variable.dims[1:]
         ]
         for index in np.ndindex(*(len(items) for items in labels)):
             words = [str(items[i]) for items, i in zip(labels, index, strict=True)]
-            if name in ("stiffness_blocked", "stiffness_free"):
-                unit = _UNITS["direction"][words[0].startswith("r")]
+            unit = unit_of_label(units, words[-1]) if words else units
             head = "_".join([str(name), *words])
             yield (head if unit == "1" else f"{head} [{unit}]"), values[(slice(None), *index)]
 

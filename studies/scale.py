@@ -158,7 +158,7 @@ class ScaleStudy:
                 "stiffness": (
                     (*head, "direction"),
                     self.stiffness,
-                    {"units": "N/m; N m/rad", "meaning": "1/C_ii at the tool"},
+                    {"component_units": "N/m; N m/rad", "meaning": "1/C_ii at the tool"},
                 ),
                 "frequency": ((*head, "mode"), self.frequencies, {"units": "Hz"}),
                 "stiffness_exponent": ((*head, "direction"), stiffness, {"units": "1"}),

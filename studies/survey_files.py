@@ -11,7 +11,7 @@ import xarray as xr
 
 from strutwork.csv_rows import RowWriter
 from strutwork.files import write_whole
-from strutwork.kinematics import DIRECTIONS
+from strutwork.studies.dataset_units import stated_unit, unit_of_label
 from strutwork.studies.filters import PoseStatus
 
 
@@ -43,7 +43,8 @@ def write_survey(path: Path, found: xr.Dataset) -> Path:
         values = variable.to_numpy().reshape(len(columns["status"]), -1)
         for k, parts in enumerate(product(*labels)):
             head = " ".join([str(name), *parts])
-            columns[f"{head}, {_unit(str(variable.attrs.get('units', '')), parts)}"] = [
+            unit = unit_of_label(stated_unit(variable), parts[-1] if parts else "")
+            columns[f"{head}, {unit}"] = [
                 "" if np.isnan(v) else repr(float(v)) for v in values[:, k]
             ]
 
@@ -54,19 +55,3 @@ def write_survey(path: Path, found: xr.Dataset) -> Path:
             writer.writerows(zip(*columns.values(), strict=True))
 
     return write_whole(Path(path), write)
-
-
-def _unit(units: str, labels: tuple[str, ...]) -> str:
-    """The unit of one column of a variable whose columns have two."""
-    if units.startswith("N/m for x y z"):
-        return "N m/rad" if labels[-1].startswith("r") else "N/m"
-    if units == "m for x y z; rad for rx ry rz":
-        return "rad" if labels[-1].startswith("r") else "m"
-    if units == "m or rad":
-        return "rad" if labels[-1].rpartition(":")[2] in DIRECTIONS[3:] else "m"
-    if units == "N, N m, m or rad":
-        last = labels[-1]
-        if last.startswith("tool "):
-            return "rad" if "rotation" in last else "m"
-        return "N" if last.endswith("force") else "N m"
-    return units

@@ -25,6 +25,7 @@ from strutwork.overconstraint import (
     limit_vector,
 )
 from strutwork.overconstraint.sensitivity import given_size
+from strutwork.studies.dataset_units import unit_attributes
 
 Array = NDArray[Any]
 
@@ -210,9 +211,13 @@ class ToleranceStudy:
         """Largest values at all poses, and the share of each tolerance in them."""
         return xr.Dataset(
             {
-                "worst": (("pose", "quantity"), self.worst.value, {"units": "N; N m; m; rad"}),
+                "worst": (
+                    ("pose", "quantity"),
+                    self.worst.value,
+                    unit_attributes("N; N m; m; rad"),
+                ),
                 "share": (("pose", "quantity", "tolerance"), self.worst.shares, {"units": "1"}),
-                "limit": ("quantity", self.limit, {"units": "N; N m; m; rad"}),
+                "limit": ("quantity", self.limit, unit_attributes("N; N m; m; rad")),
             },
             coords={
                 "pose": list(self.poses),

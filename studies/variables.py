@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, stiffness_ellipsoid
+from strutwork.studies.dataset_units import unit_attributes
 from strutwork.studies.filters import PoseStatus
 
 Array = NDArray[Any]
@@ -25,7 +26,7 @@ def named(
     dims: str | Sequence[str], values: Array, unit: str, name: str, **more: Any
 ) -> xr.Variable:
     """A variable that says what it is and in which unit."""
-    return xr.Variable(dims, values, {"units": unit, "long_name": name, **more})
+    return xr.Variable(dims, values, unit_attributes(unit) | {"long_name": name, **more})
 
 
 def flags(dim: str, status: NDArray[np.int8]) -> xr.Variable:

@@ -24,6 +24,7 @@ from strutwork.kinematics.margin_grid import (
     margin_grid,
 )
 from strutwork.kinematics.regions import Regions, regions
+from strutwork.studies.dataset_units import unit_attributes
 from strutwork.studies.foresee import Foreseen
 from strutwork.studies.level_set import LevelSet, apart, level_set
 from strutwork.studies.progress import Progress
@@ -188,7 +189,7 @@ class Workspace:
             "reason_text": (("reason_index",), np.array(margins.reasons, dtype=str)),
         }
         if self.spare is not None:
-            found["spare"] = (directions, self.spare, {"units": "m or rad"})
+            found["spare"] = (directions, self.spare, unit_attributes("m or rad"))
         attributes = {
             "title": self.title,
             "measure": self.measure,
