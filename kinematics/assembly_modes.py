@@ -80,7 +80,13 @@ class AssemblyModes:
         return np.asarray(np.where(out, np.inf, turns).min(axis=-1))
 
     def poses(self, index: int | tuple[int, ...] = ()) -> Poses:
-        """The tool in all modes of one pose of the batch, (m)."""
+        """The tool in all modes of one pose of the batch, (m).
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of a pose in the batch; () for a single one.
+        """
         count = int(self.real[index])
         return Poses(self.position[index][:count], self.rotation[index][:count])
 
@@ -121,7 +127,7 @@ def assembly_modes(
     placement : Placement
         Reachable poses, any batch axes.
     rotation : (..., 3, 3), optional
-        Of the tool there; default none.
+        Rotation matrices of the tool at these poses; default none, the tool as at home.
 
     Returns
     -------

@@ -149,7 +149,13 @@ class Interference:
         return np.asarray(radius[self.pairs].sum(axis=-1))
 
     def words(self, pair: int) -> str:
-        """The two parts of a pair."""
+        """The two parts of a pair.
+
+        Parameters
+        ----------
+        pair : int
+            Row of `pairs`.
+        """
         first, second = (self._parts[i].name for i in self.pairs[pair])
         return f"{first} and {second}"
 

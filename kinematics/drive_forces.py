@@ -30,13 +30,13 @@ class Forces:
     ----------
     at : PlacedDynamics
     rates : (p, t)
-        Of the coordinates.
+        Of the coordinates, m/s or rad/s.
     twists, accelerations : (p, 6 b)
-        Of the bodies at their centres of mass.
+        Of the bodies at their centres of mass, m/s and rad/s, m/s² and rad/s².
     needed : (p, 6 b)
         What joints and drives must do to the bodies there, N and N·m.
     wrench : (p, 6)
-        That acts on the tool.
+        That acts on the tool at its centre point, N and N·m.
     """
 
     at: PlacedDynamics
@@ -178,7 +178,7 @@ def inverse_dynamics(
     at : PlacedDynamics
         At p poses.
     rates, changes : (p, t)
-        First and second derivatives of the coordinates.
+        First and second derivatives of the coordinates, m/s or rad/s, m/s² or rad/s².
     wrench : (p, 6) or (6,)
         That acts on the tool at its centre point, N and N·m, global axes.
     """

@@ -81,7 +81,13 @@ class FoundPoses(Poses):
         return np.asarray(self.status == 0)
 
     def reason(self, index: int | tuple[int, ...]) -> str:
-        """Why no pose was found at `index`, and how far the branch went; empty where it was."""
+        """Why no pose was found at `index`, and how far the branch went; empty where it was.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of a pose in the batch; () for a single one.
+        """
         code = int(self.status[index])
         if not code:
             return ""

@@ -40,11 +40,12 @@ class LargestShape:
     centre : (d,)
         m and rad.
     size : float
-        Of the shape; its halves are `size * shape.half`.
+        Of the shape, no unit; its halves are `size * shape.half`.
     bound : float
-        What the border, taken as flat where the shape touches it, allows near the result.
+        Size that the border, taken as flat where the shape touches it, allows near the result; no
+        unit.
     critical : (d,)
-        Point on its border that is nearest to being bad.
+        Point on its border that is nearest to being bad, m and rad.
     reason : str
         What is at its bound there.
     confirmed : int
@@ -94,7 +95,7 @@ def largest_shape(
     shape : InscribedShape
         Its proportions; the size is sought.
     centre : (d,), optional
-        Anywhere by default.
+        m and rad; anywhere by default.
     accuracy : float
         Of the size, as a share of it.
 

@@ -95,6 +95,13 @@ class MeshGaps:
         """Gap of two parts at poses, m, negative where they overlap, (p,).
 
         Where it is not below `within`, a distance that it has at least.
+
+        Parameters
+        ----------
+        first, second : PlacedPart
+            At the same p poses; one of them at least is a mesh.
+        within : float
+            Gap from which on its exact value is not asked for, m.
         """
         found = segment_distances(first.ends, second.ends) - first.radius - second.radius
         near = np.flatnonzero(found < within)

@@ -14,6 +14,11 @@ def sparse_basis(vectors: Array) -> Array:
     """Another basis of the columns' span with many zeros, so that parts can be told apart.
 
     Gauss-Jordan elimination with complete pivoting; each vector's largest entry is one.
+
+    Parameters
+    ----------
+    vectors : (n, k)
+        Independent columns, all entries of one unit, whichever.
     """
     rows = np.array(vectors.T, dtype=float)
     for k in range(len(rows)):

@@ -116,7 +116,7 @@ def amplifications(tool: Array, drives: Array, used: int) -> Array:
     Parameters
     ----------
     tool : (p, 6, f)
-        (v, L ω)
+        (v, L ω), m/s.
     drives : (p, a, f)
         m/s and L rad/s.
     used : int

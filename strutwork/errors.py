@@ -8,6 +8,8 @@ from strutwork.names import visible
 class StrutworkError(Exception):
     """Base of all errors raised on purpose.
 
+    As text, hidden characters of names are written out: a message acts on no terminal.
+
     Parameters
     ----------
     part : str
@@ -16,8 +18,6 @@ class StrutworkError(Exception):
         What is wrong with it, with the value found.
     remedy : str
         What the reader can do about it.
-
-    As text, hidden characters of names are written out: a message acts on no terminal.
     """
 
     def __init__(self, part: str, problem: str, remedy: str = "") -> None:

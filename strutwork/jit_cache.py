@@ -99,7 +99,13 @@ def _clean(folder: Path) -> None:
 
 
 def code_cache(function: Callable[..., Any]) -> Any:
-    """The cache of a function's machine code, for its numba dispatcher."""
+    """The cache of a function's machine code, for its numba dispatcher.
+
+    Parameters
+    ----------
+    function : callable
+        The Python function to be compiled.
+    """
     if code_folder() is None:
         return _NoCache()
     try:

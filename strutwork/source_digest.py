@@ -16,7 +16,7 @@ def source_digest(*packages: str) -> str:
 
     Parameters
     ----------
-    packages : str
+    *packages : str
         Packages that can be imported. Where one comes without sources it counts with its name
         only.
 

@@ -30,7 +30,13 @@ class Stage:
     silent: bool = False
 
     def line(self, now: float) -> str:
-        """What to say at the time `now` of `time.monotonic()`."""
+        """What to say at the time `now` of `time.monotonic()`.
+
+        Parameters
+        ----------
+        now : float
+            s, of the same clock as `begun`.
+        """
         text = f"{self.what or 'works'}, {now - self.begun:.0f} s so far"
         if self.estimate is not None:
             text += f" of about {self.estimate:.0f} s"

@@ -52,8 +52,6 @@ UNIT = re.compile(
 
 #: Packages, or modules by the beginning of their path, whose docstrings are still to be written.
 PENDING: tuple[str, ...] = (
-    "strutwork/",
-    "kinematics/",
     "meshes/",
     "msa/",
     "fea/",
