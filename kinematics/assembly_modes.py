@@ -36,10 +36,10 @@ class AssemblyModes:
     real : (...) of int
         How many are poses.
     count : (...) of int
-        How many there are, 16 in general; fewer where ways coincide. −1 where they were not all
-        found.
+        How many there are, 16 in general; fewer where ways coincide. −1 where some may
+        be missing.
     home : (...) of int
-        Which of the real ones the machine stands in; −1 where that was not found.
+        Which of the real ones the machine stands in; −1 where that is unknown.
     position, rotation : (..., 16, 3) and (..., 16, 3, 3)
         Of the tool in the real ones, m; not a number past the last of them.
     """
@@ -96,7 +96,7 @@ class AssemblyModes:
         Parameters
         ----------
         tool : Poses
-            (...); as forward kinematics has found it at the same drives.
+            (...); as forward kinematics gives it at the same drives.
 
         Returns
         -------

@@ -76,7 +76,7 @@ def branches(
     """Look for ways to put a linkage together: assembly modes, or working modes.
 
     The bodies are thrown about home, half of them in planes through it, and closed by damped
-    Newton corrections of all joints at once. What is found are ways; that there are no others
+    Newton corrections of all joints at once. The results are ways; that there are no others
     is not shown.
 
     Parameters

@@ -170,7 +170,7 @@ class Interference:
         ----------
         placement : Placement
         within : float, optional
-            Of a mesh: gaps from this on, m, are only told to be as large at least. Default:
+            Of a mesh: gaps from this on, m, are only known to be at least that large. Default:
             those that exceed the pair's `reach`.
 
         Raises

@@ -135,7 +135,7 @@ class Forces:
 
     @property
     def determined(self) -> bool:
-        """Whether rigid bodies tell what the joints bear: none of them is held twice."""
+        """Whether rigid bodies determine what the joints bear: none of them is held twice."""
         placed = self.at.placed
         square = self.at.drive_map.shape[-1] == self.at.drive_map.shape[-2]
         return square and len(placed.of.plan[0]) == len(placed.held)
@@ -149,7 +149,8 @@ class Forces:
         Raises
         ------
         ModelError
-            An over-constrained or redundantly driven linkage, whose rigid bodies do not tell.
+            An over-constrained or redundantly driven linkage, of which rigid bodies do not
+            determine them.
         """
         if not self.determined:
             raise ModelError(

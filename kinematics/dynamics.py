@@ -92,7 +92,7 @@ class Dynamics:
         UnreachableError
             A pose that was not reached.
         SingularPoseError
-            A pose at which the coordinates do not tell how the bodies move.
+            A pose at which the coordinates do not determine how the bodies move.
         ModelError
             A body that spins freely and is not balanced about its line: how it moves depends on
             more than the coordinates.

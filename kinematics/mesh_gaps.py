@@ -1,8 +1,8 @@
 """Distances of moving meshes from one another and from capsules, by FCL.
 
 FCL, the Flexible Collision Library (Pan, Chitta and Manocha 2012), is the extra `interference`:
-its trees of boxes are built once a shape, and one call a pose asks two of them. Before that,
-capsules about the shapes tell which poses are near at all, all poses together.
+its trees of boxes are built once per shape, and one call per pose asks two of them. Before that,
+capsules about the shapes show which poses are near at all, all poses together.
 """
 
 from __future__ import annotations

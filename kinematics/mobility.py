@@ -72,7 +72,7 @@ class SelfStress:
 
 @dataclass(frozen=True)
 class Mobility:
-    """What `mobility` found.
+    """Result of `mobility`.
 
     Parameters
     ----------

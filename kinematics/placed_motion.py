@@ -215,7 +215,7 @@ class PlacedMotion:
 
     @property
     def singular(self) -> NDArray[np.bool_]:
-        """Where the coordinates do not tell how the bodies move, (p,)."""
+        """Where the coordinates do not determine how the bodies move, (p,)."""
         return np.asarray(self._solved[2], dtype=bool)
 
     @property

@@ -68,7 +68,7 @@ def plates(gradient: Array, moving: NDArray[np.intp]) -> NDArray[np.intp]:
     """Number of the plate at each grid point, from 1; 0 out of reach or on a border, (k, l).
 
     Two points of one plate are joined by sides of cells without a border between them; what is
-    narrower than a cell is not told apart.
+    narrower than a cell is not distinguished.
 
     Parameters
     ----------

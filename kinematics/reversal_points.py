@@ -147,7 +147,7 @@ class DriveSingularities:
 
     @property
     def complete(self) -> bool | None:
-        """Whether strong less weak points are the winding; None where it cannot be told."""
+        """Whether strong less weak points are the winding; None where that is unknown."""
         if self.winding is None or self.lines:
             return None
         return self.strong - self.weak == self.winding

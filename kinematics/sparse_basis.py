@@ -1,4 +1,4 @@
-"""A basis with many zeros, so that parts can be told apart."""
+"""A basis with many zeros, so that parts can be distinguished."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Array = NDArray[Any]
 
 
 def sparse_basis(vectors: Array) -> Array:
-    """Another basis of the columns' span with many zeros, so that parts can be told apart.
+    """Another basis of the columns' span with many zeros, so that parts can be distinguished.
 
     Gauss-Jordan elimination with complete pivoting; each vector's largest entry is one.
 

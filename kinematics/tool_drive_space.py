@@ -1,4 +1,4 @@
-"""Motions of a mechanism as its tool and its drives see them: one space a pose, with one sense."""
+"""Motions of a mechanism as its tool and drives see them: one space per pose, with one sense."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Freedoms:
     tool : int
         Independent motions of the tool.
     task : tuple of int
-        Directions of the tool that tell its motions apart, as many as `tool`.
+        Directions of the tool that distinguish its motions, as many as `tool`.
     """
 
     rank: int

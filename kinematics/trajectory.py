@@ -218,7 +218,7 @@ def roughness(
     -------
     tuple of Roughness
         One for each coordinate whose accelerations differ by more than `ROUGH`; empty for fewer
-        than twelve samples, which do not tell.
+        than twelve samples, which are too few.
     """
     t, x = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
     if len(t) < 2 * QUINTIC:

@@ -101,7 +101,7 @@ def velocity_ellipsoids(
     Raises
     ------
     ModelError
-        Weights that are not positive or not one a drive.
+        Weights that are not positive or not one per drive.
     """
     tool, drives = _parts(space, weights)
     return _ellipsoids(space.length, part, others, tool, drives)

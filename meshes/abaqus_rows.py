@@ -22,9 +22,9 @@ class CellRows:
     lines : DeckLines
     scope : Scope
     type_, kind : str
-        Abaqus' and ours.
+        Abaqus' and those of this package.
     count : callable
-        Told of each cell.
+        Named with each cell in a message.
     """
 
     def __init__(

@@ -72,7 +72,7 @@ class Surface:
 class Scope:
     """A part, or the assembly, or a deck without parts.
 
-    Names are kept by their capitals: Abaqus does not tell `eall` from `EALL`.
+    Names are kept by their capitals: Abaqus does not distinguish `eall` from `EALL`.
     """
 
     name: str = ""

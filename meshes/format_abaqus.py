@@ -131,7 +131,7 @@ def _sides(
 
 
 def _check_counts(path: Path, deck: Deck, points: int, cells: int) -> None:
-    """ModelError where a deck of ours lacks what its first line counts."""
+    """ModelError where a deck of this package lacks what its first line counts."""
     match = HEADER.match(deck.first_line)
     if match and (int(match[1]), int(match[2])) != (points, cells):
         raise ModelError(

@@ -104,7 +104,7 @@ def sixteen(value: float) -> str:
 
 
 def _check_counts(path: Path, bulk: BulkData, elements: int) -> None:
-    """ModelError where a file of ours lacks what its first line counts."""
+    """ModelError where a file of this package lacks what its first line counts."""
     for match in filter(None, map(COUNTS.match, bulk.comments)):
         if (int(match[1]), int(match[2])) != (len(bulk.points), elements):
             raise ModelError(

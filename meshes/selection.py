@@ -75,7 +75,7 @@ def patch(
 
 
 def patches(mesh: Mesh, boxes: Mapping[str, Box]) -> Mesh:
-    """The mesh with several further patches; the surface is found once.
+    """The mesh with several further patches; the surface is computed once.
 
     Parameters
     ----------

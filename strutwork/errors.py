@@ -15,7 +15,7 @@ class StrutworkError(Exception):
     part : str
         The joint, node, field or file that the message is about.
     problem : str
-        What is wrong with it, with the value found.
+        What is wrong with it, with the value that was given.
     remedy : str
         What the reader can do about it.
     """

@@ -28,7 +28,7 @@ _cleaned: set[Path] = set()
 def staging(folder: Path) -> Iterator[Path]:
     """A new empty folder in `folder`, locked and gone afterwards.
 
-    What killed runs left in `folder` is removed once a process.
+    What killed runs left in `folder` is removed once per process.
 
     Parameters
     ----------

@@ -166,7 +166,7 @@ def _hint(dimension: Dimension) -> str:
 
 
 def shown(value: object) -> str:
-    """Show a value found in a file, briefly, for a message.
+    """Show a value of a file, briefly, for a message.
 
     Parameters
     ----------
