@@ -84,7 +84,7 @@ class FormulaField:
 
     @staticmethod
     def speed(points: Array, way: Array) -> Array:
-        """Length in the parameters themselves.
+        """Length in the parameters themselves, (m,), in their units.
 
         Parameters
         ----------

@@ -180,8 +180,8 @@ def inverse_dynamics(
         At p poses.
     rates, changes : (p, t)
         First and second derivatives of the coordinates, m/s or rad/s, m/s² or rad/s².
-    wrench : (p, 6) or (6,)
-        That acts on the tool at its centre point, N and N·m, global axes.
+    wrench : (p, 6), (6,) or ()
+        That acts on the tool at its centre point, N and N·m, global axes; 0 for none.
     """
     first, second = at.full(rates), at.full(changes)
     twists = at.placed.twists(first)

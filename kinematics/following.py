@@ -144,8 +144,8 @@ def follow(
     dynamics : Dynamics
         Of the trajectory's coordinates.
     trajectory : Trajectory
-    wrench : (6,)
-        That acts on the tool at its centre point, N and N·m, global axes.
+    wrench : (6,) or ()
+        That acts on the tool at its centre point, N and N·m, global axes; 0 for none.
     reactions : bool
         Whether joint reactions are wanted.
     progress : callable, optional

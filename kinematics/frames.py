@@ -113,7 +113,7 @@ def turned(rotation: Array, points: Array) -> Array:
 
 
 def gathered(parts: Sequence[Array], item: int) -> Array:
-    """`parts`, whose last `item` axes are one item, side by side before those axes.
+    """`parts`, whose last `item` axes are one item, side by side before these, (..., k, *item).
 
     As numpy.stack, which copies items of three numbers one by one: this copies along the batch.
 

@@ -66,7 +66,7 @@ def grid_places(axes: tuple[Array, Array], index: Indices) -> Array:
 
 
 def runs(names: list[str | None]) -> list[Indices]:
-    """Neighbours of one name, those without left out.
+    """Indices of neighbours of one name, (k,) each, those without a name left out.
 
     Parameters
     ----------
@@ -78,9 +78,10 @@ def runs(names: list[str | None]) -> list[Indices]:
 
 
 def one_sense(count: int, edges: Indices, senses: Array) -> tuple[Array, int]:
-    """Sense of every pose's basis against the first of its region, ±1, and edges that disagree.
+    """Sense of every pose's basis against the first of its region, ±1, (p,).
 
-    It is handed on between poses whose spaces are nearest to each other.
+    It is handed on between poses whose spaces are nearest to each other. Also returned: the number
+    of edges whose ends then disagree.
 
     Parameters
     ----------

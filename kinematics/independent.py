@@ -20,7 +20,7 @@ DEPENDENT = 1e-7
 
 
 def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
-    """Indices of independent rows, ascending, and whether all that is given is among them.
+    """Indices of independent rows, (i,), ascending, and whether all that is given is among them.
 
     The held directions of joints come first; of those that depend on each other, as in a
     machine with redundant constraints, enough are taken to span them.

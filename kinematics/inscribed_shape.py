@@ -150,7 +150,7 @@ class InscribedShape:
         return self.fitted(points[rim])
 
     def fitted(self, points: Array) -> Array:
-        """Points moved along their rays to the border; none may be the origin.
+        """Points moved along their rays to the border, (..., d); none may be the origin.
 
         Parameters
         ----------

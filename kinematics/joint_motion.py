@@ -176,7 +176,7 @@ class JointMotion:
         return positions, frames, gaps
 
     def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:
-        """Node positions and joint frames as of `place`, in compiled code: for many poses.
+        """Node positions (p, n, 3) and joint frames (p, j, 3, 3) of `place`, for many poses.
 
         Parameters
         ----------

@@ -18,7 +18,7 @@ ARRIVED, END_OF_REACH, TOO_MANY = 0, 1, 2
 
 
 def workspace(system: Any) -> tuple[Array, Array, Array]:
-    """State of all joints that are passed, at home; the same once more; scratch.
+    """State of all joints that are passed, (s,), at home; the same once more; scratch, (1,).
 
     Parameters
     ----------

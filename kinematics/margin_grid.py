@@ -82,7 +82,7 @@ class MarginGrid:
 
     @property
     def good(self) -> Mask:
-        """Of the shape of the grid."""
+        """True where a point is good, of the shape of the grid."""
         return self.margins.good
 
     @cached_property

@@ -82,7 +82,7 @@ class QuickStep:
     def newton(
         self, bodies: BodyPoses, rows: Indices, goals: Goals
     ) -> tuple[BodyPoses, NDArray[np.bool_], Array]:
-        """Bodies that are moved, where a step holds, and what is left open, as `Walk` finds them.
+        """Bodies that are moved, where a step holds and what it leaves open, (p,), as in `Walk`.
 
         Parameters
         ----------

@@ -55,7 +55,7 @@ class Reversals:
 
     @cached_property
     def moving(self) -> NDArray[np.intp]:
-        """Indices of the drives that move; the others turn back nowhere."""
+        """Indices of the drives that move, (a,); the others turn back nowhere."""
         size = np.nanmax(np.abs(self.gradient * self.patch.span), axis=(0, 1, 3), initial=0.0)
         return np.flatnonzero(size > STILL)
 

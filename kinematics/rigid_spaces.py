@@ -46,7 +46,7 @@ def rigid_graph(rows: ConstraintRows, length: float) -> RigidGraph:
 
 
 def stress_states(blocks: Blocks, tolerance: float) -> list[tuple[Ints, Array]]:
-    """A basis of the states of self-stress: rows and their multipliers, few in each.
+    """A basis of the states of self-stress: rows (k,) and their multipliers (k,), few in each.
 
     Parameters
     ----------

@@ -189,7 +189,7 @@ def _directions(frames: Array, joint: NDArray[np.intp], direction: NDArray[np.in
 def row_selection(
     shape: tuple[int, ...], joint: NDArray[np.intp], direction: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-    """Joint directions as a mask, and where each of them stands among the rows of that mask.
+    """Joint directions as a mask (j, 6), and where each of them stands among its rows, (m,).
 
     Parameters
     ----------

@@ -230,7 +230,7 @@ class ShapeSearch:
     def stepped(
         self, normals: Array, points: Array, centre: Array, size: float, trust: float
     ) -> tuple[Array, float]:
-        """Centre near one, and the size there, that a flat border allows.
+        """Centre near one, (d,), and the size there, that a flat border allows.
 
         Parameters
         ----------
@@ -265,7 +265,7 @@ class ShapeSearch:
     def climbed(
         self, start: Array, final: float | None = None
     ) -> tuple[Array, float, Touch, float]:
-        """Centre and size to which steps from a start lead, where it touches, and the bound.
+        """Centre (d,) and size to which steps from a start lead, where it touches, and the bound.
 
         Parameters
         ----------

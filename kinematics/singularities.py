@@ -283,7 +283,7 @@ def singular_poses(family: PoseFamily, refined: Refined) -> list[Singularity]:
 
 
 def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array, tuple[str, ...]]:
-    """Of edges with one end in reach: parameters there, of the other, and why that is not.
+    """Of edges with one end in reach: parameters there and beyond, (e, k), and why that is not.
 
     Parameters
     ----------

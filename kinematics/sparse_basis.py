@@ -11,7 +11,7 @@ Array = NDArray[Any]
 
 
 def sparse_basis(vectors: Array) -> Array:
-    """Another basis of the columns' span with many zeros, so that parts can be distinguished.
+    """Another basis (n, k) of the columns' span with many zeros: parts can be distinguished.
 
     Gauss-Jordan elimination with complete pivoting; each vector's largest entry is one.
 

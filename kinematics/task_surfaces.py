@@ -75,7 +75,7 @@ class Plane:
         return self.parameters
 
     def task(self, points: Array) -> tuple[dict[str, Array], Array]:
-        """The two coordinates and their derivatives.
+        """The two coordinates, (m,) each, and their derivatives, (m, 2, 2).
 
         Parameters
         ----------
@@ -113,7 +113,7 @@ class Dome:
         return ("x", "y", "z") if self.orientation == "vertical" else ("x", "y", "z", "rx", "ry")
 
     def task(self, points: Array) -> tuple[dict[str, Array], Array]:
-        """Coordinates x, y, z and, for the normal orientation, rx and ry.
+        """Coordinates x, y, z, if normal rx and ry, (m,) each, and their derivatives (m, t, 2).
 
         Parameters
         ----------

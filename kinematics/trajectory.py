@@ -83,7 +83,7 @@ class Trajectory:
 
 
 def lobatto(count: int) -> tuple[Array, Array]:
-    """Nodes and weights of the Gauss-Lobatto rule on −1 to 1 (Abramowitz and Stegun 25.4.32).
+    """Nodes and weights (n,) of the Gauss-Lobatto rule on −1 to 1 (Abramowitz and Stegun 25.4.32).
 
     Parameters
     ----------

@@ -96,7 +96,7 @@ class DeckModel:
         return FileMesh(self.points, self.solids, sets, sections, helpers, faces, node_sets)
 
     def cells(self, scope: Scope, found: NamedSet, open_: tuple[str, ...]) -> Ints:
-        """Cells of an element set and of the sets that it names.
+        """Cells of an element set and of the sets that it names, (k,), ascending.
 
         Parameters
         ----------
@@ -116,7 +116,7 @@ class DeckModel:
         return np.unique(np.concatenate(parts))
 
     def nodes(self, scope: Scope, found: NamedSet, open_: tuple[str, ...]) -> Ints:
-        """Nodes of a node set and of the sets that it names.
+        """Nodes of a node set and of the sets that it names, (k,), ascending.
 
         Parameters
         ----------

@@ -151,7 +151,7 @@ class Index:
         self._fail = fail
 
     def connectivity(self) -> Iterator[tuple[Elements, Ints]]:
-        """The nodes of each block, by their place in the mesh: solids, then faces."""
+        """The nodes of each block, (m, size), by their place in the mesh: solids, then faces."""
         for block in (*self.solids, *self.faces):
             table = block.table
             at, known = self.nodes.find(table[:, 1:])
@@ -167,7 +167,7 @@ class Index:
             yield block, at + self.offset
 
     def cells(self, piece: Piece) -> Ints:
-        """Cells of the numbers and ranges of a block; solids come before faces.
+        """Cells of the numbers and ranges of a block, (k,), ascending; solids come before faces.
 
         Parameters
         ----------
@@ -181,7 +181,7 @@ class Index:
         return np.unique(cells[cells >= 0])
 
     def nodes_of(self, piece: Piece) -> Ints:
-        """Nodes of the numbers and ranges of a block.
+        """Nodes of the numbers and ranges of a block, (k,), ascending.
 
         Parameters
         ----------

@@ -77,7 +77,7 @@ class System:
 
 
 def placed(points: Array, rows: Sequence[Sequence[float]]) -> Array:
-    """Points of an instance: translated, then turned about the axis through two points.
+    """Points of an instance, (n, 3): translated, then turned about the axis through two points.
 
     Parameters
     ----------

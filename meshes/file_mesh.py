@@ -142,7 +142,7 @@ def remedy_for(kind: str) -> str:
 
 
 def by_tag(tags: Ints, names: Mapping[int, str], what: str, first: int = 0) -> dict[str, Ints]:
-    """Cells by the number that each carries: named, or `region 4`; those of number 0 in none.
+    """Cells (k,) by the number that each carries: named, or `region 4`; those of number 0 in none.
 
     Parameters
     ----------

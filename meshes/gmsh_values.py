@@ -89,7 +89,7 @@ class Values:
         )
 
     def records(self, type_: np.dtype[Any], count: int) -> Array:
-        """Binary records; none is made before the file is known to hold them.
+        """Binary records, (count,); none is made before the file is known to hold them.
 
         Parameters
         ----------
@@ -106,11 +106,11 @@ class Values:
         return found
 
     def whole(self, values: Array) -> Array:
-        """Numbers of a text as whole ones; ModelError where they are none.
+        """Numbers of a text as whole ones, in the same shape; ModelError where they are none.
 
         Parameters
         ----------
-        values : (n,)
+        values : any shape
             As the text has them, no unit.
         """
         # beyond 2**53 a float is no exact number; NaN fails the comparison too
@@ -124,7 +124,7 @@ class Values:
         return values.astype(np.int64)
 
     def left(self) -> Array:
-        """All numbers of a text section that are left."""
+        """All numbers of a text section that are left, (n,)."""
         if self._text is None:
             raise self.cut()
         found = self._text[self._at :]

@@ -62,7 +62,7 @@ def lines(length: float, divisions: int, ratio: float = 1.0, *, both: bool = Fal
 def lines_through(
     stops: Iterable[float], size: float, towards: Iterable[float] = (), ratio: float = 1.0
 ) -> Array:
-    """Mesh lines that fall on every stop, with no cell above `size`.
+    """Mesh lines (n,) that fall on every stop, with no cell above `size`.
 
     Parameters
     ----------

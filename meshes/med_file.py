@@ -51,7 +51,7 @@ class MedFile:
     names: dict[int, tuple[str, ...]] = field(default_factory=dict)
 
     def members(self, families: Ints) -> dict[str, Ints]:
-        """Places of each group among cells or nodes of these families.
+        """Places (k,) of each group among cells or nodes of these families.
 
         Parameters
         ----------

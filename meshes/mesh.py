@@ -199,7 +199,7 @@ class Mesh:
         return self._named(self.patches, "patch", name)
 
     def node_set(self, name: str) -> Ints:
-        """The nodes of the set of that name; ModelError lists those there are.
+        """The nodes (k,) of the set of that name; ModelError lists those there are.
 
         Parameters
         ----------
@@ -214,7 +214,7 @@ class Mesh:
         return np.concatenate([b.region for b in self.blocks])
 
     def region_cells(self, name: str) -> Ints:
-        """The cells of a cell set, or of a region where no set has the name, ascending.
+        """The cells of a cell set, or of a region where no set has the name, ascending, (k,).
 
         A file's group that lies partly in others is a region of the cells it has alone, and a
         cell set of all of them: here it is all.
@@ -230,7 +230,7 @@ class Mesh:
         return np.flatnonzero(self.cell_regions == self.regions.index(name))
 
     def region_nodes(self, name: str) -> Ints:
-        """The nodes of the cells of a region or of a cell set, ascending.
+        """The nodes of the cells of a region or of a cell set, ascending, (k,).
 
         Parameters
         ----------

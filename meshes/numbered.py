@@ -35,7 +35,7 @@ class Numbered:
         return np.stack([self._order[same], self._order[same + 1]], axis=1)
 
     def find(self, wanted: Ints) -> tuple[Ints, NDArray[np.bool_]]:
-        """Place of each wanted number, and whether there is one.
+        """Place of each wanted number, and whether there is one, of the same shape as `wanted`.
 
         Parameters
         ----------
@@ -49,7 +49,7 @@ class Numbered:
         return self._order[at], self._sorted[at] == wanted
 
     def between(self, first: int, last: int, step: int) -> Ints:
-        """Places whose number is one of first, first + step, …, up to last.
+        """Places (k,) whose number is one of first, first + step, …, up to last.
 
         Parameters
         ----------

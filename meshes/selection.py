@@ -27,7 +27,7 @@ TURN = np.pi / 12
 
 
 def in_box(mesh: Mesh, low: Corner = OPEN, high: Corner = OPEN) -> NDArray[np.int64]:
-    """Nodes in a box, walls included, ascending.
+    """Nodes in a box, walls included, ascending, (k,).
 
     Parameters
     ----------

@@ -1,5 +1,7 @@
 """What the docstring of a public function says of its arguments: names, shapes and units.
 
+Of what it returns, the shape: in the first lines or under Returns.
+
 `python -m tests.docstring_rule kinematics meshes/mesh.py` prints what is missing.
 """
 
@@ -36,7 +38,7 @@ FLOATS = re.compile(
 
 #: (3,), (..., 6, 6), (n,), (p, 2 k), (...).
 _SIDE = r"(?:\.\.\.|…|\*?[\w ·*+−/-]+|[\w ]*\(\w+ [+−-] \w+\))"
-SHAPE = re.compile(rf"\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|shapes? (?:as )?of `")
+SHAPE = re.compile(rf"\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|same shape|shape of the")
 
 _SYMBOL = (
     r"(?:mm|µm|nm|km|m|kN|mN|µN|N|mrad|µrad|rad|deg|°|kHz|Hz|kg|ms|s|kPa|MPa|GPa|Pa|J|kJ|W|K|°C|%|1)"
@@ -58,6 +60,9 @@ PENDING: tuple[str, ...] = (
     "machines/",
     "studies/",
 )
+
+#: Packages whose docstrings give the shapes of results as well.
+RESULTS = ("strutwork", "kinematics", "meshes")
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -128,6 +133,18 @@ def described(docstring: str, *sections: str) -> dict[str, str]:
     }
 
 
+def result_lacks_shape(function: Function, docstring: str) -> bool:
+    """Whether a function returns arrays and does not say of which shape."""
+    returned = ast.unparse(function.returns) if function.returns else ""
+    if not ARRAY.search(returned):
+        return False
+    parsed = NumpyDocString(cleandoc(docstring))
+    said = [*parsed["Summary"], *parsed["Extended Summary"]]
+    for section in ("Returns", "Yields"):
+        said += [part for e in parsed[section] for part in (e.name, e.type, *e.desc)]
+    return not SHAPE.search("\n".join(said))
+
+
 def judge(
     wanted: list[tuple[str, str]], entries: dict[str, str], *, inherits: bool = False
 ) -> Iterator[str]:
@@ -152,26 +169,30 @@ def judge(
         yield f"described in another order than {', '.join(names)}."
 
 
-def complaints(source: str, public: set[str]) -> Iterator[str]:
+def complaints(source: str, public: set[str], *, results: bool = False) -> Iterator[str]:
     """What a module's docstrings leave out; `public` are the names of exported classes."""
     for node in ast.parse(source).body:
         if isinstance(node, Function):
-            yield from _of_function(node, "")
+            yield from _of_function(node, "", results=results)
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
             if node.name in public:
                 yield from _of_class(node)
             for inner in node.body:
                 if isinstance(inner, Function):
-                    yield from _of_function(inner, f"{node.name}.")
+                    yield from _of_function(inner, f"{node.name}.", results=results)
 
 
-def _of_function(node: Function, prefix: str) -> Iterator[str]:
-    wanted = arguments(node)
-    if node.name.startswith("_") or not wanted or decorated(node, "overload", "setter"):
+def _of_function(node: Function, prefix: str, *, results: bool) -> Iterator[str]:
+    if node.name.startswith("_") or decorated(node, "overload", "setter"):
         return
-    entries = described(ast.get_docstring(node) or "", "Parameters", "Other Parameters")
-    for complaint in judge(wanted, entries):
-        yield f"{node.lineno}: {prefix}{node.name}: {complaint}"
+    docstring, wanted = ast.get_docstring(node) or "", arguments(node)
+    place = f"{node.lineno}: {prefix}{node.name}"
+    if results and result_lacks_shape(node, docstring):
+        yield f"{place}: what it returns has no shape."
+    if wanted:
+        entries = described(docstring, "Parameters", "Other Parameters")
+        for complaint in judge(wanted, entries):
+            yield f"{place}: {complaint}"
 
 
 def _of_class(node: ast.ClassDef) -> Iterator[str]:
@@ -195,8 +216,8 @@ def _of_class(node: ast.ClassDef) -> Iterator[str]:
 def of_file(path: Path) -> list[str]:
     """Complaints about a file of one of the packages."""
     package = path.relative_to(ROOT).parts[0]
-    public = exported(package)
-    return [f"{path.relative_to(ROOT)}:{c}" for c in complaints(path.read_text("utf-8"), public)]
+    listed = complaints(path.read_text("utf-8"), exported(package), results=package in RESULTS)
+    return [f"{path.relative_to(ROOT)}:{complaint}" for complaint in listed]
 
 
 def main() -> int:

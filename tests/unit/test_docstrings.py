@@ -102,6 +102,23 @@ def test_an_exported_dataclass_describes_its_fields() -> None:
     assert "ends is not described" in complaint
 
 
+@pytest.mark.parametrize(
+    ("docstring", "missing"),
+    [
+        ("Places.", True),
+        ("Places, (n, 3), m.", False),
+        ("Places, of the same shape as those before.", False),
+        ("Places.\n\n    Returns\n    -------\n    places : (n, 3)\n        m.\n    ", False),
+        ("Places.\n\n    Returns\n    -------\n    Array\n        m.\n    ", True),
+    ],
+)
+def test_arrays_that_are_returned_have_a_shape(docstring: str, missing: bool) -> None:
+    source = f'def places() -> Array:\n    """{docstring}"""\n'
+    listed = list(complaints(source, set(), results=True))
+    assert listed == ["1: places: what it returns has no shape."] * missing
+    assert not list(complaints(source, set()))
+
+
 def test_private_names_and_overloads_are_left_alone() -> None:
     source = "def _f(x: int): ...\nclass _K:\n    def f(self, x): ...\n"
     assert not list(complaints(source + "@overload\ndef g(x: int): ...\n", set()))
