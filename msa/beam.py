@@ -30,7 +30,7 @@ class Beam:
     material : Material
     section : Section
     orientation : (3,) or str or None
-        A vector in global axes (no unit), or the name of a joint whose z axis is taken at every
+        A vector in global axes, no unit, or the name of a joint whose z axis is taken at every
         pose. None: global z, or global y for a beam along z.
     shear : bool
         Timoshenko (True) or Euler-Bernoulli (False).

@@ -182,7 +182,7 @@ class Clusters:
         Parameters
         ----------
         parts : iterable of (name, nodes (k,), matrix (1, 6k, 6k))
-            As `contributions` gives them.
+            As `contributions` gives them: N/m, N, N·m/rad, or kg, kg·m, kg·m².
         """
         arms, vertex = self.placed.arms[0], self.placed.structure.vertex_of_node
         found = sum_of_parts((n, part[0], arms[n], vertex[n]) for _, n, part in parts)

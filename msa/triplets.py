@@ -28,7 +28,7 @@ class Triplets:
         rows : (k,)
         columns : (l,)
         block : (k, l)
-            In the unit of the matrix.
+            Any unit.
         """
         row = np.repeat(rows, len(columns))
         self._parts.append((row, np.tile(columns, len(rows)), block.ravel()))
@@ -40,7 +40,7 @@ class Triplets:
         ----------
         rows, columns : (e,)
         values : (e,)
-            In the unit of the matrix.
+            Any unit.
         """
         self._parts.append((rows, columns, values))
 
