@@ -86,7 +86,17 @@ class MatrixDamping:
         return self.ports is None and self.viscous is None and self.structural is None
 
     def apply(self, stiffness: Array, mass: Array, at: Array) -> tuple[Array, Array]:
-        """C x and D x, from K x, M x and x, each (n, k)."""
+        """C x and D x, (n, k) each.
+
+        Parameters
+        ----------
+        stiffness : (n, k)
+            K x, N.
+        mass : (n, k)
+            M x, kg·m.
+        at : (n, k)
+            x, m and rad.
+        """
         c = self.mass_rate * mass + self.stiffness_time * stiffness
         d = self.loss_factor * stiffness
         if self.ports is not None:

@@ -63,6 +63,11 @@ class SmallModel:
     def coordinates(self, frequencies: ArrayLike) -> Array:
         """Generalised coordinates per load at every port, (f, k, m), complex.
 
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
+
         Raises
         ------
         ModelError
@@ -164,7 +169,15 @@ class KrylovModel:
         )
 
     def receptance(self, frequencies: ArrayLike) -> Array:
-        """As `SmallModel.receptance`."""
+        """Displacement at every port per load at every port, (f, m, m), complex, m/N.
+
+        Errors as `SmallModel.receptance`.
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
+        """
         return self.small.receptance(frequencies)
 
     @property

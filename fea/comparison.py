@@ -19,10 +19,11 @@ class ModePair:
     computed_frequency, measured_frequency : float
         Hz.
     difference_percent : float
-        (computed − measured) / measured.
+        (computed − measured) / measured, %.
     computed_damping, measured_damping : float or None
+        Viscous ratio ζ, no unit; None where it is not known.
     mac : float
-        Of the two shapes; of the two spans where the mode is one of a group.
+        Of the two shapes, from 0 to 1, no unit; of the two spans where the mode is one of a group.
     group : int
         Number of modes of equal frequency that are compared as a span; one for a single mode.
     """

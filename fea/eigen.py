@@ -61,6 +61,11 @@ class Eigen:
 def solve_eigen(reduced: Reduced) -> Eigen:
     """All modes of every pose.
 
+    Parameters
+    ----------
+    reduced : Reduced
+        At p poses.
+
     Raises
     ------
     ModelError
@@ -122,10 +127,11 @@ def rigid_modes(system: System, rigid: Array, gram: Array, largest: Array) -> Ar
     ----------
     system : System
     rigid : (p, c, k)
+        Motions that cost no energy, in coordinates, m and rad.
     gram : (p, k, k)
-        Their mass.
+        Their mass, kg.
     largest : (p,)
-        Largest mass of a coordinate, beside which nothing is told from rounding.
+        Largest mass of a coordinate, kg, beside which the rest is rounding.
 
     Raises
     ------

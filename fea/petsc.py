@@ -78,6 +78,16 @@ def slepc_modes(
 ) -> tuple[Array, Array, str]:
     """Lowest ω², mass-normalised vectors and what ran.
 
+    Parameters
+    ----------
+    stiffness, mass : (n, n) sparse
+        N/m and kg, symmetric.
+    count : int
+        Rigid-body modes included.
+    shift : float
+        rad²/s²; the modes nearest to ω² = −shift are taken.
+    ranks : Ranks
+
     Raises
     ------
     ModelError
@@ -101,7 +111,15 @@ def slepc_modes(
 
 
 def petsc_solve(stiffness: sp.csc_array, loads: Array, ranks: Ranks) -> tuple[Array, str]:
-    """Displacements (n, m) under loads (n, m), and what ran.
+    """Displacements (n, m), m, and what ran.
+
+    Parameters
+    ----------
+    stiffness : (n, n) sparse
+        N/m, symmetric.
+    loads : (n,) or (n, m)
+        N.
+    ranks : Ranks
 
     Raises
     ------

@@ -66,6 +66,14 @@ class Poles:
 def find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
     """All poles of (K + iD + sC + s²M) u = f but those of the rigid-body modes at zero.
 
+    Parameters
+    ----------
+    reduced : Reduced
+        At one pose.
+    eigen : Eigen
+        Its modes.
+    damping : damping of any kind
+
     Raises
     ------
     ModelError

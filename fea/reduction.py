@@ -64,6 +64,11 @@ class Reduced:
     def at_node(self, node: str) -> Array:
         """Displacement of a mesh node per unit coordinate, (p, 6, c).
 
+        Parameters
+        ----------
+        node : str
+            A mesh node.
+
         Raises
         ------
         ModelError
@@ -80,7 +85,13 @@ class Reduced:
         return np.asarray(carried @ self.basis[:, 6 * vertex : 6 * vertex + 6])
 
     def project(self, matrix: Array) -> Array:
-        """A matrix on the unknowns (p, n, n) brought to the coordinates, (p, c, c)."""
+        """A matrix on the unknowns brought to the coordinates, (p, c, c).
+
+        Parameters
+        ----------
+        matrix : (p, n, n)
+            Symmetric: N/m, N·s/m or kg, and the like of rotations.
+        """
         return symmetric_product(self.basis, matrix)
 
 

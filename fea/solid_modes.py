@@ -57,7 +57,13 @@ class SolidModes:
         )
 
     def shape(self, mode: int) -> Array:
-        """Displacement of each node in a mode, (n, 3)."""
+        """Displacement of each node in a mode, (n, 3), 1/√kg.
+
+        Parameters
+        ----------
+        mode : int
+            Counted from zero.
+        """
         return np.asarray(self.shapes[:, mode].reshape(-1, 3))
 
     def to_dict(self) -> dict[str, Any]:

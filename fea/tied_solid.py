@@ -75,7 +75,7 @@ def tied_solid(
     points : (n, 3)
         m.
     stiffness, mass : (3 n, 3 n) sparse
-        Degree of freedom 3 node + component.
+        N/m and kg, of degree of freedom 3 node + component.
     patches : sequence of TiedPatch
     fixed : (f,), optional
         Degrees of freedom held at zero.
@@ -192,8 +192,9 @@ class StaticSolver:
         Parameters
         ----------
         forces : (c, m)
+            f, N.
         motions : (6 k, m), optional
-            q; default zero.
+            q, m and rad; default zero.
         """
         solid = self.solid
         k, r = solid.ports.shape[1], solid.rigid.shape[1]
