@@ -94,7 +94,7 @@ class Accuracy:
         Parameters
         ----------
         tolerance : float
-            Between what is reached and the bound that proves it.
+            Between what is reached and the bound that proves it, as a share of it.
 
         Returns
         -------
