@@ -164,6 +164,10 @@ class Model:
     def case(self, name: str) -> LoadCase:
         """A load case by its name.
 
+        Parameters
+        ----------
+        name : str
+
         Raises
         ------
         ModelError

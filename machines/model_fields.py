@@ -42,7 +42,13 @@ class Quantity:
         return core_schema.no_info_plain_validator_function(self.read)
 
     def read(self, value: object) -> float:
-        """Value in SI units."""
+        """Value in SI units.
+
+        Parameters
+        ----------
+        value : float or str
+            A number in SI, or text with its unit.
+        """
         try:
             number = units.quantity(value, self.dimension, "")
         except UnitError as error:

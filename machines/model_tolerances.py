@@ -153,6 +153,11 @@ def _add_limits(
 
 
 def carries(joint: Joint) -> tuple[str, ...]:
-    """Kinds of quantity that a joint can carry."""
+    """Kinds of quantity that a joint can carry.
+
+    Parameters
+    ----------
+    joint : Joint
+    """
     held = {d for d, s in zip(DIRECTIONS, joint.states, strict=True) if s != State.FREE}
     return tuple(kind for kind, directions, _ in KINDS if held.intersection(directions))
