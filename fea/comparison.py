@@ -1,4 +1,4 @@
-"""What a comparison of computed and measured vibration found."""
+"""What a comparison of computed and measured vibration gives."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class FunctionPair:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What a comparison found.
+    """What a comparison gives.
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class Comparison:
         }
 
     def to_dataframe(self) -> Any:
-        """Paired modes as a `pandas.DataFrame`, a row a pair."""
+        """Paired modes as a `pandas.DataFrame`, one row per pair."""
         import pandas as pd  # noqa: PLC0415 - only here
 
         return pd.DataFrame([vars(pair) for pair in self.modes])

@@ -46,7 +46,7 @@ class Interface:
 
 @dataclass(frozen=True)
 class TiedPatch:
-    """An interface found on a mesh.
+    """An interface on a mesh.
 
     Parameters
     ----------

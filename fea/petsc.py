@@ -146,7 +146,7 @@ def _require_small(miss: Array, beside: Array, part: str) -> None:
 
 
 def petsc_environment() -> dict[str, str]:
-    """Variables under which another Python finds PETSc and works on one thread a rank."""
+    """Variables under which another Python finds PETSc and works on one thread per rank."""
     # ranks fill the cores; this Python's packages are none of the worker's
     kept = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
     # Debian's modules find themselves through a link that only its development packages make

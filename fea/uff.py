@@ -213,7 +213,7 @@ class UniversalFile:
 
 
 def response_records(response: FrequencyResponse) -> tuple[FrfRecord, ...]:
-    """Receptances of a computed response of one pose, one record a pair of ports.
+    """Receptances of a computed response of one pose, one record per pair of ports.
 
     Parameters
     ----------

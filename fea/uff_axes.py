@@ -32,7 +32,7 @@ class Axes:
     kind : int
         0 Cartesian, 1 cylindrical (radius, angle, z), 2 spherical.
     rows : (3, 3)
-        Its axes in global directions, a row an axis.
+        Its axes in global directions, one row per axis.
     origin : (3,)
         m.
     """
@@ -42,7 +42,7 @@ class Axes:
     origin: Array
 
     def at(self, place: Array | None, part: str) -> Array:
-        """Directions of this system at a place, (3, 3), a row a direction.
+        """Directions of this system at a place, (3, 3), one row per direction.
 
         Parameters
         ----------

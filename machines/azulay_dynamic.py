@@ -123,7 +123,7 @@ class VibratingLegs:
         Height e of the tool, the platform's centre point, above the plane of the spherical
         joints, m.
     elements : int
-        Beam elements a link. Eight bring every frequency of the four machines that decides a
+        Beam elements per link. Eight bring every frequency of the four machines that decides a
         minimum within 0.1 % of its limit; with four the Alizade's along z is 0.11 % high.
 
     Raises

@@ -93,7 +93,7 @@ class MitSS1:
         Of the struts. Our choice: the thesis gives neither. The section's y lies in the plane,
         its z along the pins.
     elements : int
-        Beam elements a strut.
+        Beam elements per strut.
     housing_mass : float
         kg, without a spindle, in the middle of the three joints. Calibrated: 118.3 kg of struts
         and housing, of which a spindle of 7.1 kg is about 6 % (section 9.1), parted so that the

@@ -151,7 +151,7 @@ def bearing_joints(stiffness: Callable[[str, str], Mapping[str, float]]) -> Iter
 
 
 def pin_joints() -> Iterable[Joint]:
-    """One ideal revolute joint a pin."""
+    """One ideal revolute joint per pin."""
     for i in STRUTS:
         yield Joint(pin(i, "block"), "revolute", (block(i, "near"), strut(i, "block", "near")))
         yield Joint(pin(i, "housing"), "revolute", (strut(i, "housing", "near"), seat(i, "near")))

@@ -79,7 +79,7 @@ class Prototype3PPPRS(ThreeLegs):
     platform : Platform
         A steel disc. Our choice.
     elements : int
-        Beam elements a link.
+        Beam elements per link.
     shear : bool
         Timoshenko beams. Our choice.
     ball_range : float

@@ -107,7 +107,7 @@ class ScaledZones:
         return found, (found.bound / self.limit).ravel()
 
     def cuts(self, direction: Array) -> Cuts:
-        """Cuts in given directions, a row a direction.
+        """Cuts in given directions, one row per direction.
 
         Parameters
         ----------

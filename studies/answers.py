@@ -1,4 +1,4 @@
-"""What a survey asks at every pose: one short class an answer."""
+"""What a survey asks at every pose: one short class per answer."""
 
 from __future__ import annotations
 
@@ -182,6 +182,10 @@ class Assembly:
     def of(cls, model: Model) -> Assembly:
         """What a model's joints carry, and its tool.
 
+        Parameters
+        ----------
+        model : Model
+
         Raises
         ------
         ModelError
@@ -196,7 +200,7 @@ class Assembly:
 
     @property
     def columns(self) -> tuple[Column, ...]:
-        """One number a quantity."""
+        """One number per quantity."""
         return (
             Column(
                 "worst_case",

@@ -87,7 +87,7 @@ def reversal_study(
     feed : str, optional
         One of the surface's parameters.
     progress : callable, optional
-        Told how many steps of how many are done.
+        Called with how many steps are done, and of how many.
 
     Returns
     -------

@@ -79,13 +79,23 @@ class TrajectoryStudy:
 
 
 def model_gravity(model: Model) -> tuple[float, float, float]:
-    """The gravity that the model's load cases state, else the standard one along −z, m/s²."""
+    """The gravity that the model's load cases state, else the standard one along −z, m/s².
+
+    Parameters
+    ----------
+    model : Model
+    """
     stated = [case.gravity for case in model.cases if case.gravity is not None]
     return stated[0] if stated else STANDARD_GRAVITY
 
 
 def trajectory_of(model: Model, samples: Samples) -> tuple[Trajectory, dict[Name, float]]:
     """A trajectory of all freedoms of a machine, and what was not given and stays.
+
+    Parameters
+    ----------
+    model : Model
+    samples : Samples
 
     Raises
     ------

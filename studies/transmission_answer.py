@@ -46,6 +46,11 @@ class Transmission:
     def of(cls, model: Model) -> Transmission:
         """With the machine's characteristic length at home.
 
+        Parameters
+        ----------
+        model : Model
+            With drives and a tool.
+
         Raises
         ------
         ModelError

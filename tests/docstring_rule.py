@@ -55,7 +55,6 @@ PENDING: tuple[str, ...] = (
     "strutwork/",
     "kinematics/",
     "meshes/",
-    "studies/",
 )
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
