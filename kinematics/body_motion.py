@@ -109,6 +109,11 @@ class BodyMotion:
     def at(self, moved: Moved) -> PlacedMotion:
         """The motion at reached poses; batch axes are made one.
 
+        Parameters
+        ----------
+        moved : Moved
+            Poses that the motion has reached, any batch axes.
+
         Raises
         ------
         UnreachableError

@@ -70,6 +70,7 @@ def path_reversals(field: DriveField, points: ArrayLike, samples: int = SAMPLES)
     ----------
     field : DriveField
     points : (s + 1, 2)
+        Corners of the path, m or rad as the field's parameters are.
     samples : int
         Of every piece: two reversals of one drive between two of them are not seen.
 
@@ -119,7 +120,7 @@ def longest_clear_path(
     field : DriveField
     patch : Patch
     ways : (w, 2)
-        Directions of the parameters that are tried.
+        Directions of the parameters that are tried, of any length, m or rad as these are.
     moving : (a,) of int
         Drives that move on the patch; the others turn back nowhere.
     lines : int

@@ -149,7 +149,7 @@ def follow(
     reactions : bool
         Whether joint reactions are wanted.
     progress : callable, optional
-        Told how many poses of how many are done.
+        Called with the number of poses done and that of all.
 
     Raises
     ------
@@ -219,7 +219,7 @@ def fastest(followed: Followed, limits: ArrayLike) -> float:
     Raises
     ------
     ModelError
-        A limit that is not positive, or one a drive too few.
+        A limit that is not positive, or fewer than one per drive.
     """
     allowed = np.asarray(limits, dtype=float)
     if allowed.shape != followed.speeds.shape[1:] or not np.all(allowed > 0):

@@ -83,6 +83,15 @@ def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
 
     What only depends on others that are given stays: it must agree with them.
 
+    Parameters
+    ----------
+    matrix : (r, n)
+        Rows at home in one unit, as in `independent_rows`.
+    held : int
+        How many of its first rows are held directions of joints.
+    asked : Given
+        What the other rows are.
+
     Raises
     ------
     ModelError

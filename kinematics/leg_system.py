@@ -79,6 +79,11 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
 
     It fits where the linkage falls into legs (`leg_chains.leg_paths`) of six freedoms each, all
     regular at home: there the tool's pose fixes each leg by itself.
+
+    Parameters
+    ----------
+    joints : JointMotion
+        Of the linkage at home.
     """
     linkage = joints.linkage
     if linkage.tool is None or linkage.tool_body < 0:

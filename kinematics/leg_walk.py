@@ -55,7 +55,13 @@ class LegWalk:
         self.reasons: list[str] = []
 
     def go(self, poses: NDArray[np.intp]) -> None:
-        """Walk some poses until each has arrived or its way has ended."""
+        """Walk some poses until each has arrived or its way has ended.
+
+        Parameters
+        ----------
+        poses : (k,) of int
+            Indices of the targets.
+        """
         from strutwork.kinematics.leg_newton import (  # noqa: PLC0415 - numba is slow to import
             home_signs,
             walk_legs,

@@ -59,6 +59,7 @@ def reach_ends(
     ----------
     family : PoseFamily
     inside, outside : (e, k)
+        Parameters of poses that are reached and of others, in the family's units.
     reasons : sequence of str
         Why those outside are not reached.
     """

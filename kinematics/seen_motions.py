@@ -77,6 +77,13 @@ class SeenMotions:
     def at(cls, linkage: Linkage, placement: Placement) -> SeenMotions:
         """Set up at one pose, at which the machine is not singular.
 
+        Parameters
+        ----------
+        linkage : Linkage
+            With a tool that moves and drives.
+        placement : Placement
+            One pose, without batch axes.
+
         Raises
         ------
         ModelError

@@ -60,7 +60,19 @@ class NamedSet:
 
 @dataclass
 class Surface:
-    """A surface: its name, its type, and rows of owner, side and place in the file."""
+    """A surface: its name, its type, and rows of owner, side and place in the file.
+
+    Parameters
+    ----------
+    name : str
+        As first written.
+    type_ : str
+        `ELEMENT` or `NODE`, in capitals.
+    scope : Scope
+        Where it stands.
+    rows : list of (str, str, str)
+        Element or element set, side, place in the file.
+    """
 
     name: str
     type_: str
@@ -72,7 +84,7 @@ class Surface:
 class Scope:
     """A part, or the assembly, or a deck without parts.
 
-    Names are kept by their capitals: Abaqus does not tell `eall` from `EALL`.
+    Names are kept by their capitals: Abaqus does not distinguish `eall` from `EALL`.
     """
 
     name: str = ""
@@ -92,7 +104,19 @@ class Scope:
         return not self.elements
 
     def piece(self, sets: dict[str, NamedSet], name: str, piece: Piece, *, internal: bool) -> None:
-        """Add a block to the set of that name."""
+        """Add a block to the set of that name.
+
+        Parameters
+        ----------
+        sets : dict of str to NamedSet
+            `node_sets` or `element_sets` of this scope.
+        name : str
+            As written; capitals do not count.
+        piece : Piece
+            The block.
+        internal : bool
+            Whether the deck marks the set as one that its program made.
+        """
         found = sets.setdefault(name.upper(), NamedSet(name))
         found.internal |= internal
         found.pieces.append(piece)
@@ -143,7 +167,13 @@ class Index:
             yield block, at + self.offset
 
     def cells(self, piece: Piece) -> Ints:
-        """Cells of the numbers and ranges of a block; solids come before faces."""
+        """Cells of the numbers and ranges of a block; solids come before faces.
+
+        Parameters
+        ----------
+        piece : Piece
+            Of an element set.
+        """
         at, known = self.elements.find(np.frombuffer(piece.numbers, dtype=np.int64))
         self._check(piece, known, "element")
         found = [at, *(self._range(piece, r, self.elements, "element") for r in piece.ranges)]
@@ -151,7 +181,13 @@ class Index:
         return np.unique(cells[cells >= 0])
 
     def nodes_of(self, piece: Piece) -> Ints:
-        """Nodes of the numbers and ranges of a block."""
+        """Nodes of the numbers and ranges of a block.
+
+        Parameters
+        ----------
+        piece : Piece
+            Of a node set.
+        """
         at, known = self.nodes.find(np.frombuffer(piece.numbers, dtype=np.int64))
         self._check(piece, known, "node")
         found = [at, *(self._range(piece, r, self.nodes, "node") for r in piece.ranges)]

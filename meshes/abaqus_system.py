@@ -27,6 +27,11 @@ class System:
 
         Without rows it is the global one; without the third point z stays global.
 
+        Parameters
+        ----------
+        rows : sequence of sequence of float
+            Coordinates in the unit of the file, as *SYSTEM gives them on its lines.
+
         Raises
         ------
         ValueError
@@ -54,7 +59,16 @@ class System:
         return not self.origin.any() and bool((self.axes == np.eye(3)).all())
 
     def to_global(self, values: array[float], cylindrical: bool) -> array[float]:
-        """Coordinates (3 n) in the system, or radius, angle in degrees and height, as global."""
+        """Coordinates of a system as global ones, (3 n).
+
+        Parameters
+        ----------
+        values : (3 n,) array of float
+            x, y and z of each node, or radius, angle and height, in the unit of the file and
+            degrees.
+        cylindrical : bool
+            Whether they are the latter.
+        """
         places = np.array(values, dtype=float).reshape(-1, 3)
         if cylindrical:
             radius, angle = places[:, 0], np.radians(places[:, 1])
@@ -68,8 +82,10 @@ def placed(points: Array, rows: Sequence[Sequence[float]]) -> Array:
     Parameters
     ----------
     points : (n, 3)
+        In any unit, that of the file.
     rows : sequence of sequence of float
-        The translation, then both points and the angle in degrees; either may be missing.
+        The translation, then both points, same unit, and the angle in degrees; either may be
+        missing.
 
     Raises
     ------

@@ -78,6 +78,11 @@ class GmshFile:
 def read_file(path: Path) -> GmshFile:
     """Read a file.
 
+    Parameters
+    ----------
+    path : Path
+        .msh, of ordinary size.
+
     Raises
     ------
     ModelError

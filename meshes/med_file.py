@@ -51,7 +51,13 @@ class MedFile:
     names: dict[int, tuple[str, ...]] = field(default_factory=dict)
 
     def members(self, families: Ints) -> dict[str, Ints]:
-        """Places of each group among cells or nodes of these families."""
+        """Places of each group among cells or nodes of these families.
+
+        Parameters
+        ----------
+        families : (m,) of int
+            Family of each cell or node.
+        """
         found: dict[str, list[Ints]] = {}
         for family in np.unique(families).tolist():
             own = np.flatnonzero(families == family)
@@ -62,6 +68,11 @@ class MedFile:
 
 def read_file(path: Path) -> MedFile:
     """Read a file.
+
+    Parameters
+    ----------
+    path : Path
+        .med, of ordinary size.
 
     Raises
     ------

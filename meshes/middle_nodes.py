@@ -23,6 +23,7 @@ def filled(points: Array, blocks: Sequence[tuple[str, Ints]]) -> tuple[Array, li
     Parameters
     ----------
     points : (n, 3)
+        In any unit, that of the file.
     blocks : sequence of (kind, (m, k) int)
     """
     made = [np.array(nodes) for _, nodes in blocks]

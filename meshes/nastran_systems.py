@@ -42,7 +42,13 @@ class Systems:
     _made: dict[int, tuple[Array, Array]] = field(default_factory=dict)
 
     def add(self, card: Card) -> None:
-        """Take a card; ValueError where its numbers are none."""
+        """Take a card; ValueError where its numbers are none.
+
+        Parameters
+        ----------
+        card : Card
+            One of CORD1R to CORD2S.
+        """
         shape = card.name[-1]
         fields = [*card.fields, *[""] * 16]
         if card.name[4] == "2":
@@ -67,7 +73,17 @@ class Systems:
             )
 
     def to_global(self, numbers: Numbered, systems: Ints, places: Array) -> Array:
-        """Global places (n, 3) of grid points given in their systems (n,)."""
+        """Global places of grid points, (n, 3).
+
+        Parameters
+        ----------
+        numbers : Numbered
+            Of the grid points.
+        systems : (n,) of int
+            In which each is given; 0 for the global one.
+        places : (n, 3)
+            As given there: in the unit of the file, angles in degrees.
+        """
         found = np.array(places, dtype=float)
         done = systems == 0
         for system in np.unique(systems).tolist():

@@ -60,7 +60,15 @@ class VtuFile:
         return self.root.get("compressor", "")
 
     def error(self, problem: str, remedy: str = DAMAGED) -> ModelError:
-        """An error about the file."""
+        """An error about the file.
+
+        Parameters
+        ----------
+        problem : str
+            What is wrong.
+        remedy : str
+            What to do about it.
+        """
         return ModelError(str(self.path), problem, remedy)
 
     def values(self, element: ET.Element, count: int | None = None) -> Array:
@@ -184,6 +192,11 @@ def _unpacked(data: bytes, size: int, compressor: str) -> bytes:
 
 def open_vtu(path: Path) -> VtuFile:
     """Read the XML of a file.
+
+    Parameters
+    ----------
+    path : Path
+        .vtu, of ordinary size.
 
     Raises
     ------

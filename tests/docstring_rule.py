@@ -46,15 +46,12 @@ _PRODUCT = rf"(?:{_SYMBOL}|√{_SYMBOL})(?:·{_SYMBOL})*"
 UNIT = re.compile(
     rf"(?<![\w`·/.])(?!1(?![/]))(?:{_PRODUCT})(?:/(?:{_PRODUCT}|\({_PRODUCT}\)))*(?![\w`·/²³])"
     r"|(?i:dimensionless|relative|shares?\b|fractions?\b|ratios?\b|orthonormal|rotation matri"
-    r"|\bunits\b|unit vectors?|\b(?:no|any|same|its|their|own|one|whose) unit\b"
+    r"|\bunits\b|unit vectors?|\b(?:no|any|same|its|their|own|one|whose) unit\b|\bunit of the\b"
     r"|\bbool|\bint\b|\bof str\b|\bindices\b|\bbytes\b)"
 )
 
 #: Packages, or modules by the beginning of their path, whose docstrings are still to be written.
 PENDING: tuple[str, ...] = (
-    "strutwork/",
-    "kinematics/",
-    "meshes/",
 )
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
