@@ -24,15 +24,16 @@ class MatrixDamping:
     Parameters
     ----------
     loss_factor : float
-        Structural damping of everything.
+        Structural damping of everything, no unit.
     mass_rate, stiffness_time : float
         Rayleigh's factors, 1/s and s.
     ports : (n, r) or None
-        Directions P in which single dampers act, as displacements per unit of their stretch.
+        Directions P in which single dampers act, as displacements per unit of their stretch, no
+        unit.
     dashpots, losses : (r,) or None
         Their viscous factors, N·s/m, and structural stiffnesses, N/m.
     viscous, structural : (n, n) sparse or None
-        Any others, symmetric.
+        Any others, symmetric, N·s/m and N/m.
 
     Raises
     ------

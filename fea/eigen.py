@@ -39,7 +39,7 @@ class Eigen:
     square : (p, m)
         μ = 1/ω², s²; zero for motions without mass.
     rigid : (p, c, k)
-        Rigid-body modes, normalised to φᵀ M φ = 1; zero columns where a pose has fewer.
+        Rigid-body modes, normalised to φᵀ M φ = 1, 1/√kg; zero columns where a pose has fewer.
     """
 
     flexibility: Array

@@ -33,7 +33,7 @@ class Factor:
     memory : float or None
         Bytes foreseen.
     flops : float or None
-        Multiplications and additions foreseen.
+        Multiplications and additions foreseen, their number: no unit.
     """
 
     solve: Callable[[Array], Array]

@@ -49,7 +49,7 @@ class LargeModes:
     residuals : (m,)
         ‖(K + shift M)⁻¹ M φ (ω² + shift) − φ‖ over ‖φ‖, in the energy of K + shift M; no unit.
     shift : float
-        (rad/s)².
+        Of ω², rad²/s².
     factor : Factor or None
         Of K + shift M, for more solutions; None where the work was done elsewhere.
     solver : str

@@ -42,8 +42,8 @@ class Ordering:
     fill : int
         Entries of the Cholesky factor, diagonal included.
     flops : float
-        Multiplications and additions of the Cholesky factorisation: the sum of the squares of
-        the columns' lengths.
+        Multiplications and additions of the Cholesky factorisation, no unit: the sum of the squares
+        of the columns' lengths.
     """
 
     order: NDArray[np.intp]

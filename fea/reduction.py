@@ -37,12 +37,13 @@ class Reduced:
     ----------
     system : System
     basis : (p, n, c)
-        Displacements of the clusters per unit coordinate, zero columns where a pose has fewer
-        coordinates than another.
+        Displacements of the clusters per unit coordinate, no unit, m/rad or rad/m; zero columns
+        where a pose has fewer coordinates than another.
     stiffness, mass : (p, c, c)
         N/m, kg and the like.
     rigid : (p, c, k)
-        Motions that cost no energy, in coordinates; zero columns where a pose has fewer.
+        Motions that cost no energy, in coordinates, m and rad of any size; zero columns where a
+        pose has fewer.
     """
 
     system: System

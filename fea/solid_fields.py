@@ -49,7 +49,7 @@ class SurfaceField:
     triangles : (t, 3) int
         Counter-clockwise from outside.
     values : (k,)
-        What the colour shows.
+        What the colour shows, in the unit that `name` states: any unit.
     displacement : (k, 3)
         m, or of a mode in its own scale; zero where none was given.
     name : str

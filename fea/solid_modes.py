@@ -34,7 +34,8 @@ class SolidModes:
         Share of each mode in rigid motion along x, y, z and about the centre of mass, kg and
         kg m².
     residual : float
-        Largest of the flexible modes, as `strutwork.fea.large_modes.LargeModes` defines it.
+        Largest of the flexible modes, as `strutwork.fea.large_modes.LargeModes` defines it, no
+        unit.
     solver : str
         Which ran.
     """

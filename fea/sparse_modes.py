@@ -44,7 +44,7 @@ class LowestModes:
     frequencies : (m,)
         Hz, rigid-body modes first with zero.
     vectors : (c, m)
-        Mass-normalised.
+        Mass-normalised, 1/√kg.
     solver : str
     """
 

@@ -54,7 +54,7 @@ class Superelement:
     local_stiffness, local_mass : (6 k, 6 k)
         In the mesh's frame.
     shapes : (3 n, 6 k)
-        Displacements of the field nodes per unit motion of the nodes.
+        Displacements of the field nodes per unit motion of the nodes, no unit and m/rad.
     fixed_frequencies : (m,)
         Hz, of the retained modes with the interfaces held; empty for a Krylov basis.
     solver : str

@@ -36,11 +36,12 @@ class TiedSolid:
     recovery : (3 n, c) sparse
         Displacements of the field nodes from the coordinates.
     stiffness, mass : (c, c) sparse
+        N/m and kg.
     ports : (c, 6 k) sparse
-        B: motions of the interface nodes are Bᵀ times the coordinates, and B spreads forces on
-        them.
+        B, no unit and rad/m: motions of the interface nodes are Bᵀ times the coordinates, and B
+        spreads forces on them.
     rigid : (c, r)
-        Rigid motions that nothing holds.
+        Rigid motions that nothing holds, m and rad of any size.
     """
 
     name: str

@@ -40,7 +40,7 @@ class FrfRecord:
     frequencies : (f,)
         Hz, ascending.
     values : (f,)
-        Complex motion per force, SI.
+        Complex motion per force, m/N, m/(N·s), m/(N·s²) and the like of rotations.
     motion : "displacement", "velocity" or "acceleration"
     run : str
         Tells functions between the same ends apart, as in `#2`.

@@ -32,7 +32,7 @@ class Axes:
     kind : int
         0 Cartesian, 1 cylindrical (radius, angle, z), 2 spherical.
     rows : (3, 3)
-        Its axes in global directions, one row per axis.
+        Its axes in global directions, one row per axis: unit vectors.
     origin : (3,)
         m.
     """

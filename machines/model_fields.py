@@ -22,13 +22,13 @@ class Quantity:
     ----------
     dimension : Dimension
     low : float or None
-        The least value.
+        The least value, in SI as the others: whichever unit the dimension has, any unit.
     above : float or None
-        A bound the value must exceed.
+        A bound the value must exceed, any unit.
     high : float or None
-        The greatest value.
+        The greatest value, any unit.
     below : float or None
-        A bound the value must stay under.
+        A bound the value must stay under, any unit.
     """
 
     dimension: Dimension

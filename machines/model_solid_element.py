@@ -37,7 +37,7 @@ class SolidElement:
         The nodes of the file; the others are monitors.
     materials : tuple of str
     loss_factor : float or None
-        Structural loss factor of the material.
+        Structural loss factor of the material, no unit.
     surface : (p,) int
         Field nodes on the outer surface.
     points : (p, 3)

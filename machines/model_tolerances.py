@@ -26,7 +26,7 @@ class ModelTolerances:
     tolerances : tuple of Tolerance
         In the order of the file.
     costs : mapping of tolerance name to float
-        Weights of the allocation; 1 where the file names none.
+        Weights of the allocation, any unit; 1 where the file names none.
     limits : mapping of (joint name, kind of quantity) to float
         Greatest forces and moments, N and N·m.
     """

@@ -72,7 +72,15 @@ class Answer(Protocol):
 
 @dataclass(frozen=True)
 class Stiffness:
-    """Static stiffness at the tool, in both meanings."""
+    """Static stiffness at the tool, in both meanings.
+
+    Parameters
+    ----------
+    columns : tuple of Column
+        The free and the blocked stiffness.
+    coordinates : mapping of dimension to labels
+        The six directions.
+    """
 
     columns: tuple[Column, ...] = (
         Column(

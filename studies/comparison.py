@@ -54,7 +54,7 @@ class MachineAnswers:
     worst_at : tuple of dict of direction to float
         Where the least of each is, m.
     condition : (2,)
-        Least and largest condition number of the Jacobian in the task.
+        Least and largest condition number of the Jacobian in the task, no unit.
     length : float
         m, that counts as one radian in it; NaN where it is not known.
     reached, poses : int

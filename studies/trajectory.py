@@ -39,8 +39,8 @@ class Samples:
     times : (k,)
         s.
     values, rates, changes : mapping of (joint, direction) to (k,)
-        Coordinates and their first and second derivatives, SI; the joint is empty for the tool.
-        Derivatives are of all coordinates or of none.
+        Coordinates, m or rad, and their first and second derivatives by s; the joint is empty for
+        the tool. Derivatives are of all coordinates or of none.
     """
 
     times: Array

@@ -30,6 +30,8 @@ class Transmission:
         m; stated with every number that is made with it.
     known : Freedoms
         Of the machine at poses that are not singular.
+    columns : tuple of Column
+        The condition number.
     """
 
     length: float

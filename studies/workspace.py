@@ -72,8 +72,8 @@ class Workspace:
     border : LevelSet
     regions : Regions
     error : float
-        Of the measure: what lies between the border and that of every second point of the grid,
-        for a smooth border some three times what is left.
+        Of the measure, in products of m and rad: what lies between the border and that of every
+        second point of the grid, for a smooth border some three times what is left.
     home : (d,)
         Home in the grid's directions.
     home_margin : float
@@ -82,8 +82,8 @@ class Workspace:
         What is least at home.
     arm : float
         m; at which turns are compared with lengths.
-    spare : (grid) or None
-        Value of the spare coordinate with the largest margin.
+    spare : (...) or None
+        Over the grid, the value of the spare coordinate with the largest margin, m or rad.
     """
 
     title: str

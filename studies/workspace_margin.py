@@ -166,7 +166,7 @@ class MachineMargin:
     step : (d,)
         How far apart points of the grid are, m and rad.
     turns : (k, 3, 3)
-        Rotations of the tool in its own axes at home; all must be good.
+        Rotation matrices of the tool in its own axes at home; all must be good.
     spare : Spare or None
     interference : Interference or None
     conditioning : float or None

@@ -36,7 +36,7 @@ FLOATS = re.compile(
 
 #: (3,), (..., 6, 6), (n,), (p, 2 k), (...).
 _SIDE = r"(?:\.\.\.|…|\*?[\w ·*+−/-]+|[\w ]*\(\w+ [+−-] \w+\))"
-SHAPE = re.compile(rf"\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|shapes? (?:as )?of `")
+SHAPE = re.compile(rf"(?<!/)\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|shapes? (?:as )?of `")
 
 _SYMBOL = (
     r"(?:mm|µm|nm|km|m|kN|mN|µN|N|mrad|µrad|rad|deg|°|kHz|Hz|kg|ms|s|kPa|MPa|GPa|Pa|J|kJ|W|K|°C|%|1)"
@@ -51,8 +51,7 @@ UNIT = re.compile(
 )
 
 #: Packages, or modules by the beginning of their path, whose docstrings are still to be written.
-PENDING: tuple[str, ...] = (
-)
+PENDING: tuple[str, ...] = ()
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
