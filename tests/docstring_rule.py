@@ -50,9 +50,6 @@ UNIT = re.compile(
     r"|\bbool|\bint\b|\bof str\b|\bindices\b|\bbytes\b)"
 )
 
-#: Packages, or modules by the beginning of their path, whose docstrings are still to be written.
-PENDING: tuple[str, ...] = ()
-
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
@@ -147,12 +144,16 @@ def judge(
 
 
 def complaints(source: str, public: set[str]) -> Iterator[str]:
-    """What a module's docstrings leave out; `public` are the names of exported classes."""
+    """What a module's docstrings leave out.
+
+    Dataclasses describe their fields; other classes whose names are `public`, the exported ones,
+    what they are made of.
+    """
     for node in ast.parse(source).body:
         if isinstance(node, Function):
             yield from _of_function(node, "")
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-            if node.name in public:
+            if node.name in public or decorated(node, "dataclass"):
                 yield from _of_class(node)
             for inner in node.body:
                 if isinstance(inner, Function):
