@@ -48,7 +48,7 @@ class FrequencyResponse:
         another but for rounding (`strutwork.fea.rounding`).
     outputs, inputs : tuple of Port
     static_compliance : (..., o, i)
-        At zero frequency; infinite where a rigid-body mode takes part.
+        At zero frequency, m/N and the like; infinite where a rigid-body mode takes part.
     damping : str
         What damps, in words.
     method : str
@@ -148,7 +148,20 @@ def response_at(
     damping: AnyDamping,
     method: Method = "modal",
 ) -> FrequencyResponse:
-    """`frequency_response`, for steps of another solver that warns itself."""
+    """`frequency_response`, for steps of another solver that warns itself.
+
+    Errors as `frequency_response`.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    inputs, outputs : sequence of Port
+        Where it is loaded and observed.
+    frequencies : (f,)
+        Hz, not negative.
+    damping : damping of any kind
+    method : "modal", "all_modes" or "direct"
+    """
     lines = np.asarray(frequencies, dtype=float)
     if lines.ndim != 1 or not len(lines) or np.any(~np.isfinite(lines)) or np.any(lines < 0):
         raise ModelError("frequencies", "are empty or negative.", "Give frequencies in Hz.")

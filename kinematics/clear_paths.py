@@ -33,9 +33,10 @@ class PathReversals:
     ----------
     drives : (r,) of str
     places : (r, 2)
-        Parameters.
+        Parameters, m or rad.
     along : (r,)
-        Which piece of the path, from 0, and how far in it: 2.25 is a quarter along the third.
+        Which piece of the path, from 0, and how far in it, no unit: 2.25 is a quarter along the
+        third.
     signs : (s, n) of int
         Of the drives' speeds at the start of each piece, 0 for one that does not move on it.
     """
@@ -53,7 +54,7 @@ class ClearPath:
     Parameters
     ----------
     start, end : (2,)
-        Parameters.
+        Parameters, m or rad.
     length : float
         Of the tool centre point, m; of the rotation vector, rad, where the path only turns.
     """

@@ -73,6 +73,7 @@ class Tie:
     other_joint, other_direction : int
         The coordinate that it follows.
     ratio : float
+        m/m, m/rad, rad/m or rad/rad.
     """
 
     name: str

@@ -49,22 +49,23 @@ class Followed:
     values : (n, t)
         Of the coordinates, m and rad.
     drives, speeds, accelerations, forces, powers : (n, a)
-        Coordinates of the drives, their derivatives, forces and powers, in SI.
+        Coordinates of the drives, m or rad, their derivatives by s, forces, N or N·m, and powers,
+        W.
     held : (n,)
-        How well the drives hold the coordinates, as `PlacedDynamics.held`.
+        How well the drives hold the coordinates, as `PlacedDynamics.held`: no unit.
     kinetic, potential : (n,)
         Energies, J.
     given_power : (n,)
         Power of the wrench that acts on the tool, W.
     spins : (n, k)
-        As `Forces.spins`.
+        As `Forces.spins`, N·m.
     reactions : (n, r) or None
-        As `Forces.reactions`, where they were asked for.
+        As `Forces.reactions`, N and N·m, where they were asked for.
     reaction_labels : tuple of str
     paces : (n, b)
         Largest component of each body's twist, m/s or rad/s.
     joint_values : (n, c)
-        Coordinates of all joints, in the order of `Motion.joints.names`.
+        Coordinates of all joints, in the order of `Motion.joints.names`, m and rad.
     """
 
     dynamics: Dynamics

@@ -30,7 +30,7 @@ class InscribedShape:
     half : (d,)
         Half of its size along each of its own directions, m and rad.
     rotation : (d, d) or None
-        Its own directions as columns; those of the space by default.
+        Its own directions as columns, orthonormal; those of the space by default.
 
     Raises
     ------

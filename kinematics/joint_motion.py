@@ -36,7 +36,7 @@ class BodyPoses:
     position : (p, b, 3)
         Of the bodies' reference points, m.
     rotation : (p, b, 3, 3)
-        From home.
+        Rotation matrices from home.
     """
 
     position: Array

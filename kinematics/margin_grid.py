@@ -41,7 +41,7 @@ class Crossings:
     axis : (e,) of int
         Along which it runs.
     share : (e,)
-        Where on it the border is, 0 at the lower end.
+        Share of it at which the border is, 0 at the lower end.
     reason : (e,) of int
         Index into `reasons`: what ends the workspace there.
     reasons : tuple of str

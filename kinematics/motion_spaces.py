@@ -38,9 +38,11 @@ class MotionSpaces:
     Parameters
     ----------
     inverse : (p, a, 6)
-        Least rates per tool twist; infinite in directions that are lost.
+        Least rates per tool twist, m/s or rad/s per m/s and rad/s; infinite in directions that are
+        lost.
     forward : (p, 6, a)
-        Tool twist per rate; infinite where the tool moves at standing drives.
+        Tool twist per rate, m/s and rad/s per m/s or rad/s; infinite where the tool moves at
+        standing drives.
     motions : (p, 6, 6)
         Tool twists that can be made, orthonormal columns, the rest zero.
     rank : (p,)

@@ -121,7 +121,7 @@ class Way:
     times : (p,)
         s.
     sign, driven : (p,)
-        As `PlacedMotion.sign` and `PlacedDynamics.drive_sign`.
+        As `PlacedMotion.sign` and `PlacedDynamics.drive_sign`, no unit.
     points, speeds : (p, b, 3)
         Of the bodies, m and m/s.
     """

@@ -39,7 +39,7 @@ class PlacedMotion:
     position : (p, b, 3)
         Of the bodies' reference points, m.
     rotation : (p, b, 3, 3)
-        Of the bodies from home.
+        Rotation matrices of the bodies from home.
     """
 
     of: BodyMotion

@@ -26,9 +26,9 @@ class Polytope:
     Parameters
     ----------
     normals : (m, d)
-        A.
+        A, in the unit of b over that of x: any unit.
     offsets : (m,)
-        b, positive; rows with an infinite one do not count.
+        b, any unit, positive; rows with an infinite one do not count.
     """
 
     normals: Array

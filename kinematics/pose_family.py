@@ -204,6 +204,7 @@ class Looked:
     Parameters
     ----------
     parameters : (p, k)
+        m or rad.
     reach : (p,) of bool
     placement : Placement
         Of those that are reached only, in order.

@@ -26,7 +26,7 @@ class Goals:
     target : (p, t) or None
         Its coordinates, m and rad; None where a pose is asked.
     place, turned : (p, 3) and (p, 3, 3), or None
-        Its pose.
+        Its pose: place, m, and rotation matrix.
     """
 
     asked: tuple[int, ...]
@@ -43,9 +43,9 @@ class QuickStep:
     ----------
     system : row_kernel.RowSystem
     tool : (3, 3)
-        Its rotation at home.
+        Its rotation matrix at home.
     rules : tuple of float
-        As `step_kernel.newton_step` takes them.
+        As `step_kernel.newton_step` takes them: no unit, lengths over L, rad.
     """
 
     system: Any

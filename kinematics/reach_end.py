@@ -33,12 +33,13 @@ class ReachEnds:
     Parameters
     ----------
     parameters : (e, k)
+        m or rad.
     placement : Placement
         There, or at the last pose that was reached.
     turned : (e,) of bool
         Whether the coordinates turn back there; else the end is known to the last halving.
     beyond : (e, k)
-        Next to it, not reached.
+        Next to it, not reached, m or rad.
     reasons : tuple of str
         Why.
     """

@@ -49,7 +49,7 @@ class Patch:
     Parameters
     ----------
     u, v : (k,), (l,)
-        Ascending.
+        Ascending, m or rad.
     """
 
     u: Array
@@ -102,7 +102,7 @@ class SingularPoint:
     ----------
     drive : str
     place : (2,)
-        Parameters.
+        Parameters, m or rad.
     kind : "strong" or "weak"
         An extremum or a saddle.
     hessian : (2, 2)
@@ -124,7 +124,7 @@ class DriveSingularities:
     drive : str
     points : tuple of SingularPoint
     lines : tuple of (c, 2)
-        Whole lines of such points.
+        Whole lines of such points, in parameters, m or rad.
     winding : int or None
         Turns of the gradient along the border; None where the border leaves the reach, or a
         singular place lies on it.

@@ -29,7 +29,7 @@ class RigidGraph:
     Parameters
     ----------
     axes : (r, 6)
-        Directions in global axes, (a, 0) or (0, a).
+        Unit vectors in global axes, (a, 0) or (0, a).
     points : (r, 3)
         Where they act, m.
     first, second : (r,)
@@ -82,13 +82,13 @@ class Block:
     groups : (g,)
         Groups of bodies that the block moves against its carrier.
     values : (s,)
-        Singular values, descending.
+        Singular values, descending, no unit.
     right : (6 g, 6 g)
-        Right singular vectors as rows.
+        Right singular vectors as rows, orthonormal.
     matrix : (k, 6 g)
-        The rows themselves, of unit size, on twists about the centre.
+        The rows themselves, of unit size, on twists about the centre, no unit.
     size : (k,)
-        By which each row was divided.
+        By which each row was divided, no unit.
     centre : (3,)
         m.
     length : float
@@ -119,7 +119,7 @@ class Blocks:
     inner : (i,)
         Rows inside one group: redundant.
     blocks : tuple of Block
-    below : mapping
+    below : tuple of mapping of group to (h,)
         For each block, the groups that move with each of its own: what hangs on it.
     """
 

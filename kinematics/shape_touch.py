@@ -37,11 +37,11 @@ class Touch:
     Parameters
     ----------
     size : (k,)
-        Largest good sizes.
+        Largest good sizes, no unit.
     rays : (k, d)
-        To the border of the shape of size one.
+        To the border of the shape of size one, m and rad.
     points : (k, d)
-        Beside the border, on its bad side.
+        Beside the border, on its bad side, m and rad.
     """
 
     size: Array
@@ -58,7 +58,7 @@ class ShapeSearch:
     margin : callable
     shape : InscribedShape
     low, high : (d,)
-        Ends of the grid.
+        Ends of the grid, m and rad.
     accuracy : float
         Of the size, as a share of it.
     """

@@ -77,14 +77,14 @@ class Distance:
         L, m: how much translation counts as much as one radian, of the tool and of a drive that
         turns.
     parallel : (...)
-        Least singular value of the inverse Jacobian: rates of the drives in that motion of the
-        tool of size one, (v, L ω), which moves them least. 0 at an actuator singularity (type 2).
+        No unit. Least singular value of the inverse Jacobian: rates of the drives in that motion of
+        the tool of size one, (v, L ω), which moves them least. 0 at type 2, of actuators.
     serial : (...)
-        Least singular value of the Jacobian: motion of the tool, of those that rates of size one
-        make, which is least. 0 at an end-effector singularity (type 1).
+        No unit. Least singular value of the Jacobian: motion of the tool, of those that rates of
+        size one make, which is least. 0 at type 1, of the end-effector.
     passive : (...)
-        Least singular value of the passive rows, each of size one on (v, L ω) of the bodies. 0 at
-        a singularity of the configuration space.
+        No unit. Least singular value of the passive rows, each of size one on (v, L ω) of the
+        bodies. 0 at a singularity of the configuration space.
     """
 
     length: float

@@ -40,6 +40,7 @@ class Refined:
     Parameters
     ----------
     parameters : (m, k)
+        m or rad.
     placement : Placement
     space : ToolDriveSpace
     index : (m,)

@@ -31,11 +31,11 @@ class Spins:
     body : (s,)
         Indices of the bodies.
     line : (s, 3)
-        Their lines at home.
+        Their lines at home, unit vectors.
     column : (c,)
         Turns of joints about z among the joint coordinates.
     axis : (c, 3)
-        Of those joints at home.
+        Of those joints at home, unit vectors.
     between : (c, 2)
         Bodies of those joints, −1 for the ground.
     """

@@ -182,8 +182,8 @@ class Roughness:
     time : float
         s.
     share : float
-        By which accelerations from all samples and from every other differ there, over the
-        largest.
+        Share of the largest acceleration by which accelerations from all samples and from every
+        other differ there.
     """
 
     label: str

@@ -30,7 +30,20 @@ MESH_WORDS = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "INCLUDE", "PART", 
 
 @dataclass
 class Instance:
-    """A part placed in the assembly."""
+    """A part placed in the assembly.
+
+    Parameters
+    ----------
+    name, part : str
+        As first written.
+    where : str
+        Its line, for messages.
+    rows : list of list of float
+        Numbers of the lines that move it: a translation, then an axis by two points, in the file's
+        own unit, and an angle, deg.
+    has_mesh : bool
+        Whether it has nodes or elements of its own.
+    """
 
     name: str
     part: str

@@ -20,7 +20,21 @@ Fail = Callable[[str, str, str], ModelError]
 
 @dataclass
 class Elements:
-    """A block of elements: `rows` has the number and the nodes of each, one after another."""
+    """A block of elements: `rows` has the number and the nodes of each, one after another.
+
+    Parameters
+    ----------
+    type_ : str
+        As Abaqus names it.
+    kind : str
+        Of the cells.
+    size : int
+        Nodes of each.
+    where : str
+        Its line, for messages.
+    rows : array of int
+        Number and nodes of each element, one after another.
+    """
 
     type_: str
     kind: str
@@ -36,7 +50,25 @@ class Elements:
 
 @dataclass
 class Piece:
-    """One block of a set: numbers, ranges and names of other sets, as they stand."""
+    """One block of a set: numbers, ranges and names of other sets, as they stand.
+
+    Parameters
+    ----------
+    where : str
+        Its line, for messages.
+    scope : Scope
+        Where it stands.
+    numbers : array of int
+        Of nodes or elements.
+    ranges : list of (int, int, int)
+        First, last and step.
+    names : list of str
+        Of other sets.
+    of_elements : bool
+        Whether the numbers are of elements whose nodes are meant.
+    from_elements : bool
+        Whether it came with the elements themselves.
+    """
 
     where: str
     scope: Scope
@@ -51,7 +83,16 @@ class Piece:
 
 @dataclass
 class NamedSet:
-    """A set: its name as first written, and its blocks."""
+    """A set: its name as first written, and its blocks.
+
+    Parameters
+    ----------
+    name : str
+        As first written.
+    pieces : list of Piece
+    internal : bool
+        Whether the deck marks it as one that its program made.
+    """
 
     name: str
     pieces: list[Piece] = field(default_factory=list)
@@ -85,6 +126,23 @@ class Scope:
     """A part, or the assembly, or a deck without parts.
 
     Names are kept by their capitals: Abaqus does not distinguish `eall` from `EALL`.
+
+    Parameters
+    ----------
+    name : str
+        Empty for a deck without parts.
+    node_numbers : array of int
+    coordinates : array of float
+        x, y, z of each node, in the file's own unit.
+    elements : list of Elements
+    others : array of int
+        Numbers of points and lines, which are no cells.
+    node_sets, element_sets : dict of str to NamedSet
+        By the name in capitals.
+    sections : list of (str, str)
+        Element set and line of each section.
+    surfaces : dict of str to Surface
+        By the name in capitals.
     """
 
     name: str = ""

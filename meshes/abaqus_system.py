@@ -16,7 +16,15 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class System:
-    """A rectangular system: its origin and its axes, the columns of `axes`."""
+    """A rectangular system.
+
+    Parameters
+    ----------
+    origin : (3,)
+        In the file's own unit.
+    axes : (3, 3)
+        Its axes as columns, orthonormal.
+    """
 
     origin: Array = field(default_factory=lambda: np.zeros(3))
     axes: Array = field(default_factory=lambda: np.eye(3))

@@ -38,6 +38,11 @@ class MedFile:
 
     Parameters
     ----------
+    path : Path
+    points : (n, 3)
+        In the file's own unit.
+    node_families : (n,)
+        Family of each node.
     cells : list of (kind, (m, k) int, (m,) int)
         Nodes from 0, and the family of each cell.
     names : dict of int to tuple of str

@@ -18,7 +18,21 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Given:
-    """A system as its card gives it: by three points in another system, or by three grids."""
+    """A system as its card gives it: by three points in another system, or by three grids.
+
+    Parameters
+    ----------
+    shape : "R", "C" or "S"
+        Rectangular, cylindrical or spherical.
+    where : str
+        Its line, for messages.
+    reference : int
+        System in which the points are; 0 is the basic one.
+    points : (3, 3) or None
+        Origin, a point on z and one in the x-z plane, one per row, in the file's own unit.
+    grids : tuple of int
+        The three grids, instead of points.
+    """
 
     shape: str
     where: str
@@ -35,6 +49,8 @@ class Systems:
     ----------
     lines : DeckLines
         For messages.
+    given : dict of int to Given
+        Systems by their numbers, as their cards give them.
     """
 
     lines: DeckLines

@@ -39,6 +39,8 @@ class VtuFile:
         Without the text of AppendedData.
     appended : bytes
         From the character after the underscore.
+    is_raw : bool
+        Whether these are bytes as they are; else base64.
     unpacked : int
         Bytes that arrays have taken so far.
     """

@@ -1,4 +1,4 @@
-"""A dataset over poses as a table of one row a pose."""
+"""A dataset over poses as a table of one row per pose."""
 
 from __future__ import annotations
 

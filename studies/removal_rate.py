@@ -75,8 +75,10 @@ def cutting_force_at_rate(
         Feed rate, m/s.
     width : (...)
         Of cut, m.
-    specific_energy, constants
-        As `cutting_force`.
+    specific_energy : (...)
+        Cutting energy per volume removed, J/m³.
+    constants : (..., 2)
+        c_x and c_y, m, as `cutting_force`.
     """
     area = np.asarray(width, dtype=float) * np.asarray(feed, dtype=float)
     return cutting_force(np.asarray(rate, dtype=float) / area, specific_energy, constants)
@@ -99,7 +101,17 @@ def actuator_force(mass: ArrayLike, feed: ArrayLike, radius: ArrayLike) -> Array
 
 
 def largest_feed(force: ArrayLike, mass: ArrayLike, radius: ArrayLike) -> Array:
-    """Feed rate that a drive's force allows, √(F r/m), m/s (Son 2002, eq. 20 the other way)."""
+    """Feed rate that a drive's force allows, √(F r/m), m/s (Son 2002, eq. 20 the other way).
+
+    Parameters
+    ----------
+    force : (...)
+        Of the drive, N.
+    mass : (...)
+        To be moved, kg.
+    radius : (...)
+        Least radius of curvature, m.
+    """
     work = np.asarray(force, dtype=float) * np.asarray(radius, dtype=float)
     return np.asarray(np.sqrt(work / np.asarray(mass, dtype=float)))
 
@@ -111,13 +123,13 @@ class RemovalExponents:
     Parameters
     ----------
     actuator : float
-        n of the drives' force (Son 2002, eq. 21).
+        n of the drives' force (Son 2002, eq. 21); like all four, no unit.
     feed : float
-        Of the largest feed rate (eq. 22).
+        Of the largest feed rate (eq. 22), no unit.
     cutting_force : float
-        Of the cutting force (eqs 19 and 22).
+        Of the cutting force (eqs 19 and 22), no unit.
     deflection : float
-        Of the static deflection (eq. 23).
+        Of the static deflection (eq. 23), no unit.
     """
 
     actuator: float
@@ -132,9 +144,9 @@ def removal_exponents(actuator: float, stiffness: float = 1.0) -> RemovalExponen
     Parameters
     ----------
     actuator : float
-        n: the drives' force grows with L^n.
+        n, no unit: the drives' force grows with L^n.
     stiffness : float
-        Exponent of the static stiffness; 1 for geometric similarity (eqs 14 and 15).
+        Exponent of the static stiffness, no unit; 1 for geometric similarity (eqs 14 and 15).
 
     Returns
     -------
@@ -155,7 +167,13 @@ def removal_exponents(actuator: float, stiffness: float = 1.0) -> RemovalExponen
 
 
 def frequency_exponent(stiffness: float = 1.0, mass: float = 3.0) -> float:
-    """Of √(K/M): −1 for geometric similarity (Son 2002, eq. 24)."""
+    """Of √(K/M): −1 for geometric similarity (Son 2002, eq. 24).
+
+    Parameters
+    ----------
+    stiffness, mass : float
+        Exponents of K and M, no unit.
+    """
     return (stiffness - mass) / 2.0
 
 
@@ -165,11 +183,11 @@ def relative_deflection(factors: ArrayLike, stiffness: ArrayLike, actuator: floa
     Parameters
     ----------
     factors : (f,)
-        Sizes beside the machine's own.
+        Sizes beside the machine's own, no unit.
     stiffness : (f, ...)
         Static stiffness of each beside the machine's own, dimensionless.
     actuator : float
-        n.
+        n of the drives' force, no unit.
 
     Returns
     -------

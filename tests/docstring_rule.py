@@ -38,7 +38,9 @@ FLOATS = re.compile(
 
 #: (3,), (..., 6, 6), (n,), (p, 2 k), (...).
 _SIDE = r"(?:\.\.\.|…|\*?[\w ·*+−/-]+|[\w ]*\(\w+ [+−-] \w+\))"
-SHAPE = re.compile(rf"\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|same shape|shape of the")
+SHAPE = re.compile(
+    rf"(?<!/)\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|same shape|shapes? of (?:the|`)"
+)
 
 _SYMBOL = (
     r"(?:mm|µm|nm|km|m|kN|mN|µN|N|mrad|µrad|rad|deg|°|kHz|Hz|kg|ms|s|kPa|MPa|GPa|Pa|J|kJ|W|K|°C|%|1)"
@@ -51,18 +53,6 @@ UNIT = re.compile(
     r"|\bunits\b|unit vectors?|\b(?:no|any|same|its|their|own|one|whose) unit\b|\bunit of the\b"
     r"|\bbool|\bint\b|\bof str\b|\bindices\b|\bbytes\b)"
 )
-
-#: Packages, or modules by the beginning of their path, whose docstrings are still to be written.
-PENDING: tuple[str, ...] = (
-    "msa/",
-    "fea/",
-    "overconstraint/",
-    "machines/",
-    "studies/",
-)
-
-#: Packages whose docstrings give the shapes of results as well.
-RESULTS = ("strutwork", "kinematics", "meshes")
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -169,25 +159,29 @@ def judge(
         yield f"described in another order than {', '.join(names)}."
 
 
-def complaints(source: str, public: set[str], *, results: bool = False) -> Iterator[str]:
-    """What a module's docstrings leave out; `public` are the names of exported classes."""
+def complaints(source: str, public: set[str]) -> Iterator[str]:
+    """What a module's docstrings leave out.
+
+    Dataclasses describe their fields; other classes whose names are `public`, the exported ones,
+    what they are made of.
+    """
     for node in ast.parse(source).body:
         if isinstance(node, Function):
-            yield from _of_function(node, "", results=results)
+            yield from _of_function(node, "")
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-            if node.name in public:
+            if node.name in public or decorated(node, "dataclass"):
                 yield from _of_class(node)
             for inner in node.body:
                 if isinstance(inner, Function):
-                    yield from _of_function(inner, f"{node.name}.", results=results)
+                    yield from _of_function(inner, f"{node.name}.")
 
 
-def _of_function(node: Function, prefix: str, *, results: bool) -> Iterator[str]:
+def _of_function(node: Function, prefix: str) -> Iterator[str]:
     if node.name.startswith("_") or decorated(node, "overload", "setter"):
         return
     docstring, wanted = ast.get_docstring(node) or "", arguments(node)
     place = f"{node.lineno}: {prefix}{node.name}"
-    if results and result_lacks_shape(node, docstring):
+    if result_lacks_shape(node, docstring):
         yield f"{place}: what it returns has no shape."
     if wanted:
         entries = described(docstring, "Parameters", "Other Parameters")
@@ -216,7 +210,7 @@ def _of_class(node: ast.ClassDef) -> Iterator[str]:
 def of_file(path: Path) -> list[str]:
     """Complaints about a file of one of the packages."""
     package = path.relative_to(ROOT).parts[0]
-    listed = complaints(path.read_text("utf-8"), exported(package), results=package in RESULTS)
+    listed = complaints(path.read_text("utf-8"), exported(package))
     return [f"{path.relative_to(ROOT)}:{complaint}" for complaint in listed]
 
 
