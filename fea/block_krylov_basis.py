@@ -47,12 +47,12 @@ class EnergyBasis:
 
     @property
     def force(self) -> Array:
-        """K V."""
+        """K V, (n, size)."""
         return self._room[1][:, : self.size]
 
     @property
     def push(self) -> Array:
-        """M V."""
+        """M V, (n, size)."""
         return self._room[2][:, : self.size]
 
     def grow(self, loads: Array, block: Array) -> slice:

@@ -120,7 +120,7 @@ class SmallModel:
 
     @property
     def undamped(self) -> tuple[Array, Array]:
-        """ω² of the undamped model, rad²/s², and mass-normalised vectors, rising."""
+        """ω² of the undamped model, (k,), rad²/s², rising, and mass-normalised vectors, (k, k)."""
         square, vectors = eigh(self.stiffness, self.mass)
         return square, vectors
 

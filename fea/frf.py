@@ -78,17 +78,17 @@ class FrequencyResponse:
 
     @property
     def mobility(self) -> Array:
-        """Velocity per force, iωH, m/(N·s)."""
+        """Velocity per force, iωH, (..., f, o, i), m/(N·s)."""
         return np.asarray(1j * self._omega * self.receptance)
 
     @property
     def accelerance(self) -> Array:
-        """Acceleration per force, −ω²H, 1/kg."""
+        """Acceleration per force, −ω²H, (..., f, o, i), 1/kg."""
         return np.asarray(-(self._omega**2) * self.receptance)
 
     @property
     def dynamic_stiffness(self) -> Array:
-        """1/|H| of every pair of ports, N/m."""
+        """1/|H| of every pair of ports, (..., f, o, i), N/m."""
         return np.asarray(1.0 / np.abs(self.receptance))
 
     @property

@@ -76,7 +76,7 @@ def petsc_python() -> str | None:
 def slepc_modes(
     stiffness: sp.csc_array, mass: sp.csc_array, count: int, shift: float, ranks: Ranks
 ) -> tuple[Array, Array, str]:
-    """Lowest ω², mass-normalised vectors and what ran.
+    """Lowest ω², (m,), rad²/s², mass-normalised vectors, (n, m), and what ran.
 
     Parameters
     ----------

@@ -90,7 +90,7 @@ class Port:
 
     @property
     def vector(self) -> Array:
-        """Direction as a six-vector."""
+        """Direction as a six-vector, (6,)."""
         if isinstance(self.direction, str):
             return np.asarray(np.eye(6)[DIRECTIONS.index(self.direction)])
         return np.asarray(self.direction, dtype=float)

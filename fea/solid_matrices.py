@@ -142,7 +142,7 @@ class SolidMatrices:
         return np.asarray(shares @ self.points / shares.sum())
 
     def structural_damping(self) -> sp.csc_array:
-        """Imaginary part of the stiffness: loss factor times stiffness, region by region, N/m.
+        """Imaginary part of the stiffness: loss factor times stiffness by regions, (n, n), N/m.
 
         A material without a loss factor has none.
         """

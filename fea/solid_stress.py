@@ -83,7 +83,7 @@ def cell_strains(matrices: SolidMatrices, displacements: Array) -> Array:
 
 
 def cell_stresses(matrices: SolidMatrices, displacements: Array) -> Array:
-    """Stress at the centre of each cell, Pa; shape and errors as `cell_strains`.
+    """Stress at the centre of each cell, Pa, in the shape of the strains of `cell_strains`.
 
     Parameters
     ----------

@@ -50,7 +50,7 @@ def motions_left_free(free: Array, push: Array, size: Array) -> Array:
 
 
 def without_elastic_work(stiffness: Array, free: Array) -> Array:
-    """Elastic stiffness with exactly none in free motions, which rounding gives a little.
+    """Elastic stiffness (p, c, c) with exactly none in free motions, where rounding leaves some.
 
     Beside the stiffness of a machine the weight of what swings is small.
 

@@ -181,9 +181,10 @@ def dependent(motion: Motion, coordinates: Coordinates) -> list[str]:
 
 
 def home_rows(motion: Motion, coordinates: Coordinates) -> tuple[Array, Array]:
-    """Rows of held joint directions and of coordinates at home, about the bodies' references.
+    """Rows of held joint directions (r, 6 b) and of coordinates (t, 6 b) at home.
 
-    In one unit: lengths over the machine's size L, on (v / L, ω) of the bodies.
+    About the bodies' references and in one unit: lengths over the machine's size L, on
+    (v / L, ω) of the bodies.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ def targets(
     task: Mapping[str, ArrayLike],
     joints: Mapping[Coordinate, ArrayLike],
 ) -> dict[str, ArrayLike]:
-    """Task coordinates with those that are not named and can be held, at home.
+    """Task coordinates, (...) each, with those at home that are not named and can be held.
 
     Parameters
     ----------

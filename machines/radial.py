@@ -60,7 +60,7 @@ class Radial:
 
     @property
     def up(self) -> Array:
-        """The global z axis, shaped like `outward`."""
+        """The global z axis, (..., 3, 3)."""
         return np.broadcast_to(np.array([0.0, 0.0, 1.0]), self.outward.shape)
 
     @property
@@ -70,7 +70,10 @@ class Radial:
 
     @property
     def hinge_frame(self) -> Array:
-        """Axes outward, down, tangent: a positive turn about z lifts a link that points inward."""
+        """Axes outward, down, tangent as columns, (..., 3, 3, 3).
+
+        A positive turn about z lifts a link that points inward.
+        """
         return frame(self.outward, -self.up, self.tangent)
 
     def at(self, radius: Array | float, height: Array | float) -> Array:

@@ -112,7 +112,7 @@ class CellType:
 
     @cached_property
     def faces(self) -> Ints:
-        """Local nodes of each face, (faces, nodes of the face kind)."""
+        """Local nodes of each face, (faces, k)."""
         index = {frozenset(p): i for i, p in enumerate(self.parents)}
         parents = CELL_TYPES[self.face_kind].parents
         return np.array(

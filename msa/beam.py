@@ -233,7 +233,7 @@ def fixed_end_loads(
 
 
 def to_global(axes: Array, matrix: Array) -> Array:
-    """Turn a matrix of beam ends from local to global axes.
+    """Turn a matrix of beam ends from local to global axes, (..., 12, 12).
 
     Parameters
     ----------

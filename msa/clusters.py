@@ -173,11 +173,11 @@ class Clusters:
 
     @cached_property
     def sparse_stiffness(self) -> sp.csc_array:
-        """Sparse stiffness of a batch of one."""
+        """Sparse stiffness of a batch of one, (n, n)."""
         return self.sparse_sum(self.contributions())
 
     def sparse_sum(self, parts: Iterable[tuple[str, NDArray[np.intp], Array]]) -> sp.csc_array:
-        """Sum of parts' matrices at mesh nodes on the unknowns, sparse, for a batch of one.
+        """Sum of parts' matrices at mesh nodes on the unknowns, sparse (n, n), for a batch of one.
 
         Parameters
         ----------

@@ -17,7 +17,7 @@ LARGEST = 20_000_000
 
 
 def ints(values: Any) -> Ints:
-    """Contiguous 64-bit integers.
+    """Contiguous 64-bit integers, of the same shape.
 
     Parameters
     ----------
@@ -87,6 +87,9 @@ def elimination_tape(
     factor: list[list[int]], entries: list[tuple[int, int]]
 ) -> tuple[Ints, Ints, Ints, Ints, Ints, Ints, int]:
     """`fill`, `column_start`, `column_row`, `column_slot`, `update_start`, `update` and `slots`.
+
+    (e,), (n + 1,), (s,), (s,), (n + 1,) and (u, 3), for e entries, n columns, and s slots that
+    are updated u times.
 
     Parameters
     ----------

@@ -115,12 +115,12 @@ class PlacedStructure:
 
     @cached_property
     def extended_geometry(self) -> tuple[Array, Array]:
-        """`beam_geometry` in extended precision: axes orthogonal to more digits than a double."""
+        """`beam_geometry`, (..., b) and (..., b, 3, 3), to more digits than a double has."""
         return self._geometry(*self._ends(self.placement.positions.astype(np.longdouble)))
 
     @cached_property
     def extended_arms(self) -> Array:
-        """`arms` in extended precision."""
+        """`arms` in extended precision, (..., n, 3), m."""
         return self._arms(self.positions.astype(np.longdouble))
 
     def _geometry(self, start: Array, end: Array) -> tuple[Array, Array]:

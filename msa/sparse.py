@@ -148,7 +148,7 @@ def unit_rows(system: System, d: Array) -> tuple[sp.csr_array, Array]:
 
 
 def row_groups(a: sp.csr_array) -> Iterator[tuple[NDArray[np.intp], Array, NDArray[np.intp]]]:
-    """Rows that share an unknown with one another: their indices, dense block and columns.
+    """Rows that share an unknown: their indices (k,), dense block (k, c) and columns (c,).
 
     Parameters
     ----------

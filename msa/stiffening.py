@@ -48,5 +48,5 @@ class Stiffening:
         )
 
     def contributions(self) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
-        """The parts, as `System.contributions`."""
+        """The parts: name, mesh nodes (k,), geometric stiffness (p, 6k, 6k)."""
         yield from self.parts

@@ -55,7 +55,7 @@ def limited_zones(
     fixed: Sequence[str],
     bounds: Mapping[str, tuple[float | None, float | None]],
 ) -> tuple[ScaledZones, NDArray[np.intp]]:
-    """The limited quantities, their indices, and bounds as factors.
+    """The limited quantities with bounds as factors, and their indices, (k,).
 
     Parameters
     ----------

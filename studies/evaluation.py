@@ -195,7 +195,7 @@ def _in_words(error: StrutworkError) -> str:
 
 
 def said(found: Evaluated) -> dict[str, Array]:
-    """The examples of a chunk as arrays, which a folder can keep.
+    """The examples of a chunk as arrays (k, 2) of str, which a folder can keep.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ ACTUATOR_EXPONENTS = (1.0, 3.0, 3.5)
 
 
 def removal_rate(depth: ArrayLike, width: ArrayLike, feed: ArrayLike) -> Array:
-    """Material removal rate d w f, m³/s (Son 2002, eq. 16).
+    """Material removal rate d w f, (...), m³/s (Son 2002, eq. 16).
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def removal_rate(depth: ArrayLike, width: ArrayLike, feed: ArrayLike) -> Array:
 
 
 def cutting_force(depth: ArrayLike, specific_energy: ArrayLike, constants: ArrayLike) -> Array:
-    """Cutting force √(c_x² + c_y²) d ρ_s, N (Son 2002, eqs 17 and 18).
+    """Cutting force √(c_x² + c_y²) d ρ_s, (...), N (Son 2002, eqs 17 and 18).
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def cutting_force_at_rate(
     specific_energy: ArrayLike,
     constants: ArrayLike,
 ) -> Array:
-    """Cutting force at a given removal rate, N; it falls with 1/f (Son 2002, eq. 19).
+    """Cutting force at a given removal rate, (...), N; it falls with 1/f (Son 2002, eq. 19).
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def cutting_force_at_rate(
 
 
 def actuator_force(mass: ArrayLike, feed: ArrayLike, radius: ArrayLike) -> Array:
-    """Force that keeps a mass on a curve, m f²/r, N (Son 2002, eq. 20).
+    """Force that keeps a mass on a curve, m f²/r, (...), N (Son 2002, eq. 20).
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def actuator_force(mass: ArrayLike, feed: ArrayLike, radius: ArrayLike) -> Array
 
 
 def largest_feed(force: ArrayLike, mass: ArrayLike, radius: ArrayLike) -> Array:
-    """Feed rate that a drive's force allows, √(F r/m), m/s (Son 2002, eq. 20 the other way).
+    """Feed rate that a drive's force allows, √(F r/m), (...), m/s (Son 2002, eq. 20 the other way).
 
     Parameters
     ----------

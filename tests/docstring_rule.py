@@ -36,10 +36,16 @@ FLOATS = re.compile(
     r"\bfloat\b|\b(Array|ArrayLike|Floats|csc_array)\b|\bNDArray\[(Any|np\.float\w*|np\.complex\w*)\]"
 )
 
-#: (3,), (..., 6, 6), (n,), (p, 2 k), (...).
-_SIDE = r"(?:\.\.\.|…|\*?[\w ·*+−/-]+|[\w ]*\(\w+ [+−-] \w+\))"
+#: (3,), (..., 6, 6), (n + 1,), (p, 2 k), (...); no remark in brackets, as (Stroud 1971, page 3).
+_NAME = r"[A-Za-z]\w*"
+_TERM = rf"(?:\d+ ?[A-Za-z]\w?|[A-Za-z] [A-Za-z]|{_NAME}|\d+(?: or \d+)?)"
+_SIDE = (
+    rf"(?:\.\.\.|…|\*{_NAME}|{_TERM}(?: ?[·*+−/^-] ?(?:{_TERM}|\({_TERM} ?[+−-] ?{_TERM}\)))?"
+    rf"|\d* ?\({_TERM} [+−-] {_TERM}\))"
+)
 SHAPE = re.compile(
-    rf"(?<!/)\({_SIDE}(?:, ?{_SIDE})*,?\)|\(\)|any shape|same shape|shapes? of (?:the|`)"
+    rf"(?<!/)\((?:\.\.\.|…|\w{{1,4}}|{_SIDE},|{_SIDE}(?:, ?{_SIDE})+,?|)\)"
+    r"|any shape|same shape|shapes? of (?:the|`)"
 )
 
 _SYMBOL = (
@@ -126,6 +132,7 @@ def described(docstring: str, *sections: str) -> dict[str, str]:
 def result_lacks_shape(function: Function, docstring: str) -> bool:
     """Whether a function returns arrays and does not say of which shape."""
     returned = ast.unparse(function.returns) if function.returns else ""
+    returned = re.sub(r"Callable\[.*\]", "", returned)
     if not ARRAY.search(returned):
         return False
     parsed = NumpyDocString(cleandoc(docstring))

@@ -8,7 +8,7 @@ from tests.docstring_rule import PACKAGES, complaints, modules, of_file
 
 FUNCTION = '''
 def stretched(points: Array, factor: float, names: Sequence[str] = (), *rest: int) -> Array:
-    """Points moved apart.
+    """Points moved apart, (n, 3).
 
     Parameters
     ----------
@@ -40,6 +40,7 @@ def test_nothing_is_said_of_a_complete_docstring() -> None:
     ("old", "new", "said"),
     [
         ("points : (n, 3)", "points : array", "points has no shape."),
+        ("points : (n, 3)", "points : (Stroud 1971, section 2)", "points has no shape."),
         ("m.", "Where they are.", "points has no unit."),
         ("No unit.", "How far.", "factor has no unit."),
         ("No unit.", "Its m counts per unit stretch.", ""),
