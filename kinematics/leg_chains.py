@@ -31,7 +31,7 @@ class LegChains(NamedTuple):
     turns : (d,)
         1 where the direction is a rotation.
     sign : (d,)
-        1 where the leg goes through the joint from its first node to its second, else −1.
+        1 where the leg goes through the joint from its first node to its second, else −1; no unit.
     node : (d,)
         Node at the joint.
     drive : (d,)

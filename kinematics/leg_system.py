@@ -57,8 +57,9 @@ class LegSystem(NamedTuple):
     Parameters
     ----------
     legs : (l,) of `LEG`
+        Indices of the steps of each leg, and how it is passed.
     steps : (s,) of `STEP`
-        The joints of all legs, leg by leg.
+        The joints of all legs, leg by leg; places of nodes at home, m.
     reference : (b, 3)
         Reference points of the bodies at home, m.
     platform : int

@@ -40,6 +40,17 @@ class LegWalk:
 
     The same way and the same rules as `walk.Walk`, so that the same working mode is met; the
     sign of each leg's determinant is kept. What the way ended at names the joints of the leg.
+
+    Parameters
+    ----------
+    joints : JointMotion
+        Of the linkage.
+    rotation : (3, 3)
+        Rotation matrix of the tool at home.
+    wanted : Given
+        Poses of the tool.
+    system : LegSystem
+        The legs of the linkage.
     """
 
     def __init__(

@@ -33,7 +33,7 @@ class RowSystem(NamedTuple):
     locks : (j,)
         Number of locked rotations.
     frames : (j, 3, 3)
-        At home.
+        Axes at home as columns, unit vectors.
     joint, direction : (h,)
         Of each held row.
     free_joint, free_direction : (c,)

@@ -83,7 +83,13 @@ class CellRows:
 
 
 class OtherRows:
-    """Rows of points and lines: their numbers alone are kept."""
+    """Rows of points and lines: their numbers alone are kept.
+
+    Parameters
+    ----------
+    scope : Scope
+        Takes the numbers.
+    """
 
     def __init__(self, scope: Scope) -> None:
         self._others = scope.others

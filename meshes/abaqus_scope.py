@@ -181,7 +181,17 @@ class Scope:
 
 
 class Index:
-    """Numbers of a scope's nodes and elements; `offset` is the first of its nodes in the mesh."""
+    """Numbers of a scope's nodes and elements.
+
+    Parameters
+    ----------
+    scope : Scope
+        The part, read to its end.
+    offset : int
+        The first of its nodes in the mesh.
+    fail : callable
+        Makes the error of a place, a problem and a remedy.
+    """
 
     def __init__(self, scope: Scope, offset: int, fail: Fail) -> None:
         self.scope, self.offset = scope, offset

@@ -21,7 +21,17 @@ EXPONENT = re.compile(r"([-+]?[\d.]+)([dD][-+]?|[-+])(\d+)$")
 
 
 class Card(NamedTuple):
-    """A card: its name in capitals, its fields from the second on, its place in the file."""
+    """A card of the bulk data.
+
+    Parameters
+    ----------
+    name : str
+        In capitals, without the `*` of large fields.
+    fields : list of str
+        From the second on, blanks around them taken off.
+    where : str
+        Its place in the file.
+    """
 
     name: str
     fields: list[str]

@@ -88,8 +88,8 @@ def elimination_tape(
 ) -> tuple[Ints, Ints, Ints, Ints, Ints, Ints, int]:
     """`fill`, `column_start`, `column_row`, `column_slot`, `update_start`, `update` and `slots`.
 
-    (e,), (n + 1,), (s,), (s,), (n + 1,) and (u, 3), for e entries, n columns, and s slots that
-    are updated u times.
+    (e,), (n + 1,), (l,), (l,), (n + 1,), (u, 3) and an int: of e entries of the matrix in n
+    columns, l entries of the factor below the diagonal, and u updates.
 
     Parameters
     ----------

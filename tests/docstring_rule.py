@@ -40,7 +40,7 @@ FLOATS = re.compile(
 _NAME = r"[A-Za-z]\w*"
 _TERM = rf"(?:\d+ ?[A-Za-z]\w?|[A-Za-z] [A-Za-z]|{_NAME}|\d+(?: or \d+)?)"
 _SIDE = (
-    rf"(?:\.\.\.|…|\*{_NAME}|{_TERM}(?: ?[·*+−/^-] ?(?:{_TERM}|\({_TERM} ?[+−-] ?{_TERM}\)))?"
+    rf"(?:\.\.\.|…|\*{_NAME}|{_TERM}(?: ?[·*+−/^-] ?(?:{_TERM}|\({_TERM} ?[+−-] ?{_TERM}\))){{0,2}}"
     rf"|\d* ?\({_TERM} [+−-] {_TERM}\))"
 )
 SHAPE = re.compile(
@@ -118,6 +118,11 @@ def decorated(node: Function | ast.ClassDef, *names: str) -> bool:
     )
 
 
+def made_of_fields(kind: ast.ClassDef) -> bool:
+    """Whether a class is a dataclass or a named tuple."""
+    return decorated(kind, "dataclass") or "NamedTuple" in map(ast.unparse, kind.bases)
+
+
 def described(docstring: str, *sections: str) -> dict[str, str]:
     """What each argument's entry says, type and text, by name."""
     parsed = NumpyDocString(cleandoc(docstring))
@@ -169,14 +174,14 @@ def judge(
 def complaints(source: str, public: set[str]) -> Iterator[str]:
     """What a module's docstrings leave out.
 
-    Dataclasses describe their fields; other classes whose names are `public`, the exported ones,
-    what they are made of.
+    Dataclasses and named tuples describe their fields; other classes whose names are `public`,
+    the exported ones, what they are made of.
     """
     for node in ast.parse(source).body:
         if isinstance(node, Function):
             yield from _of_function(node, "")
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-            if node.name in public or decorated(node, "dataclass"):
+            if node.name in public or made_of_fields(node):
                 yield from _of_class(node)
             for inner in node.body:
                 if isinstance(inner, Function):
@@ -198,7 +203,7 @@ def _of_function(node: Function, prefix: str) -> Iterator[str]:
 
 def _of_class(node: ast.ClassDef) -> Iterator[str]:
     makers = [n for n in node.body if isinstance(n, Function) and n.name == "__init__"]
-    if decorated(node, "dataclass"):
+    if made_of_fields(node):
         wanted = fields(node)
     elif makers:
         wanted = arguments(makers[0])
