@@ -178,7 +178,7 @@ def inverse_dynamics(
     ----------
     at : PlacedDynamics
         At p poses.
-    rates, changes : (p, t)
+    rates, changes : (p, t) or (t,)
         First and second derivatives of the coordinates, m/s or rad/s, m/s² or rad/s².
     wrench : (p, 6), (6,) or ()
         That acts on the tool at its centre point, N and N·m, global axes; 0 for none.

@@ -216,8 +216,8 @@ class PlacedDynamics:
 
         Parameters
         ----------
-        rates : (p, t)
-            Of the coordinates, m/s or rad/s; broadcast to all poses.
+        rates : (p, t) or (t,)
+            Of the coordinates, m/s or rad/s.
         """
         given = self.full(rates)
         spin = self.placed.twists(given).reshape(self.poses, -1, 6)[..., 3:]
@@ -237,8 +237,8 @@ class PlacedDynamics:
 
         Parameters
         ----------
-        rates : (p, t)
-            Of the coordinates, m/s or rad/s; broadcast to all poses.
+        rates : (p, t) or (t,)
+            Of the coordinates, m/s or rad/s.
         """
         twists = self.placed.twists(self.full(rates))
         momenta = self.weighted(twists[..., None])[..., 0]
