@@ -113,13 +113,13 @@ def turned(rotation: Array, points: Array) -> Array:
 
 
 def gathered(parts: Sequence[Array], item: int) -> Array:
-    """`parts`, whose last `item` axes are one item, side by side before these, (..., k, *item).
+    """`parts`, whose last `item` axes are one item, side by side before these, (..., k, item).
 
     As numpy.stack, which copies items of three numbers one by one: this copies along the batch.
 
     Parameters
     ----------
-    parts : sequence of (..., *item)
+    parts : sequence of (..., item)
         Arrays that broadcast against each other, in any unit.
     item : int
         How many of the last axes are one item: 1 for vectors, 2 for matrices.
