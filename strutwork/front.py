@@ -98,7 +98,15 @@ class Machine(Model):
 
     @classmethod
     def of(cls, model: Model, source: str = "") -> Self:
-        """The same model, with its questions."""
+        """The same model, with its questions.
+
+        Parameters
+        ----------
+        model : Model
+            Its fields are taken over, not copied.
+        source : str
+            Name or file the model was loaded from; empty for none.
+        """
         machine = cls(**{f.name: getattr(model, f.name) for f in fields(Model)})
         # frozen for all who come later; not copied by `dataclasses.replace`, as it should not be
         object.__setattr__(machine, "source", source)
@@ -189,6 +197,11 @@ class Machine(Model):
 
     def modes(self, count: int = 10) -> Modes:
         """The lowest natural frequencies and shapes, under the preload where there is one.
+
+        Parameters
+        ----------
+        count : int
+            How many modes, rigid ones included.
 
         Raises
         ------

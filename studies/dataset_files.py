@@ -22,6 +22,11 @@ from strutwork.studies.netcdf import netcdf_bytes
 def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
     """Write a dataset as NetCDF-4.
 
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
+
     Raises
     ------
     ModelError
@@ -33,6 +38,10 @@ def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
 
 def read_netcdf(path: Path) -> xr.Dataset:
     """Read a dataset back, all of it.
+
+    Parameters
+    ----------
+    path : Path
 
     Raises
     ------
@@ -49,10 +58,16 @@ def read_netcdf(path: Path) -> xr.Dataset:
 
 
 def write_csv(path: Path, dataset: xr.Dataset) -> Path:
-    """Write what a dataset has along its poses, one row a pose, units in the header.
+    """Write what a dataset has along its poses, one row per pose, units in the header.
 
-    Flags stand in words; numbers that are missing are empty. Compliance matrices are left
-    out: they are in the NetCDF file.
+    Flags stand in words; numbers that are missing are empty. Compliance matrices are left out: they
+    are in the NetCDF file.
+
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
+        With a dimension `point` or `pose`.
 
     Raises
     ------
@@ -74,7 +89,12 @@ def write_csv(path: Path, dataset: xr.Dataset) -> Path:
 
 
 def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
-    """Write variables that share their dimensions, one row an entry, units in the header.
+    """Write variables that share their dimensions, one row per entry, units in the header.
+
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
 
     Raises
     ------
@@ -110,6 +130,11 @@ def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
 def write_json(path: Path, dataset: xr.Dataset) -> Path:
     """Write a dataset as one JSON object; missing numbers are null.
 
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
+
     Raises
     ------
     ModelError
@@ -119,7 +144,12 @@ def write_json(path: Path, dataset: xr.Dataset) -> Path:
 
 
 def to_json(dataset: xr.Dataset) -> dict[str, Any]:
-    """A dataset as plain values: attributes, coordinates, and variables with unit and shape."""
+    """A dataset as plain values: attributes, coordinates, and variables with unit and shape.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    """
     return {
         "attributes": {name: _plain(value) for name, value in dataset.attrs.items()},
         "coordinates": {str(n): _plain(c.to_numpy()) for n, c in dataset.coords.items()},
@@ -136,6 +166,10 @@ def to_json(dataset: xr.Dataset) -> dict[str, Any]:
 
 def pose_dimension(dataset: xr.Dataset) -> str:
     """Name of the dimension of poses: point or pose.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
 
     Raises
     ------

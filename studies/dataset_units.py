@@ -41,7 +41,13 @@ def unit_attributes(unit: str) -> dict[str, str]:
 
 
 def stated_unit(variable: xr.DataArray | xr.Variable) -> str:
-    """The unit of a variable, or its units in words; "1" where none is stated."""
+    """The unit of a variable, or its units in words; "1" where none is stated.
+
+    Parameters
+    ----------
+    variable : xarray.DataArray or xarray.Variable
+        Of any shape and unit.
+    """
     attributes = variable.attrs
     return str(attributes.get("units", attributes.get("component_units", "1")))
 

@@ -59,9 +59,9 @@ def survey(
         What it does not name stays as at home, where it can.
     answers : sequence of Answer
     workers : int, optional
-        Threads; default one a processor.
+        Threads; default one per processor.
     progress : callable, optional
-        Told how many poses of how many are done.
+        Called with how many poses are done, and of how many.
     folder : Path, optional
         Keeps finished chunks there; a later call with the same inputs goes on from them.
     executor : Executor, optional
@@ -215,7 +215,14 @@ def _dataset(
 
 
 def survey_key(model: Model, grid: TaskGrid, answers: Sequence[Answer]) -> str:
-    """Hash of everything a survey's numbers depend on, the code included."""
+    """Hash of everything a survey's numbers depend on, the code included.
+
+    Parameters
+    ----------
+    model : Model
+    grid : TaskGrid
+    answers : sequence of Answer
+    """
     content: Mapping[str, Any] = {
         "structure": plain(model.structure),
         "placement": plain(

@@ -1,4 +1,4 @@
-"""A survey as CSV: one line a pose."""
+"""A survey as CSV: one line per pose."""
 
 from __future__ import annotations
 
@@ -16,9 +16,15 @@ from strutwork.studies.filters import PoseStatus
 
 
 def write_survey(path: Path, found: xr.Dataset) -> Path:
-    """Write a survey, one row a pose, units in the header.
+    """Write a survey, one row per pose, units in the header.
 
     Flags and reasons stand in words; numbers that are missing are empty.
+
+    Parameters
+    ----------
+    path : Path
+    found : xarray.Dataset
+        Of `survey`.
 
     Raises
     ------
