@@ -176,8 +176,8 @@ def superelement(
     Parameters
     ----------
     solid : TiedSolid
-    cells : (m, 8) or the like
-        Corner nodes of the solid's cells, among which monitors are chosen.
+    cells : (m, k)
+        Nodes of the solid's cells, k each, among which monitors are chosen.
     cutoff : float, optional
         Hz: modes with the interfaces held are retained beyond it. Answers below half of it are
         good to 1e-4.
