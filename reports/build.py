@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from datetime import datetime
 from pathlib import Path
 
 from strutwork import __version__
 from strutwork.errors import ModelError
 from strutwork.machines.model import Model
 from strutwork.names import meant
-from strutwork.reports.content import Chapter, Page
+from strutwork.reports.archive import ARCHIVE, carried, write_archive
+from strutwork.reports.content import Chapter, Links, Page
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.page import render
+from strutwork.reports.pdf import PDF, print_page, require_browser
 from strutwork.reports.report_folder import PAGE, require_ours, write_set
 from strutwork.reports.subject import Subject, Teller
 
@@ -26,11 +29,14 @@ class WrittenReport:
     report : Path
         The page.
     data : tuple of Path
-        The files beside it.
+        The files beside it, and the one that holds them all.
+    pdf : Path or None
+        The page as printed, where that was asked for.
     """
 
     report: Path
     data: tuple[Path, ...]
+    pdf: Path | None = None
 
     def __repr__(self) -> str:
         return f"<WrittenReport: {self.report} and {len(self.data)} data files>"
@@ -61,6 +67,8 @@ def write_report(
     folder: Path,
     progress: Teller | None = None,
     put: Callable[[Model], Model] | None = None,
+    *,
+    pdf: bool = False,
 ) -> WrittenReport:
     """Compute and write a report.
 
@@ -76,6 +84,8 @@ def write_report(
     put : callable, optional
         Puts the machine at another pose than home. What compares it with a document, at that
         document's own poses, is left out then.
+    pdf : bool
+        Whether the page is printed as well, by a browser of the system.
 
     Returns
     -------
@@ -84,7 +94,7 @@ def write_report(
     Raises
     ------
     ModelError
-        No such machine or file, a wrong model.
+        No such machine or file, a wrong model; nothing to print with.
     OutputError
         A folder that cannot be written, or that holds files of the same name and no manifest.
     StrutworkError
@@ -93,32 +103,68 @@ def write_report(
     folder = Path(folder)
     # before minutes of work, and not after them
     require_ours(folder, (PAGE,))
-    return write_page(compose(target, progress, put), folder)
+    if pdf:
+        require_browser()
+    return write_page(compose(target, progress, put), folder, pdf=pdf)
 
 
-def write_page(composed: Composed, folder: Path) -> WrittenReport:
+def write_page(composed: Composed, folder: Path, *, pdf: bool = False) -> WrittenReport:
     """Write a report that is composed, all of it or nothing.
+
+    Its files stand beside the page, once more together in one archive, and in the page itself as
+    far as it carries them.
+
+    Parameters
+    ----------
+    composed : Composed
+    folder : Path
+    pdf : bool
+        Whether the page is printed as well.
 
     Raises
     ------
     OutputError
         A folder that cannot be written, or that holds files of the same name and no manifest.
     """
-    text = render(composed.page)
-    write_set(
-        folder,
-        {
-            **{file.name: file.write for file in composed.files},
-            PAGE: lambda path: path.write_text(text, encoding="utf-8"),
-        },
+    names = [file.name for file in composed.files]
+    page = with_archive(composed.page) if names else composed.page
+
+    def together(path: Path) -> None:
+        write_archive(path, [path.with_name(name) for name in names])
+
+    def written(path: Path) -> None:
+        beside = carried(path.with_name(ARCHIVE)) if names else None
+        path.write_text(render(page, beside), encoding="utf-8")
+
+    # in this order: each is made from those before
+    writers: dict[str, Callable[[Path], object]] = {f.name: f.write for f in composed.files}
+    if names:
+        writers[ARCHIVE] = together
+    writers[PAGE] = written
+    if pdf:
+        writers[PDF] = lambda path: print_page(path.with_name(PAGE), path)
+    write_set(folder, writers)
+    beside = tuple(folder / name for name in writers if name not in {PAGE, PDF})
+    return WrittenReport(folder / PAGE, beside, folder / PDF if pdf else None)
+
+
+def with_archive(page: Page) -> Page:
+    """A page whose list of files, in its last chapter, ends with all of them in one."""
+    *before, closing = page.chapters
+    what = "all of them in one file; this page carries them too, and may be passed on alone"
+    blocks = tuple(
+        Links((*block.items, (ARCHIVE, what))) if isinstance(block, Links) else block
+        for block in closing.blocks
     )
-    return WrittenReport(folder / PAGE, tuple(folder / file.name for file in composed.files))
+    return replace(page, chapters=(*before, replace(closing, blocks=blocks)))
 
 
 def page_of(title: str, subtitle: str, chapters: tuple[Chapter, ...]) -> Page:
     """A page with the footer that all have."""
-    footer = f"Made by Strutwork {__version__}. This page needs no network."
-    return Page(title, subtitle, chapters, footer)
+    # the date of whoever asked, in ISO 8601
+    made = datetime.now().astimezone().date().isoformat()
+    footer = f"Made by Strutwork {__version__} on {made}. This page needs no network."
+    return Page(title, subtitle, chapters, footer, made)
 
 
 def compose(
