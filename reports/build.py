@@ -11,9 +11,11 @@ from strutwork import __version__
 from strutwork.errors import ModelError
 from strutwork.machines.model import Model
 from strutwork.names import meant
+from strutwork.reports.answering import Kept, answering, store_at
 from strutwork.reports.archive import ARCHIVE, carried, write_archive
 from strutwork.reports.content import Chapter, Links, Page
 from strutwork.reports.data_files import DataFile
+from strutwork.reports.document_page import DocumentPage
 from strutwork.reports.page import render
 from strutwork.reports.pdf import PDF, print_page, require_browser
 from strutwork.reports.report_folder import PAGE, require_ours, write_set
@@ -69,6 +71,7 @@ def write_report(
     put: Callable[[Model], Model] | None = None,
     *,
     pdf: bool = False,
+    fresh: bool = False,
 ) -> WrittenReport:
     """Compute and write a report.
 
@@ -86,6 +89,9 @@ def write_report(
         document's own poses, is left out then.
     pdf : bool
         Whether the page is printed as well, by a browser of the system.
+    fresh : bool
+        Whether everything is computed anew. What an earlier report of the same machine, by the
+        same code, has computed is reused else.
 
     Returns
     -------
@@ -105,7 +111,7 @@ def write_report(
     require_ours(folder, (PAGE,))
     if pdf:
         require_browser()
-    return write_page(compose(target, progress, put), folder, pdf=pdf)
+    return write_page(compose(target, progress, put, fresh=fresh), folder, pdf=pdf)
 
 
 def write_page(composed: Composed, folder: Path, *, pdf: bool = False) -> WrittenReport:
@@ -171,6 +177,8 @@ def compose(
     target: str,
     progress: Teller | None = None,
     put: Callable[[Model], Model] | None = None,
+    *,
+    fresh: bool = False,
 ) -> Composed:
     """Find everything that a report says.
 
@@ -193,13 +201,15 @@ def compose(
             raise ModelError(
                 target, "is a comparison, which has no pose of its own.", "Name a machine."
             )
-        title, subtitle, chapters = _paper(pages[target], progress)
+        own = DocumentPage(pages[target])
+        kept = Kept(store_at(own.key, fresh=fresh))
+        title, subtitle, chapters = own.of(kept, progress)
     elif is_machine(target):
-        title, subtitle, chapters, subject = _machine(target, progress, put)
+        title, subtitle, chapters, subject = _machine(target, progress, put, fresh=fresh)
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_report
 
-        title, subtitle, chapters, subject = model_report(Path(target), progress, put)
+        title, subtitle, chapters, subject = model_report(Path(target), progress, put, fresh=fresh)
     else:
         raise ModelError(
             f"report {target}",
@@ -219,32 +229,27 @@ def paper_pages() -> dict[str, str]:
     return {e.paper.key: e.paper.page for e in CATALOGUE.values() if e.paper.page}
 
 
-def _paper(page: str, progress: Teller | None) -> tuple[str, str, tuple[Chapter, ...]]:
-    from strutwork.machines.paper_reference import resolve
-
-    title, subtitle, chapters = resolve(page)(progress)
-    return title, subtitle, chapters
-
-
 def _machine(
-    name: str, progress: Teller | None, put: Callable[[Model], Model] | None
+    name: str, progress: Teller | None, put: Callable[[Model], Model] | None, *, fresh: bool
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """What every machine has, then what its document adds: of one name, the document's.
 
     A model beside the machine's own has what every machine has, where the document has no more.
     """
     from strutwork.machines.load import load
-    from strutwork.machines.paper_reference import resolve
     from strutwork.machines.variants import named_machine
     from strutwork.reports.composed import chapters_beside, report_of
 
     model, found = load(name), named_machine(name)
-    subject = Subject(model if put is None else put(model), name, name, progress)
-    if put is not None:
-        return subject.title, found.entry.topology, report_of(subject), subject
-    if not found.report:
-        beside = f"what is printed stands in the report of {found.entry.name}"
-        return subject.title, f"{found.entry.topology} · {beside}", report_of(subject), subject
+    about = Subject(model if put is None else put(model), name, name, progress)
+    if put is not None or not found.report:
+        subtitle = found.entry.topology
+        if put is None:
+            subtitle += f" · what is printed stands in the report of {found.entry.name}"
+        with answering(about, fresh=fresh) as subject:
+            return subject.title, subtitle, report_of(subject), subject
     asked = name if found.variant.report else found.entry.name
-    title, subtitle, own = resolve(found.report)(asked, progress)
-    return title, subtitle, chapters_beside(own, subject), subject
+    own = DocumentPage(found.report, (asked,))
+    with answering(about, {own.name: own.write}, fresh=fresh) as subject:
+        title, subtitle, written = own.of(subject.source, progress)
+        return title, subtitle, chapters_beside(written, subject), subject

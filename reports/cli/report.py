@@ -13,11 +13,20 @@ from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.manifest import verify_report
 
 
-def run(target: str, out: str | None, json: bool, at: Where = HOME, *, pdf: bool = False) -> None:
+def run(
+    target: str,
+    out: str | None,
+    json: bool,
+    at: Where = HOME,
+    *,
+    pdf: bool = False,
+    fresh: bool = False,
+) -> None:
     """Write the report and say where it lies."""
     folder = Path(out) if out is not None else Path("out") / Path(target).stem.replace(MARK, "-")
     with shown("steps") as started:
-        written = write_report(target, folder, started, None if at.home else at.put, pdf=pdf)
+        put = None if at.home else at.put
+        written = write_report(target, folder, started, put, pdf=pdf, fresh=fresh)
     if json:
         printed_as = {} if written.pdf is None else {"pdf": str(written.pdf)}
         data = [str(p) for p in written.data]

@@ -38,6 +38,10 @@ def report(
             "--pdf", help="Also as report.pdf, printed by an installed browser (extra pdf)."
         ),
     ] = False,
+    fresh: Annotated[
+        bool,
+        typer.Option("--fresh", help="Compute everything anew, whatever earlier runs have kept."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
@@ -45,7 +49,7 @@ def report(
     from strutwork.reports.cli.subject import where
 
     if everything:
-        if target or pose or joint or verify or pdf:
+        if target or pose or joint or verify or pdf or fresh:
             raise typer.BadParameter("--all takes no target, pose or other option but --out.")
         work.run_all(out, json)
         return
@@ -56,4 +60,4 @@ def report(
             raise typer.BadParameter("--verify writes nothing: leave --out and --pdf out.")
         work.verify(target, json)
         return
-    work.run(target, out, json, where(pose, joint), pdf=pdf)
+    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh)
