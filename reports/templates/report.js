@@ -73,6 +73,9 @@
       }
       const modeBarButtons = spec.layout.scene ? solid : flat;
       await Plotly.newPlot(drawing, spec.data, spec.layout, { ...config, modeBarButtons });
+      // each 3-D view would have the same id
+      const view = drawing.querySelector("#scene");
+      if (view) view.id = `${figure.id}-scene`;
       if (spec.motion) swing(figure, drawing, spec.motion);
     } catch (error) {
       drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
