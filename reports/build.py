@@ -81,7 +81,8 @@ def write_report(
         A machine of the catalogue, or a model of it that has a report of its own, the key of a
         paper that has a page of its own, or the path of a model file.
     folder : Path
-        Made when missing. An earlier report in it is replaced, all of it; other files stay.
+        Made when missing. An earlier report on the same target in it is replaced, all of it;
+        other files stay.
     progress : callable, optional
         Given the name of a part of the work, returns what is told how far it is.
     put : callable, optional
@@ -108,13 +109,22 @@ def write_report(
     """
     folder = Path(folder)
     # before minutes of work, and not after them
-    require_ours(folder, (PAGE,))
+    require_ours(folder, (PAGE,), about_of(target))
     if pdf:
         require_browser()
-    return write_page(compose(target, progress, put, fresh=fresh), folder, pdf=pdf)
+    return write_page(
+        compose(target, progress, put, fresh=fresh), folder, about_of(target), pdf=pdf
+    )
 
 
-def write_page(composed: Composed, folder: Path, *, pdf: bool = False) -> WrittenReport:
+def about_of(target: str) -> str:
+    """What a report on a target is on: the name of the machine or paper, or of the file."""
+    return Path(target).name
+
+
+def write_page(
+    composed: Composed, folder: Path, about: str = "", *, pdf: bool = False
+) -> WrittenReport:
     """Write a report that is composed, all of it or nothing.
 
     Its files stand beside the page, once more together in one archive, and in the page itself as
@@ -124,13 +134,16 @@ def write_page(composed: Composed, folder: Path, *, pdf: bool = False) -> Writte
     ----------
     composed : Composed
     folder : Path
+    about : str
+        What it is on: it replaces no report on anything else.
     pdf : bool
         Whether the page is printed as well.
 
     Raises
     ------
     OutputError
-        A folder that cannot be written, or that holds files of the same name and no manifest.
+        A folder that cannot be written, that holds files of the same name and no manifest, or a
+        report on something else.
     """
     names = [file.name for file in composed.files]
     page = with_archive(composed.page) if names else composed.page
@@ -149,7 +162,7 @@ def write_page(composed: Composed, folder: Path, *, pdf: bool = False) -> Writte
     writers[PAGE] = written
     if pdf:
         writers[PDF] = lambda path: print_page(path.with_name(PAGE), path)
-    write_set(folder, writers)
+    write_set(folder, writers, about)
     beside = tuple(folder / name for name in writers if name not in {PAGE, PDF})
     return WrittenReport(folder / PAGE, beside, folder / PDF if pdf else None)
 

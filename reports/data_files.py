@@ -88,7 +88,8 @@ def held(file: DataFile) -> DataFile:
         There is no room for it.
     """
     with TemporaryDirectory() as folder:
-        path = Path(folder) / "file"
+        # some formats go by the name
+        path = Path(folder) / file.name
         file.write(path)
         return replace(file, write=partial(_put, path.read_bytes()))
 

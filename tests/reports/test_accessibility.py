@@ -45,7 +45,9 @@ def test_no_violation_of_wcag(
     assert violations(browser) == []
 
 
-def test_plots_are_turned_and_shifted_by_keys(browser: Browser, model_report: WrittenReport) -> None:
+def test_plots_are_turned_and_shifted_by_keys(
+    browser: Browser, model_report: WrittenReport
+) -> None:
     browser.open(model_report.report, 1400)
     solid, flat = "#cover-softest .drawing", "#budget .drawing"
 
