@@ -1,8 +1,8 @@
 """Answers kept on disk, so that a second report of the same machine asks nothing twice.
 
 They lie in the user's own cache folder, beside the code that Numba compiled, which is run: who can
-write there can run what they like as this user in any case. Files of another owner, or in a folder
-that others may write, are not read.
+write there can run what they like as this user in any case. A folder of another owner, or one that
+is open to others, is not read.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class AnswerStore:
     def read(self, name: str) -> Outcome | None:
         """An answer of an earlier run; None where there is none, or a damaged one."""
         path = self.path(name)
-        if not self.has(name) or not _own(self.folder) or not _own(path):
+        if not self.has(name) or not _private(self.folder):
             return None
         try:
             if path.stat().st_size > LARGEST:
@@ -151,10 +151,11 @@ class AnswerStore:
         whole = _MARK + hashlib.sha256(body).digest() + body
         try:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-            if not _own(self.folder):
+            if not _private(self.folder):
                 note_once(
                     "answers",
-                    f"{self.folder} may be written by others: answers are not kept for later runs.",
+                    f"{self.folder} is open to others: answers are not kept for later runs. Remove "
+                    "it, or close it (chmod 700).",
                 )
                 return False
             write_whole(self.path(name), lambda path: path.write_bytes(whole))
@@ -192,13 +193,12 @@ def make_room(folder: Path, kept: Path, limit: int = ROOM) -> None:
                 left -= sizes[one]
 
 
-def _own(path: Path) -> bool:
-    """Whether a file or folder is this user's, and nobody else may write it."""
+def _private(folder: Path) -> bool:
+    """Whether a folder is this user's, and nobody else gets into it."""
     if not hasattr(os, "getuid"):
         return True
     try:
-        found = path.lstat()
+        found = folder.stat()
     except OSError:
         return False
-    others = found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)
-    return found.st_uid == os.getuid() and not others
+    return found.st_uid == os.getuid() and not found.st_mode & (stat.S_IRWXG | stat.S_IRWXO)

@@ -15,7 +15,7 @@ from strutwork.machines.model_file import read_model
 from strutwork.reports import answering as answering_module
 from strutwork.reports import subject as subject_module
 from strutwork.reports.answer_store import AnswerStore, make_room, model_key
-from strutwork.reports.answering import Kept, answering, questions
+from strutwork.reports.answering import Gathered, Kept, answering, questions
 from strutwork.reports.answers import Outcome, Source, answer
 from strutwork.reports.beside import Beside
 from strutwork.reports.build import compose
@@ -122,8 +122,11 @@ def test_what_is_damaged_or_not_ours_is_not_read(
         monkeypatch.setattr(os, "getuid", lambda: user + 1)
         assert store.read("number") is None
     elif how == "writable":
-        store.folder.chmod(0o777)
+        store.folder.chmod(0o770)
         assert store.read("number") is None
+        monkeypatch.setattr(cache_folder, "_noted", set())
+        with pytest.warns(CacheWarning, match="open to others"):
+            assert not store.write("number", Outcome(42))
     else:
         monkeypatch.setattr("strutwork.reports.answer_store.LARGEST", 3)
         assert store.read("number") is None
@@ -137,6 +140,15 @@ def test_what_cannot_be_kept_is_no_fault(store: AnswerStore, tmp_path: Path) -> 
     (tmp_path / "file").write_text("", encoding="utf-8")
     with warnings.catch_warnings(record=True):
         assert not replace(store, folder=tmp_path / "file").write("number", Outcome(42))
+
+
+def test_answers_are_kept_where_groups_may_write(store: AnswerStore) -> None:
+    before = os.umask(0o002)
+    try:
+        assert store.write("number", Outcome(42))
+    finally:
+        os.umask(before)
+    assert store.read("number") == Outcome(42)
 
 
 def test_answers_asked_for_longest_ago_make_room(tmp_path: Path) -> None:
@@ -173,9 +185,11 @@ def test_processes_answer_beside_and_one_that_dies_is_stood_in_for() -> None:
     groups += [{"last": dies}]
     beside = Beside(groups, 2)
     try:
-        told: list[int] = []
-        first = beside.get("first", lambda: told.append(1))
-        assert first is not None
+        told: list[tuple[int, int]] = []
+        gathered = Gathered(Kept(), beside, lambda done, of: told.append((done, of)))
+        first = gathered.ask("first", os.getpid)
+        assert told
+        assert {of for _, of in told} == {4}
         assert first.value not in {None, parent}
         wrong = beside.get("wrong", lambda: None)
         assert wrong is not None
