@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -152,7 +152,12 @@ def sampled(
     else:
         curve = BPoly.from_derivatives(t, np.stack(given, axis=1), orders=5)
     slopes = (curve, curve.derivative(1), curve.derivative(2))
-    return Trajectory(coordinates, t, lambda at: np.stack([np.asarray(c(at)) for c in slopes]))
+    return Trajectory(coordinates, t, partial(_stacked, slopes))
+
+
+def _stacked(slopes: Sequence[Callable[[Array], Array]], at: Array) -> Array:
+    """Values, rates and second derivatives, (3, p, t)."""
+    return np.stack([np.asarray(c(at)) for c in slopes])
 
 
 def _check_times(t: Array, fewest: int) -> None:

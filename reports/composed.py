@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from strutwork.errors import StrutworkError
 from strutwork.names import visible
 from strutwork.reports.chapters import (
     accuracy,
@@ -145,16 +146,21 @@ def chapters_of(
     Raises
     ------
     StrutworkError
-        The structure moves freely under its loads, or another answer cannot be found.
+        The structure moves freely under its loads, or another answer cannot be found; names the
+        chapter.
     """
     written: list[Chapter] = []
     left: list[tuple[str, str]] = []
     for one in offered:
-        reason = one.missing(subject)
-        if reason:
-            left.append((one.title, reason))
-        else:
-            written.append(replace(one.write(subject), key=one.key, title=one.title))
+        try:
+            reason = one.missing(subject)
+            if reason:
+                left.append((one.title, reason))
+            else:
+                written.append(replace(one.write(subject), key=one.key, title=one.title))
+        except StrutworkError as error:
+            part = f'chapter "{one.title}"' + (f", {error.part}" if error.part else "")
+            raise type(error)(part, error.problem, error.remedy) from error
     return tuple(written), tuple(left)
 
 

@@ -252,9 +252,12 @@ class Page:
     subtitle : str
     chapters : tuple of Chapter
     footer : str
+    made : str
+        Date of the report.
     """
 
     title: str
     subtitle: str
     chapters: tuple[Chapter, ...]
     footer: str
+    made: str = ""

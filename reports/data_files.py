@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -75,6 +77,25 @@ def json_file(name: str, what: str, value: Any) -> DataFile:
 def netcdf_file(name: str, what: str, dataset: xr.Dataset) -> DataFile:
     """A dataset as NetCDF-4."""
     return DataFile(name, what, lambda path: path.write_bytes(netcdf_bytes(dataset)))
+
+
+def held(file: DataFile) -> DataFile:
+    """The same file with its content, which can be passed on to another process.
+
+    Raises
+    ------
+    OSError
+        There is no room for it.
+    """
+    with TemporaryDirectory() as folder:
+        # some formats go by the name
+        path = Path(folder) / file.name
+        file.write(path)
+        return replace(file, write=partial(_put, path.read_bytes()))
+
+
+def _put(content: bytes, path: Path) -> None:
+    path.write_bytes(content)
 
 
 def _entry(name: str, value: Any) -> Any:

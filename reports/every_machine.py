@@ -32,6 +32,8 @@ from strutwork.reports.survey_words import pose_text
 from strutwork.studies.comparison import AXES, TASK, MachineAnswers, machine_answers
 
 TITLE = "All machines side by side"
+#: What the page that compares them is on.
+ALL = "all machines"
 NONE = "–"
 CSV = "comparison.csv"
 
@@ -80,8 +82,9 @@ def write_every_report(folder: Path, progress: Teller | None = None) -> Iterator
         A folder that cannot be written, or that holds files that are not ours.
     """
     names = [*CATALOGUE, *paper_pages()]
-    for place in (folder, *(folder / name for name in names)):
-        require_ours(place, (PAGE,))
+    require_ours(folder, (PAGE,), ALL)
+    for name in names:
+        require_ours(folder / name, (PAGE,), name)
     compared: list[Compared] = []
     failed: dict[str, str] = {}
     links: list[tuple[str, str]] = []
@@ -93,9 +96,9 @@ def write_every_report(folder: Path, progress: Teller | None = None) -> Iterator
         except StrutworkError as error:
             failed[name] = str(error)
             continue
-        yield write_page(composed, folder / name)
+        yield write_page(composed, folder / name, name)
         links.append((f"{name}/{PAGE}", composed.page.title))
-    yield write_page(comparison_page(compared, links, failed), folder)
+    yield write_page(comparison_page(compared, links, failed), folder, ALL)
 
 
 def comparison_page(

@@ -43,15 +43,19 @@ class Manifest:
         By their names, which have no folder.
     complete : bool
         False while the files are being exchanged, and after that was cut short.
+    about : str
+        What the report is on; empty where an earlier version wrote it.
     """
 
     files: Mapping[str, Entry]
     complete: bool = True
+    about: str = ""
 
     def write(self, folder: Path) -> Path:
         """Write it into a folder, whole or not at all."""
         content = {
             "made_by": f"Strutwork {__version__}",
+            "about": self.about,
             "complete": self.complete,
             "files": {
                 name: {"size": entry.size, "sha256": entry.sha256}
@@ -61,9 +65,9 @@ class Manifest:
         return write_text(folder / MANIFEST, json.dumps(content, indent=1) + "\n")
 
 
-def manifest_of(folder: Path, names: Iterable[str]) -> Manifest:
+def manifest_of(folder: Path, names: Iterable[str], about: str = "") -> Manifest:
     """The manifest of files that lie in a folder."""
-    return Manifest({name: _entry(folder / name) for name in names})
+    return Manifest({name: _entry(folder / name) for name in names}, about=about)
 
 
 def read_manifest(folder: Path) -> Manifest | None:
@@ -81,7 +85,7 @@ def read_manifest(folder: Path) -> Manifest | None:
             _plain(name): Entry(int(entry["size"]), str(entry["sha256"]))
             for name, entry in content["files"].items()
         }
-        return Manifest(files, content["complete"] is True)
+        return Manifest(files, content["complete"] is True, str(content.get("about", "")))
     except (FileNotFoundError, NotADirectoryError):
         return None
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:

@@ -8,6 +8,7 @@ from pathlib import Path
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
 from strutwork.names import visible
+from strutwork.reports.answering import answering
 from strutwork.reports.composed import report_of
 from strutwork.reports.content import Chapter
 from strutwork.reports.subject import Subject, Teller
@@ -17,6 +18,8 @@ def model_report(
     path: Path,
     progress: Teller | None = None,
     put: Callable[[Model], Model] | None = None,
+    *,
+    fresh: bool = False,
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """Title, subtitle, chapters and subject of a model file's report.
 
@@ -28,5 +31,6 @@ def model_report(
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
     model = read_model(path) if put is None else put(read_model(path))
-    subject = Subject(model, file, visible(path.stem), progress)
-    return subject.title, subtitle, report_of(subject), subject
+    about = Subject(model, file, visible(path.stem), progress)
+    with answering(about, fresh=fresh) as subject:
+        return subject.title, subtitle, report_of(subject), subject

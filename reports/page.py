@@ -14,6 +14,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
+from strutwork.reports.archive import Carried
 from strutwork.reports.content import Page
 
 HARD_SPACE = "\N{NO-BREAK SPACE}"
@@ -27,8 +28,11 @@ _UNIT = re.compile(
 #: Longest line of a name in a plot, characters.
 LINE = 40
 
+#: Longest title along the edge of a page on paper, characters.
+TITLE = 90
 
-def render(page: Page) -> str:
+
+def render(page: Page, carried: Carried | None = None) -> str:
     """A page as one HTML text that needs no other file and no network.
 
     Text is escaped by the template; scripts, style and plot data are written into the page.
@@ -36,6 +40,8 @@ def render(page: Page) -> str:
     Parameters
     ----------
     page : Page
+    carried : Carried, optional
+        Data that its links lead to where the page stands alone.
 
     Returns
     -------
@@ -46,7 +52,10 @@ def render(page: Page) -> str:
         .get_template("report.html")
         .render(
             page=page,
+            carried=carried or Carried(),
             style=_asset("style.css"),
+            paper=_asset("print.css") + Markup(_edges(page)),  # noqa: S704 - escaped
+            scripts=[_asset("keys.js"), _asset("print.js"), _asset("files.js")],
             script=_asset("report.js"),
             plotly=Markup(_closed(get_plotlyjs())),  # noqa: S704 - the library's own text
         )
@@ -83,6 +92,30 @@ def plain(text: str) -> str:
     """
     lines = textwrap.wrap(text, LINE, drop_whitespace=False) if len(text) > LINE else [text]
     return "<br>".join(escape(line, quote=False).replace("%{", "%&#123;") for line in lines)
+
+
+def css_string(text: str) -> str:
+    r"""A string of CSS that may stand inside a style element whatever it holds.
+
+    >>> css_string('a</style>')
+    '"a\\3c \\2f style\\3e "'
+    """
+    shown = (c if c.isalnum() or c in " .,:-" else f"\\{ord(c):x} " for c in text)
+    return f'"{"".join(shown)}"'
+
+
+def _edges(page: Page) -> str:
+    """What stands along the edges of each page on paper: machine, date, number."""
+    look = "font: 8pt system-ui, sans-serif; color: #55606e"
+    title = page.title if len(page.title) <= TITLE else page.title[: TITLE - 1] + "…"
+    # the cover has its own title
+    return (
+        f"@page {{ @top-left {{ content: {css_string(title)}; {look}; width: 75%; }} "
+        f"@top-right {{ content: {css_string(page.made)}; {look}; }} "
+        f'@bottom-right {{ content: "Page " counter(page) " of " counter(pages); {look}; }} '
+        f"@bottom-left {{ content: {css_string('Strutwork report')}; {look}; }} }} "
+        '@page :first { @top-left { content: ""; } }'
+    )
 
 
 @cache

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from strutwork.errors import OutputError
 from strutwork.files import write_error
+from strutwork.names import visible
 from strutwork.reports.manifest import MANIFEST, Manifest, manifest_of, read_manifest
 from strutwork.staging import clean, staging, sync
 
@@ -20,8 +21,16 @@ from strutwork.staging import clean, staging, sync
 PAGE = "report.html"
 
 
-def require_ours(folder: Path, names: Iterable[str]) -> Manifest:
-    """Refuse a folder in which files would be replaced that no report of ours wrote.
+def require_ours(folder: Path, names: Iterable[str], about: str = "") -> Manifest:
+    """Refuse a folder in which files would be replaced that no report on the same subject wrote.
+
+    Parameters
+    ----------
+    folder : Path
+    names : iterable of str
+        Files that would be written.
+    about : str
+        What the new report is on; empty: whatever the earlier one was on.
 
     Returns
     -------
@@ -33,13 +42,20 @@ def require_ours(folder: Path, names: Iterable[str]) -> Manifest:
     ModelError
         A damaged manifest.
     OutputError
-        Not a folder, or files of these names that the manifest does not name.
+        Not a folder, files of these names that the manifest does not name, or a report on
+        something else.
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(
             str(folder), "cannot be written (it is no folder).", "Choose the name of a folder."
         )
     found = read_manifest(folder) or Manifest({})
+    if about and found.about and found.about != about:
+        raise OutputError(
+            str(folder),
+            f'holds the report on "{visible(found.about)}", and this one is on "{visible(about)}".',
+            "Choose another folder, or remove that report.",
+        )
     foreign = [
         name
         for name in names
@@ -55,7 +71,9 @@ def require_ours(folder: Path, names: Iterable[str]) -> Manifest:
     return found
 
 
-def write_set(folder: Path, writers: Mapping[str, Callable[[Path], object]]) -> None:
+def write_set(
+    folder: Path, writers: Mapping[str, Callable[[Path], object]], about: str = ""
+) -> None:
     """Write files, their manifest and the page into a folder.
 
     Parameters
@@ -63,7 +81,9 @@ def write_set(folder: Path, writers: Mapping[str, Callable[[Path], object]]) -> 
     folder : Path
         Made when missing. What its manifest names and `writers` does not is removed.
     writers : mapping of str to callable
-        What writes each file, by its name; the page is among them.
+        What writes each file, by its name; the page is among them. They write in this order.
+    about : str
+        What the report is on: it replaces no report on anything else.
 
     Raises
     ------
@@ -73,7 +93,7 @@ def write_set(folder: Path, writers: Mapping[str, Callable[[Path], object]]) -> 
     """
     try:
         place = folder.resolve()
-        old = require_ours(place, writers)
+        old = require_ours(place, writers, about)
         new = not place.exists()
         if new:
             place.parent.mkdir(parents=True, exist_ok=True)
@@ -87,7 +107,7 @@ def write_set(folder: Path, writers: Mapping[str, Callable[[Path], object]]) -> 
             for name, write in writers.items():
                 write(staged / name)
                 sync(staged / name)
-            manifest = manifest_of(staged, writers)
+            manifest = manifest_of(staged, writers, about)
             if new:
                 manifest.write(staged)
                 sync(staged)
@@ -103,7 +123,7 @@ def _exchange(staged: Path, folder: Path, old: Manifest, new: Manifest) -> None:
     (folder / PAGE).unlink(missing_ok=True)
     sync(folder)
     # names all that may lie there from here on, so that the next run knows them as ours
-    Manifest({**old.files, **new.files}, complete=False).write(folder)
+    Manifest({**old.files, **new.files}, complete=False, about=new.about).write(folder)
     for name in old.files:
         if name not in new.files:
             _remove(folder / name)

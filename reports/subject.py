@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -22,6 +22,7 @@ from strutwork.kinematics.task_surfaces import Plane
 from strutwork.machines.model import Model
 from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
 from strutwork.names import visible
+from strutwork.reports.answers import Source, answer
 from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
 from strutwork.reports.model_check import ModelCheck, check_model
 from strutwork.reports.model_damping import model_damping
@@ -72,12 +73,15 @@ class Subject:
         For a title, where the model has none.
     progress : callable, optional
         Given the name of a part of the work, returns what is told how far it is.
+    source : Source, optional
+        Where its answers come from; without one each is found where it is asked for.
     """
 
     model: Model
     name: str
     stem: str
     progress: Teller | None = None
+    source: Source | None = field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:
         return f"<Subject {self.name}: {self.model!r}>"
@@ -87,18 +91,18 @@ class Subject:
         """Of the page."""
         return visible(self.model.title or self.stem, lines=True)
 
-    @cached_property
+    @answer
     def check(self) -> ModelCheck:
         """Mobility, redundancy, mass."""
         return check_model(self.model)
 
-    @cached_property
+    @answer
     def solution(self) -> ModelSolution | None:
         """Load cases and the tool at home; None where there is neither."""
         asked = self.model.cases or self.model.tool is not None
         return solve_model(self.model) if asked else None
 
-    @cached_property
+    @answer
     def tolerances(self) -> ModelTolerances:
         """Assembly forces at home."""
         return study_model_tolerances(self.model)
@@ -108,7 +112,7 @@ class Subject:
         """Whether it has mass and damping."""
         return self.model.damping is not None and has_mass(self.model)
 
-    @cached_property
+    @answer
     def vibration(self) -> VibrationStudy:
         """Modes and responses at home."""
         return study_model_vibration(self.model, "vibration")
@@ -135,7 +139,7 @@ class Subject:
             return "the file names no poses to look at: add [workspace] with ranges of the tool"
         return self._reason(lambda: self.stiffness_survey)
 
-    @cached_property
+    @answer
     def stiffness_survey(self) -> xr.Dataset:
         """Static stiffness over the workspace."""
         return survey(
@@ -150,7 +154,7 @@ class Subject:
         """Its damping, dashpots of joints among it; None where none of the whole is given."""
         return None if self.model.damping is None else model_damping(self.model)
 
-    @cached_property
+    @answer
     def vibration_survey(self) -> xr.Dataset:
         """Frequencies and least dynamic stiffness over the workspace, under its preload."""
         model, damping = self.model, self.damping
@@ -163,7 +167,7 @@ class Subject:
             self.model, self.grid, [answer], progress=self._told("vibration over the workspace")
         )
 
-    @cached_property
+    @answer
     def assembly_survey(self) -> xr.Dataset:
         """Worst case of assembly forces over the workspace."""
         return survey(
@@ -178,7 +182,7 @@ class Subject:
         """What displaces its tool: tolerances, and half the resolution of its drives."""
         return VolumetricAccuracy(self.model.tolerances, drive_errors(self.model))
 
-    @cached_property
+    @answer
     def accuracy_survey(self) -> xr.Dataset:
         """Displacement of the tool over the workspace."""
         return survey(
@@ -193,12 +197,12 @@ class Subject:
         """Why singularities are not looked for; empty where they are."""
         return self._reason(lambda: (self.singular_distance, self.singular_plane))
 
-    @cached_property
+    @answer
     def singular_distance(self) -> PoseDistance:
         """Distance from singularities at home."""
         return pose_distance(self.model)
 
-    @cached_property
+    @answer
     def singular_plane(self) -> SingularPlane | None:
         """Singular poses over two directions of the workspace; None without them.
 
@@ -234,7 +238,7 @@ class Subject:
         """Why its workspace has no size; empty where it has one."""
         return self._reason(lambda: self.workspace)
 
-    @cached_property
+    @answer
     def workspace(self) -> Workspace:
         """All poses that it reaches about those of its stated workspace, up to three directions.
 
@@ -263,7 +267,7 @@ class Subject:
         margin = MachineMargin(self.model, tuple(axes), step, interference=safe)
         return margin, axes
 
-    @cached_property
+    @answer
     def largest_box(self) -> LargestShape | None:
         """The largest box about home in the workspace, as long and wide as what is looked over.
 
@@ -290,7 +294,7 @@ class Subject:
         """Why nothing is said of assembly modes; empty where something is."""
         return self._reason(lambda: self.modes)
 
-    @cached_property
+    @answer
     def modes(self) -> MachineModes:
         """Its assembly modes at home."""
         return machine_modes(self.model)
@@ -300,7 +304,7 @@ class Subject:
         """Why nothing is said of its dynamics; empty where something is."""
         return self._reason(lambda: self.standard_motion)
 
-    @cached_property
+    @answer
     def standard_motion(self) -> StandardMotion:
         """What its weight and a standard circle ask of its drives."""
         return standard_motion(self.model, self.grid, self._told("dynamics"))
@@ -318,7 +322,7 @@ class Subject:
         """Why nothing is said of reversals; empty where something is."""
         return self._reason(lambda: self.reversals)
 
-    @cached_property
+    @answer
     def reversals(self) -> ReversalStudy:
         """Where its drives turn back over that plane, fed along its first direction.
 

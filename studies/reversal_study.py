@@ -121,6 +121,9 @@ def reversal_study(
         raise UnreachableError(
             error.part, f"{error.problem.rstrip('.')}; in its middle: {why}.", error.remedy
         ) from error
+    # a range that the placements do not give ends the study before its long part
+    placed = check_limits(model.limits, field.placements(found.patch.points)[0])
+    outside = np.count_nonzero(~placed.reachable.reshape(found.reachable.shape) & found.reachable)
     tell(1)
     _ = found.singular
     tell(2)
@@ -132,8 +135,6 @@ def reversal_study(
     middle = (len(axes[0]) // 2, len(axes[1]) // 2)
     seen = found.reach(middle)
     reachable = np.count_nonzero(found.reachable)
-    placed = check_limits(model.limits, field.placements(found.patch.points)[0])
-    outside = np.count_nonzero(~placed.reachable.reshape(found.reachable.shape) & found.reachable)
     tell(5)
     return ReversalStudy(
         found,

@@ -13,16 +13,29 @@ from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.manifest import verify_report
 
 
-def run(target: str, out: str | None, json: bool, at: Where = HOME) -> None:
+def run(
+    target: str,
+    out: str | None,
+    json: bool,
+    at: Where = HOME,
+    *,
+    pdf: bool = False,
+    fresh: bool = False,
+) -> None:
     """Write the report and say where it lies."""
     folder = Path(out) if out is not None else Path("out") / Path(target).stem.replace(MARK, "-")
     with shown("steps") as started:
-        written = write_report(target, folder, started, None if at.home else at.put)
+        put = None if at.home else at.put
+        written = write_report(target, folder, started, put, pdf=pdf, fresh=fresh)
     if json:
-        print_json({"report": str(written.report), "data": [str(p) for p in written.data]})
+        printed_as = {} if written.pdf is None else {"pdf": str(written.pdf)}
+        data = [str(p) for p in written.data]
+        print_json({"report": str(written.report), "data": data, **printed_as})
         return
     printed = console()
     printed.print(f"Report: {visible(str(written.report))}", markup=False, soft_wrap=True)
+    if written.pdf is not None:
+        printed.print(f"Printed: {visible(str(written.pdf))}", markup=False, soft_wrap=True)
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)
 
 

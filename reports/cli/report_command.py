@@ -32,6 +32,16 @@ def report(
         bool,
         typer.Option("--verify", help="Compare the report in the folder TARGET with its manifest."),
     ] = False,
+    pdf: Annotated[
+        bool,
+        typer.Option(
+            "--pdf", help="Also as report.pdf, printed by an installed browser (extra pdf)."
+        ),
+    ] = False,
+    fresh: Annotated[
+        bool,
+        typer.Option("--fresh", help="Compute everything anew, whatever earlier runs have kept."),
+    ] = False,
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
@@ -39,15 +49,15 @@ def report(
     from strutwork.reports.cli.subject import where
 
     if everything:
-        if target or pose or joint or verify:
+        if target or pose or joint or verify or pdf or fresh:
             raise typer.BadParameter("--all takes no target, pose or other option but --out.")
         work.run_all(out, json)
         return
     if not target:
         raise typer.BadParameter("Name a machine, a paper or a file, or give --all.")
     if verify:
-        if out is not None:
-            raise typer.BadParameter("--verify writes nothing: leave --out out.")
+        if out is not None or pdf:
+            raise typer.BadParameter("--verify writes nothing: leave --out and --pdf out.")
         work.verify(target, json)
         return
-    work.run(target, out, json, where(pose, joint))
+    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh)

@@ -6,18 +6,6 @@
     displayModeBar: "hover",
     toImageButtonOptions: { format: "png", scale: 2 },
   };
-  // printers do not draw WebGL: a picture of each 3-D view stands in for it on paper
-  const photograph = async (drawing) => {
-    const url = await Plotly.toImage(drawing, { format: "png", width: 1000, height: 700 });
-    let picture = drawing.parentElement.querySelector(".print");
-    if (!picture) {
-      picture = document.createElement("img");
-      picture.className = "print";
-      picture.alt = drawing.getAttribute("aria-label");
-      drawing.after(picture);
-    }
-    picture.src = url;
-  };
   const flat = [["toImage"], ["zoom2d", "pan2d", "resetScale2d"]];
   const solid = [["toImage"], ["orbitRotation", "zoom3d", "pan3d", "resetCameraDefault3d"]];
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
@@ -60,10 +48,9 @@
         stop();
       }
     });
-    const chosen = async () => {
+    const chosen = () => {
       if (before === null) phase = Math.PI / 2;
-      await show();
-      if (before === null) photograph(drawing);
+      return show();
     };
     choice.addEventListener("change", chosen);
     reach.addEventListener("change", chosen);
@@ -86,37 +73,31 @@
       }
       const modeBarButtons = spec.layout.scene ? solid : flat;
       await Plotly.newPlot(drawing, spec.data, spec.layout, { ...config, modeBarButtons });
+      // each 3-D view would have the same id
+      const view = drawing.querySelector("#scene");
+      if (view) view.id = `${figure.id}-scene`;
       if (spec.motion) swing(figure, drawing, spec.motion);
-      if (spec.layout.scene) {
-        drawing.classList.add("solid");
-        return drawing;
-      }
     } catch (error) {
       drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
       failures.push(figure.id);
       console.error(`figure ${figure.id}:`, error);
     }
-    return null;
   };
   // a folded chapter has no room to draw in: its plots wait until somebody opens it
   const started = new Set();
   let work = Promise.resolve();
   const drawOpen = () => {
+    // pictures stand in for them on paper
+    if (state.paper) return work;
     const figures = [...document.querySelectorAll("figure.plot")].filter(
       (figure) => !started.has(figure) && !figure.closest("details:not([open])"),
     );
     figures.forEach((figure) => started.add(figure));
     work = work.then(async () => {
-      const solids = [];
-      for (const figure of figures) solids.push(await draw(figure));
+      for (const figure of figures) await draw(figure);
       const all = document.querySelectorAll("figure.plot").length === started.size;
       const done = all ? "drawn" : "drawn, folded ones apart";
       state.plots = failures.length ? `failed: ${failures}` : done;
-      for (const drawing of solids.filter((one) => one !== null)) {
-        await new Promise((resolve) => setTimeout(resolve, 200));
-        await photograph(drawing);
-        drawing.on("plotly_relayout", () => photograph(drawing));
-      }
     });
     return work;
   };
@@ -128,7 +109,6 @@
     for (const chapter of chapters) chapter.open = true;
   };
   document.querySelector(".unfold button")?.addEventListener("click", unfold);
-  window.addEventListener("beforeprint", unfold);
   // a link into a folded chapter opens it
   const arrive = () => {
     const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));

@@ -63,6 +63,16 @@ def test_models_of_a_machine_have_reports(
     assert strutwork("report", page.parent, "--verify").status == 0
 
 
+def test_a_report_on_another_machine_is_not_replaced(strutwork: Program, tmp_path: Path) -> None:
+    folder = tmp_path / "out"
+    assert strutwork("report", EXAMPLES[0], "-o", folder).status == 0
+    run = strutwork("report", EXAMPLES[3], "-o", folder, "--json")
+    assert run.status == 3
+    assert f'"{EXAMPLES[0].name}"' in run.err
+    assert strutwork("report", folder, "--verify").status == 0
+    assert strutwork("report", EXAMPLES[0], "-o", folder, "--fresh").status == 0
+
+
 def test_nothing_is_written_for_a_wrong_target(
     strutwork: Program, write: Callable[[Content], Path], tmp_path: Path
 ) -> None:

@@ -76,6 +76,27 @@ def test_files_that_no_manifest_names_are_not_replaced(tmp_path: Path) -> None:
     assert lying(tmp_path) == {"a.csv": "mine"}
 
 
+def test_a_report_on_something_else_is_not_replaced(tmp_path: Path) -> None:
+    folder = tmp_path / "r"
+
+    def write(about: str, content: str) -> None:
+        write_set(folder, {PAGE: lambda path: path.write_text(content)}, about)
+
+    write("6-ups.toml", "first")
+    with pytest.raises(OutputError, match=r'"6-ups\.toml", and this one is on "mit-ss1"') as caught:
+        write("mit-ss1", "second")
+    assert "another folder" in caught.value.remedy
+    assert lying(folder) == {PAGE: "first"}
+    write("6-ups.toml", "again")
+    assert lying(folder) == {PAGE: "again"}
+    # of a report that an earlier version wrote nobody knows what it is on
+    manifest = json.loads((folder / MANIFEST).read_text())
+    del manifest["about"]
+    (folder / MANIFEST).write_text(json.dumps(manifest))
+    write("mit-ss1", "second")
+    assert lying(folder) == {PAGE: "second"}
+
+
 def test_the_current_folder_and_a_link(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     real, link = tmp_path / "real", tmp_path / "link"
     real.mkdir()
