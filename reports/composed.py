@@ -12,6 +12,7 @@ from strutwork.reports.chapters import (
     assembly_modes,
     dynamics,
     ellipsoids,
+    inputs,
     motion,
     reversals,
     singularities,
@@ -134,6 +135,7 @@ CHAPTERS: tuple[Offered, ...] = (
     _module(workspace_assembly),
     _module(accuracy),
     _module(dynamics),
+    _module(inputs),
 )
 
 

@@ -28,5 +28,5 @@ def model_report(
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
     model = read_model(path) if put is None else put(read_model(path))
-    subject = Subject(model, file, visible(path.stem), progress)
+    subject = Subject(model, file, visible(path.stem), progress, path)
     return subject.title, subtitle, report_of(subject), subject

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -72,12 +73,15 @@ class Subject:
         For a title, where the model has none.
     progress : callable, optional
         Given the name of a part of the work, returns what is told how far it is.
+    source : Path, optional
+        The model file that it was read from.
     """
 
     model: Model
     name: str
     stem: str
     progress: Teller | None = None
+    source: Path | None = None
 
     def __repr__(self) -> str:
         return f"<Subject {self.name}: {self.model!r}>"
