@@ -34,18 +34,19 @@ def label(names: Sequence[str]) -> str:
 def word(names: Sequence[str]) -> str:
     """What names alike have in common, as several: `mounts` for mount 1 to mount 12.
 
-    Empty where they have no word in common.
+    Empty where they have no word before their number in common.
 
     >>> word(["mount 1", "mount 2"]), word(["leg1/slide", "leg2/slide"]), word(["1", "2"])
-    ('mounts', 'leg slides', '')
+    ('mounts', 'slide of the legs', '')
     """
     if len(names) < 2 or len({pattern(name) for name in names}) > 1:
         return ""
-    words = re.sub(r"[\W\d_]+", " ", names[0]).split()
-    if not words:
+    before, *rest = re.split(r"\d+", names[0])
+    stem, after = (re.sub(r"[\W_]+", " ", part).strip() for part in (before, "#".join(rest)))
+    if not stem:
         return ""
-    last = words[-1]
-    return " ".join([*words[:-1], last if last.endswith("s") else f"{last}s"])
+    several = stem if stem.endswith("s") else f"{stem}s"
+    return f"{after} of the {several}" if after else several
 
 
 @dataclass(frozen=True)

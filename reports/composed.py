@@ -25,8 +25,9 @@ from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.chapters.cover import answers_by_chapter, cover_blocks
 from strutwork.reports.chapters.model import check_chapter, structure_chapter, summary_chapter
 from strutwork.reports.chapters.model_loads import forces_chapter, loads_chapter
-from strutwork.reports.chapters.model_tool import budget_chapter, tool_chapter
+from strutwork.reports.chapters.model_tool import tool_chapter
 from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
+from strutwork.reports.chapters.part_budget import budget_chapter
 from strutwork.reports.chapters.vibration import vibration_chapter
 from strutwork.reports.content import Answers, Block, Chapter, Links, Points, Text
 from strutwork.reports.data_files import DataFile
@@ -226,7 +227,7 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
         # how many nodes and freedoms it has stands in the back
         plain = summary_chapter(subject.model, subject.check, subject.solution)
         written = tuple(
-            replace(c, blocks=(*plain.blocks, *c.blocks)) if c.key == "check" else c
+            replace(c, blocks=(*plain.blocks[:1], *c.blocks)) if c.key == "check" else c
             for c in written
         )
     chapters = (first, *_answered(written, first.blocks))

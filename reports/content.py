@@ -201,6 +201,22 @@ class Row:
 
 
 @dataclass(frozen=True)
+class Details:
+    """Tables and text that open within a chapter: what few readers want, folded.
+
+    Parameters
+    ----------
+    summary : str
+        What is inside, in a few words.
+    items : tuple of Table or Text
+    """
+
+    summary: str
+    items: tuple[Table | Text, ...]
+    kind: ClassVar[str] = "details"
+
+
+@dataclass(frozen=True)
 class Links:
     """Files beside the report, each with what it holds."""
 
@@ -216,7 +232,7 @@ class Points:
     kind: ClassVar[str] = "points"
 
 
-Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Links
+Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Details | Links
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -27,6 +26,7 @@ from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.figures.theme import AXIS_COLOURS
 from strutwork.reports.figures.vibration import drawn_amplitude, mode_lines, mode_view, responses
 from strutwork.reports.numbers import count, micro, percent, significant
+from strutwork.reports.part_groups import part_groups, titles
 from strutwork.reports.vibration_study import AXES, VibrationStudy
 from strutwork.studies.dynamic import GRID_STEP
 
@@ -105,14 +105,14 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
 
 
 def bends(study: VibrationStudy, mode: int) -> str:
-    """The kinds of parts that hold most of a mode's strain energy, equal legs together."""
-    shares: dict[str, float] = {}
-    for name, share in zip(study.modes.energy_parts, study.modes.energy_shares[mode], strict=True):
-        word, _, part = name.partition(" ")
-        kind = re.sub(r"^leg\d+/", "", part) + ("" if word == "beam" else f" {word}")
-        shares[kind] = shares.get(kind, 0.0) + 100.0 * float(share)
-    ordered = sorted(shares.items(), key=lambda item: -item[1])[:NAMED]
-    named = [f"{kind} {share:.0f} %" for kind, share in ordered if share >= LEAST_SHARE]
+    """The parts that hold most of a mode's strain energy, parts alike together."""
+    energies = zip(study.modes.energy_parts, study.modes.energy_shares[mode], strict=True)
+    groups = part_groups({name: 100.0 * float(share) for name, share in energies})
+    named = [
+        f"{title} {group.share:.0f}\N{NO-BREAK SPACE}%"
+        for title, group in list(zip(titles(groups), groups, strict=True))[:NAMED]
+        if group.share >= LEAST_SHARE
+    ]
     return ", ".join(named) or "nothing: it moves as a rigid body"
 
 

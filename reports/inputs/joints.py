@@ -9,11 +9,9 @@ import numpy as np
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.joint import Joint, State
 from strutwork.machines.model import Model
+from strutwork.reports.axis_words import axis_words
 from strutwork.reports.content import Column
-from strutwork.reports.inputs.echo import NONE, Echo, number, vector
-
-#: An axis along one of the machine's own is named by it.
-ALONG = 1.0 - 1e-9
+from strutwork.reports.inputs.echo import NONE, Echo, number
 
 _ALL = "all"
 
@@ -117,20 +115,6 @@ def drives(model: Model) -> Echo:
         exact[drive.joint] = [drive.direction, drive.speed, drive.force, drive.resolution]
     heads = ("drive", "direction", "speed_SI", "force_SI", "resolution_SI")
     return Echo("drives", "Limits of the drives", columns, shown, heads, exact)
-
-
-def axis_words(axis: np.ndarray) -> str:  # type: ignore[type-arg]
-    """An axis in the machine's frame, by name where it is one of its own.
-
-    >>> axis_words(np.array([0.0, -1.0, 0.0])) == f"{chr(0x2212)}y"
-    True
-    >>> axis_words(np.array([0.6, 0.0, 0.8]))
-    '0.6, 0, 0.8'
-    """
-    most = int(np.argmax(np.abs(axis)))
-    if abs(axis[most]) >= ALONG:
-        return f"{'' if axis[most] > 0 else chr(0x2212)}{'xyz'[most]}"
-    return vector([float(v) for v in np.round(axis, 3)])
 
 
 def by_direction(values: object, slide: float, turn: float) -> str:

@@ -120,7 +120,8 @@
     });
     return work;
   };
-  const chapters = [...document.querySelectorAll("main details")];
+  // details within a chapter hold tables alone, and stay as the reader left them
+  const chapters = [...document.querySelectorAll("main > section > details")];
   for (const chapter of chapters) {
     chapter.addEventListener("toggle", () => chapter.open && drawOpen());
   }
