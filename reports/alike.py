@@ -43,7 +43,8 @@ def word(names: Sequence[str]) -> str:
         return ""
     before, *rest = re.split(r"\d+", names[0])
     stem, after = (re.sub(r"[\W_]+", " ", part).strip() for part in (before, "#".join(rest)))
-    if not stem:
+    # a letter is no word
+    if len(stem) < 3:
         return ""
     several = stem if stem.endswith("s") else f"{stem}s"
     return f"{after} of the {several}" if after else several

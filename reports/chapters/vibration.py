@@ -29,6 +29,7 @@ from strutwork.reports.equal_axes import equal_axes
 from strutwork.reports.figures.response_parts import response_parts
 from strutwork.reports.figures.theme import AXIS_COLOURS
 from strutwork.reports.figures.vibration import drawn_amplitude, mode_lines, mode_view
+from strutwork.reports.mode_words import moves
 from strutwork.reports.numbers import count, micro, percent, significant
 from strutwork.reports.part_groups import part_groups, titles
 from strutwork.reports.vibration_study import AXES, VibrationStudy
@@ -90,7 +91,8 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
         damping = "none given"
         if ratios is not None:
             damping = f"{100 * ratios[i]:.3g} %" if np.isfinite(ratios[i]) else "withheld"
-        rows.append([str(i + 1), significant(float(frequency), 4), damping, bends(study, i)])
+        number = significant(float(frequency), 4)
+        rows.append([str(i + 1), number, damping, moves(study, i), bends(study, i)])
     rigid = int(modes.rigid_body_modes)
     text = caption or "Natural frequencies"
     if rigid:
@@ -101,6 +103,7 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
             Column("mode", "", False),
             Column("frequency", "Hz"),
             Column("equivalent damping ratio"),
+            Column("what moves most", "", False),
             Column("what bends: largest shares of the strain energy", "", False),
         ),
         rows,
@@ -123,13 +126,13 @@ def bends(study: VibrationStudy, mode: int) -> str:
 def mode_figure(study: VibrationStudy, height: int = 560) -> Figure:
     """Mode shapes, swinging at a button."""
     labels = [
-        f"Mode {i + 1}, {significant(float(f), 4)} Hz"
+        f"Mode {i + 1}, {significant(float(f), 4)} Hz: {moves(study, i)}".removesuffix(": ")
         for i, f in enumerate(study.modes.frequencies)
     ]
     return Figure(
         f"modes-{study.key}",
-        f"{study.title}: mode shapes, grey at rest, yellow where a mode moves "
-        "most; the largest motion drawn as "
+        f"{study.title}: mode shapes, grey at rest, coloured by how far each "
+        "part moves; the largest motion drawn as "
         f"{significant(1e3 * drawn_amplitude(study), 2)} mm. Choose a mode and press the button.",
         mode_view(study, labels),
         f"Three-dimensional drawing of the mode shapes of {study.title}.",
