@@ -81,6 +81,12 @@ class Column:
     group: str = ""
     width: Literal["", "wide", "narrow"] = ""
 
+    @property
+    def label(self) -> str:
+        """All of its heading in one line, for a cell that stands by itself."""
+        words = ", ".join(part for part in (self.group, self.title) if part)
+        return f"{words} ({self.unit})" if self.unit and words else words or self.unit
+
 
 @dataclass(frozen=True)
 class Cell:

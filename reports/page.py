@@ -15,6 +15,7 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from strutwork.reports.content import Page
+from strutwork.reports.formulas import typeset
 
 HARD_SPACE = "\N{NO-BREAK SPACE}"
 
@@ -95,7 +96,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["embedded"] = embedded
-    environment.filters["unbroken"] = unbroken
+    environment.filters["unbroken"] = typeset(unbroken)
     return environment
 
 

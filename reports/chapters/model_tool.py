@@ -13,15 +13,15 @@ from strutwork.msa import (
     axis_stiffness_free,
     stiffness_ellipsoid,
 )
-from strutwork.reports.content import Block, Chapter, Column, Note, Table, Text
+from strutwork.reports.content import Block, Chapter, Column, Details, Note, Table, Text
 from strutwork.reports.data_files import json_file
 from strutwork.reports.model_solution import ModelSolution
 from strutwork.reports.numbers import clean, matrix_without_rounding, significant
 
 Array = NDArray[Any]
 
-FREE = "1/C_ii, other directions free"
-BLOCKED = "(C⁻¹)_ii, other directions blocked"
+FREE = "other directions follow, 1/C_ii"
+BLOCKED = "other directions blocked, (C⁻¹)_ii"
 
 
 def tool_chapter(solution: ModelSolution) -> Chapter:
@@ -39,8 +39,10 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         rows.append([direction, unit, *values])
     blocks: list[Block] = [
         Text(
-            f"At node “{solution.model.tool}”, global axes, drives held. Along an axis stiffness "
-            "has two meanings: with the five others free to follow, and with them blocked."
+            f"At the tool centre point {solution.model.tool}, in global axes, with the drives "
+            "held. Stiffness along an axis means a force over the displacement along it while the "
+            "five other directions are free to follow; beside it stands the stiffness with them "
+            "blocked, which is never less."
         ),
         Table(
             "Stiffness along each axis",
@@ -56,11 +58,10 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
                 "following."
             )
         )
+    matrices = [_matrix("Compliance matrix, m/N, 1/N and rad/(N·m)", compliance)]
     if stiffness is not None:
-        blocks.append(
-            _matrix("Stiffness matrix, N/m, N and N·m/rad (force then moment)", stiffness)
-        )
-    blocks.append(_matrix("Compliance matrix, m/N, 1/N and rad/(N·m)", compliance))
+        title = "Stiffness matrix, N/m, N and N·m/rad (force then moment)"
+        matrices.insert(0, _matrix(title, stiffness))
     ellipsoid = stiffness_ellipsoid(compliance, "free")
     principal = [
         [significant(v / 1e6, 4), clean(ellipsoid.directions[:, i].tolist())]
@@ -74,6 +75,7 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
             "tool.json",
         )
     )
+    blocks.append(Details("The whole stiffness and compliance matrices", tuple(matrices)))
     content = {
         "tool": solution.model.tool,
         "compliance": compliance.tolist(),
