@@ -122,7 +122,7 @@ def titles(groups: tuple[PartGroup, ...]) -> tuple[str, ...]:
     found = []
     for group, title in zip(groups, plain, strict=True):
         kind = KINDS.get(group.kind, ("part", "parts"))[len(group.members) > 1]
-        found.append(f"{title}, {kind}" if plain.count(title) > 1 else title)
+        found.append(f"{kind} {title}" if plain.count(title) > 1 else title)
     return tuple(found)
 
 

@@ -123,7 +123,7 @@
     return work;
   };
   // details within a chapter hold tables alone, and stay as the reader left them
-  const chapters = [...document.querySelectorAll("main > section > details")];
+  const chapters = [...document.querySelectorAll("main > section > details:not(.more)")];
   for (const chapter of chapters) {
     chapter.addEventListener("toggle", () => chapter.open && drawOpen());
   }
