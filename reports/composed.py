@@ -37,8 +37,9 @@ from strutwork.reports.subject import Subject
 COVER = "cover"
 COVER_TEXT = (
     "The machine as it stands at home, each answer with the chapter that says more. What its "
-    "document prints stands beside ours further down. Where the document leaves a dimension open "
-    "it is calibrated or chosen by us, and these answers depend on it: the assumptions name each."
+    "document prints stands beside the computed values further down. Where the document leaves a "
+    "dimension "
+    "open it is calibrated or assumed, and these answers depend on it: the assumptions name each."
 )
 
 NO_TOOL = "it has no tool: add [tool] with tcp"

@@ -75,7 +75,7 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
             "tool.json",
         )
     )
-    blocks.append(Details("The whole stiffness and compliance matrices", tuple(matrices)))
+    blocks.append(Details("The complete stiffness and compliance matrices", tuple(matrices)))
     content = {
         "tool": solution.model.tool,
         "compliance": compliance.tolist(),

@@ -100,8 +100,8 @@ def _damped(model: Model) -> Iterator[str]:
     lossy_names = [name for name, m in used_materials(model).items() if m.loss_factor]
     if lossy_names:
         yield (
-            f"The loss factor of {_some(lossy_names)} is not used: the damping of the whole "
-            "machine contains it."
+            f"The loss factor of {_some(lossy_names)} is not used: the damping of the "
+            "structure contains it."
         )
 
 

@@ -174,7 +174,7 @@ def test_what_is_not_published_is_said(planar_report: WrittenReport) -> None:
     assert "not at hand" in section
     assert "our reading" in re.findall(r'<section id="designs".*?</section>', text, re.DOTALL)[0]
     assumptions = re.findall(r'<section id="assumptions".*?</section>', text, re.DOTALL)[0]
-    for words in ("Static rating", "calibrated", "section 6.6", "our choice"):
+    for words in ("Static rating", "calibrated", "section 6.6", "assumed"):
         assert words in assumptions
 
 
