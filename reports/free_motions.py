@@ -52,9 +52,9 @@ def joint_words(motion: FreeMotion) -> str:
     return "; ".join(f"{g.label} in {g.cells[0]}" for g in found)
 
 
-def _within(span: np.ndarray, direction: np.ndarray) -> bool:  # type: ignore[type-arg]
+def _within(span: np.ndarray, direction: np.ndarray) -> bool:
     return bool(np.linalg.norm(span @ direction) > 1.0 - 1e-9)
 
 
-def _takes_part(span: np.ndarray, direction: str) -> bool:  # type: ignore[type-arg]
+def _takes_part(span: np.ndarray, direction: str) -> bool:
     return bool(np.abs(span[:, DIRECTIONS.index(direction)]).max(initial=0.0) > STILL)

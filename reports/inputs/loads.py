@@ -13,7 +13,7 @@ def acting(model: Model) -> Echo:
     """Every load case in words."""
     columns = (Column("load case", "", False), Column("what acts", "", False, width="wide"))
     shown = {case.name: ["; ".join(_words(case))] for case in model.cases}
-    exact = {}
+    exact: dict[str, list[float | None]] = {}
     for case in model.cases:
         for node, wrench in case.wrenches:
             exact[f"{case.name}: {node}"] = [*wrench]
