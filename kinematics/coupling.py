@@ -8,6 +8,7 @@ from math import isfinite
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.joint import DIRECTIONS, Joint, State
+from strutwork.names import choices
 
 #: A joint coordinate by its joint and direction.
 Coordinate = tuple[str, str]
@@ -73,6 +74,7 @@ class Tie:
     other_joint, other_direction : int
         The coordinate that it follows.
     ratio : float
+        m/m, m/rad, rad/m or rad/rad.
     """
 
     name: str
@@ -90,6 +92,15 @@ def ties_of(
 
     Of a coupling the second coordinate follows the first, unless it is driven or follows another
     already: then the first follows the second.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        Of a linkage, in its order.
+    index : mapping of str to int
+        Number of each joint by its name.
+    couplings : sequence of Coupling
+        Between two of these joints each.
 
     Raises
     ------
@@ -136,7 +147,7 @@ def _end(
         raise ModelError(
             part,
             f'names the unknown joint "{name}".',
-            "Joints: " + ", ".join(list(index)[:12]) + ".",
+            choices("Joints", name, index),
         )
     joint, d = joints[index[name]], DIRECTIONS.index(direction)
     states = joint.states

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammainc, gammaincinv, ndtr, ndtri
 
 from strutwork.errors import ModelError
 from strutwork.overconstraint.sources import MisfitSources
@@ -81,7 +80,13 @@ def uniform_numbers(
 
 
 def points_per_scramble(samples: int) -> int:
-    """Least power of two that fills the samples, and no fewer than two."""
+    """Least power of two that fills the samples, and no fewer than two.
+
+    Parameters
+    ----------
+    samples : int
+        Of all scrambles together.
+    """
     return int(2 ** max(1, np.ceil(np.log2(max(samples, 1) / SCRAMBLES))))
 
 
@@ -92,7 +97,7 @@ def draw(sources: MisfitSources, uniform: Array) -> Array:
     ----------
     sources : MisfitSources
     uniform : (..., k)
-        In [0, 1].
+        In [0, 1], no unit.
 
     Returns
     -------
@@ -114,6 +119,11 @@ def variances(sources: MisfitSources) -> Array:
     """Variance of every parameter, (k,); none is correlated with another.
 
     The second moment of a parameter over the surface times that of the gauge.
+
+    Parameters
+    ----------
+    sources : MisfitSources
+        With k parameters.
     """
     result = np.empty(sources.parameters)
     for block in sources.blocks:
@@ -129,6 +139,8 @@ def _second_moment(distribution: str, dimension: int) -> float:
         return 1.0
     if distribution == "uniform":
         return dimension / (dimension + 2)
+    from scipy.special import gammainc  # noqa: PLC0415 - slow to import, needed by samples alone
+
     # a chi distribution of `dimension` degrees of freedom, cut at CUT and scaled to one
     half, end = dimension / 2, CUT**2 / 2
     return float(dimension / CUT**2 * gammainc(half + 1, end) / gammainc(half, end))
@@ -152,6 +164,8 @@ def _normal(shape: UnitSet, uniform: Array) -> Array:
 
 def _normal_gauge(share: Array, dimension: int) -> Array:
     """The gauge within which a share of the points lies; closed forms where there are."""
+    from scipy.special import gammainc, gammaincinv, ndtr, ndtri  # noqa: PLC0415 - as above
+
     if dimension == 1:
         found = ndtri(0.5 + share * (ndtr(CUT) - 0.5))
     elif dimension == 2:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Linkage, State, axes_frame, cross_matrix
 from strutwork.msa.structure import PlacedStructure
+from strutwork.names import choices
 from strutwork.overconstraint.tolerance import TILTS, Tolerance
 from strutwork.overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
 
@@ -103,14 +104,26 @@ class MisfitSources:
         return np.array([block.tolerance for block in self.blocks], dtype=np.intp)
 
     def supports(self, direction: Array) -> Array:
-        """What every block does at worst to a quantity directionᵀz, (..., k) to (..., b)."""
+        """What every block does at worst to a quantity cᵀz, (..., b).
+
+        Parameters
+        ----------
+        direction : (..., k)
+            c, any unit.
+        """
         result = np.zeros((*direction.shape[:-1], len(self.blocks)))
         for shape, members, index in self.by_shape:
             result[..., members] = shape.support(direction[..., index])
         return result
 
     def extreme(self, direction: Array) -> Array:
-        """The z at which that is reached, (..., k)."""
+        """The z at which that is reached, (..., k).
+
+        Parameters
+        ----------
+        direction : (..., k)
+            c, as `supports`, any unit.
+        """
         result = np.zeros(direction.shape)
         for shape, _, index in self.by_shape:
             result[..., index] = shape.extreme(direction[..., index])
@@ -191,7 +204,7 @@ def _joints(linkage: Linkage, tolerance: Tolerance) -> list[int]:
             raise ModelError(
                 part,
                 f'names the unknown joint "{joint}".',
-                "Joints: " + ", ".join(list(linkage.joint_index)[:12]) + ".",
+                choices("Joints", joint, linkage.joint_index),
             )
     if tolerance.datum is not None and tolerance.datum not in linkage.node_index:
         raise ModelError(

@@ -18,6 +18,13 @@ _SHORT = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 def is_hidden(character: str) -> bool:
     r"""Whether a character shows nothing and may act on what shows the others.
 
+    Parameters
+    ----------
+    character : str
+        A single one.
+
+    Examples
+    --------
     >>> is_hidden("\x1b"), is_hidden("\u202e"), is_hidden("ö")
     (True, True, False)
     """
@@ -63,18 +70,60 @@ def _written(character: str) -> str:
 def meant(name: str, known: Iterable[str]) -> str:
     """A question after the nearest of some names, with a space behind; empty where none is near.
 
+    Parameters
+    ----------
+    name : str
+        What was asked for and is not known.
+    known : iterable of str
+        The names there are.
+
+    Examples
+    --------
     >>> meant("mit-ss2", ["mit-ss1", "biglide"])
     'Did you mean "mit-ss1"? '
     >>> meant("other", ["mit-ss1", "biglide"])
     ''
     """
-    near = get_close_matches(name, list(known), n=1, cutoff=0.75)
+    near = get_close_matches(name, list(known), n=1, cutoff=0.66)
     return f'Did you mean "{visible(near[0])}"? ' if near else ""
+
+
+def choices(what: str, name: str, known: Iterable[str], most: int = 12) -> str:
+    """What a name that is not known could have been: the nearest, and what there is.
+
+    Parameters
+    ----------
+    what : str
+        Kind of the names, as a heading: "Joints".
+    name : str
+        As it was written.
+    known : iterable of str
+        The names there are.
+    most : int
+        So many are listed.
+
+    Examples
+    --------
+    >>> choices("Nodes", "TPC", ["TCP", "base"])
+    'Did you mean "TCP"? Nodes: TCP, base.'
+    """
+    words = list(known)
+    some = ", ".join(visible(word) for word in words[:most]) + (" …" if len(words) > most else ".")
+    return f"{'' if name in words else meant(name, words)}{what}: {some}"
 
 
 def listed(words: Sequence[str], mark: str = ",") -> str:
     """Words as a sentence lists them.
 
+    Parameters
+    ----------
+    words : sequence of str
+        In the order in which they shall stand; none makes an empty text.
+    mark : str
+        What stands after each word but the last two.
+
+    Examples
+    --------
     >>> listed(["x", "y", "z"]), listed(["x"]), listed([])
     ('x, y and z', 'x', '')
     """

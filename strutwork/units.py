@@ -166,7 +166,13 @@ def _hint(dimension: Dimension) -> str:
 
 
 def shown(value: object) -> str:
-    """Show a value found in a file, briefly, for a message."""
+    """Show a value of a file, briefly, for a message.
+
+    Parameters
+    ----------
+    value : object
+        As the file's reader returns it: text, number, truth, list, table or None.
+    """
     if isinstance(value, str):
         return f'"{value if len(value) <= _LONGEST else value[:60] + "…"}"'
     if isinstance(value, bool):
@@ -209,10 +215,15 @@ _UNITS: dict[str, tuple[Decimal, Powers]] = {
         ("g", "1e-3", (0, 1, 0, 0)),
         ("s", "1", (0, 0, 1, 0)),
         ("ms", "1e-3", (0, 0, 1, 0)),
+        ("min", "60", (0, 0, 1, 0)),
+        ("h", "3600", (0, 0, 1, 0)),
         ("Hz", "1", (0, 0, -1, 0)),
         ("N", "1", (1, 1, -2, 0)),
         ("kN", "1e3", (1, 1, -2, 0)),
         ("MN", "1e6", (1, 1, -2, 0)),
+        ("J", "1", (2, 1, -2, 0)),
+        ("W", "1", (2, 1, -3, 0)),
+        ("kW", "1e3", (2, 1, -3, 0)),
         ("Pa", "1", (-1, 1, -2, 0)),
         ("MPa", "1e6", (-1, 1, -2, 0)),
         ("GPa", "1e9", (-1, 1, -2, 0)),
