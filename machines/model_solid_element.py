@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.msa import PlacedStructure
+from strutwork.msa import Material, PlacedStructure
 from strutwork.msa.structure import rigid_map
 
 if TYPE_CHECKING:
@@ -44,6 +44,12 @@ class SolidElement:
         Where they are, global axes, m.
     triangles : (t, 3) int
         The outer surface, of `points`, counter-clockwise from outside.
+    made_of : tuple of Material
+        Those of `materials`, in their order.
+    cells : int
+        Of the mesh.
+    order : int
+        Of its shape functions, 1 or 2; 0 where nobody says.
     """
 
     reduced: Superelement
@@ -55,6 +61,9 @@ class SolidElement:
     surface: NDArray[np.int64]
     points: Array
     triangles: NDArray[np.int64]
+    made_of: tuple[Material, ...] = ()
+    cells: int = 0
+    order: int = 0
 
     def __repr__(self) -> str:
         return f"<SolidElement {self.name}: {len(self.tied)} interfaces, {self.reduced!r}>"
@@ -83,6 +92,13 @@ class SolidElement:
     def accurate_to(self) -> float:
         """Frequency below which answers hold to 1e-4, half of the cutoff, Hz."""
         return self.cutoff / 2.0
+
+    @property
+    def mesh_size(self) -> float:
+        """Median length of the edges on the mesh's surface, m."""
+        corners = self.points[self.triangles]
+        edges = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
+        return float(np.median(edges))
 
     @cached_property
     def weighed(self) -> tuple[float, Array]:

@@ -149,6 +149,9 @@ def _solid(table: SolidTable, tables: ModelTable, folder: Path) -> SolidElement:
         outer.nodes,
         surface.points @ rotation.T + shift,
         np.asarray(surface.triangles, dtype=np.int64),
+        tuple({m.name: m for m in materials.values()}.values()),
+        mesh.cell_count,
+        table.order,
     )
 
 

@@ -34,6 +34,10 @@ class Section:
         For messages.
     outline : tuple of float
         Outer sizes along y and z, m, for drawings; empty where unknown.
+    shape : str
+        As a model file names it; "properties" where the numbers come from a table.
+    dimensions : tuple of (str, float)
+        What the shape was given by, each with its size, m; empty for properties.
 
     Raises
     ------
@@ -49,6 +53,8 @@ class Section:
     shear_areas: tuple[float, float] | None = None
     name: str = "section"
     outline: tuple[float, ...] = ()
+    shape: str = "properties"
+    dimensions: tuple[tuple[str, float], ...] = ()
 
     def __post_init__(self) -> None:
         values = {
@@ -99,6 +105,8 @@ def rod(diameter: float, name: str = "rod") -> Section:
         partial(_of_tube, 0.0),
         name=name,
         outline=(diameter, diameter),
+        shape="rod",
+        dimensions=(("diameter", diameter),),
     )
 
 
@@ -140,6 +148,8 @@ def tube(outer_diameter: float, inner_diameter: float, name: str = "tube") -> Se
         partial(_of_tube, m2),
         name=name,
         outline=(outer_diameter, outer_diameter),
+        shape="tube",
+        dimensions=(("outer diameter", outer_diameter), ("inner diameter", inner_diameter)),
     )
 
 
@@ -164,6 +174,8 @@ def rectangle(width_y: float, height_z: float, name: str = "rectangle") -> Secti
         _of_rectangle,
         name=name,
         outline=(width_y, height_z),
+        shape="rectangle",
+        dimensions=(("width along y", width_y), ("height along z", height_z)),
     )
 
 
@@ -221,6 +233,12 @@ def box(width_y: float, height_z: float, thickness: float, name: str = "box") ->
         exact.coefficients,
         name=name,
         outline=(width_y, height_z),
+        shape="box",
+        dimensions=(
+            ("width along y", width_y),
+            ("height along z", height_z),
+            ("wall", thickness),
+        ),
     )
 
 

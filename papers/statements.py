@@ -22,7 +22,7 @@ HARD_SPACE = "\N{NO-BREAK SPACE}"
 
 @dataclass(frozen=True)
 class Statement:
-    """One result of a document beside ours, in words where it is no number.
+    """One result of a document beside the computed values, in words where it is no number.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapt
         Column("what", "", False, width="wide"),
         # words wrap, numbers stand to the right
         Column("published", "", not any(isinstance(s.published, str) for s in said)),
-        Column("ours", "", not any(isinstance(s.computed, str) for s in said)),
+        Column("computed", "", not any(isinstance(s.computed, str) for s in said)),
         *(() if words else texts("unit")),
         Column("difference"),
         Column("status", "", False, width="narrow"),
@@ -104,7 +104,7 @@ def statements_chapter(key: str, title: str, said: Sequence[Statement]) -> Chapt
         ]
         for s in said
     ]
-    table = Table(f"Published and ours: {len(said)}", columns, rows)
+    table = Table(f"Published and computed: {len(said)}", columns, rows)
     why = tuple(f"({n}) {reason[0].upper()}{reason[1:]}." for n, reason in enumerate(reasons, 1))
     held = tuple(
         f"Held by {test}" if len(tests) == 1 else f"{_letter(n)}:{HARD_SPACE}{test}"
@@ -127,7 +127,8 @@ def statements_file(paper: str, said: Sequence[Statement]) -> DataFile:
     """All statements of a document, unrounded."""
     return csv_file(
         f"published-{paper}-statements.csv",
-        "every result that the document prints, beside ours, with the test that holds it",
+        "every result that the document prints, beside the computed values, with the test that "
+        "holds it",
         [f.name for f in fields(Statement)],
         [list(astuple(s)) for s in said],
     )
@@ -164,7 +165,8 @@ def count_text(said: Sequence[Statement]) -> Text:
     counts = Counter(s.status for s in said)
     parts = ", ".join(f"{counts[status]} {status}" for status in sorted(counts))
     return Text(
-        f"{len(said)} results of the document stand beside ours: {parts}. Predicted means that no "
+        f"{len(said)} results of the document stand beside the computed values: {parts}. "
+        f"Predicted means that no "
         "choice was made with the published value in sight; calibrated, that one was."
     )
 

@@ -28,7 +28,7 @@ def ours(groups: Iterable[str], unit: str = "") -> tuple[Column, ...]:
         column
         for group in groups
         for column in (
-            Column("ours", unit, True, group),
+            Column("computed", unit, True, group),
             *numbers("difference", group=group),
             Column("status", "", False, group, "narrow"),
         )
@@ -53,10 +53,10 @@ def nearly(percentage: float) -> float:
 
 
 def rows_table(title: str, rows: Iterable[PublishedRow], file: str) -> Table:
-    """Published rows beside ours, one a line, with their status and note."""
+    """Published rows beside the computed values, one a line, with their status and note."""
     columns = (
         *texts("quantity", "unit"),
-        *numbers("published", "ours", "difference"),
+        *numbers("published", "computed", "difference"),
         *texts("status", "note"),
     )
     lines: list[list[str | Cell]] = [
@@ -75,7 +75,7 @@ def rows_table(title: str, rows: Iterable[PublishedRow], file: str) -> Table:
 
 
 def rows_file(name: str, what: str, rows: Iterable[PublishedRow]) -> DataFile:
-    """Published rows beside ours as CSV."""
+    """Published rows beside the computed values as CSV."""
     content = [row.to_dict() for row in rows]
     return csv_file(name, what, COLUMNS, [[row[c] for c in COLUMNS] for row in content])
 
@@ -99,5 +99,7 @@ def write_published(folder: Path, table: str, rows: Iterable[PublishedRow]) -> P
     OutputError
         The folder cannot be written.
     """
-    file = rows_file(file_name(table), f"published numbers of {table} beside ours", rows)
+    file = rows_file(
+        file_name(table), f"published numbers of {table} beside the computed values", rows
+    )
     return write_whole(Path(folder) / file.name, file.write)

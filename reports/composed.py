@@ -13,6 +13,7 @@ from strutwork.reports.chapters import (
     assembly_modes,
     dynamics,
     ellipsoids,
+    inputs,
     motion,
     reversals,
     singularities,
@@ -25,8 +26,9 @@ from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.chapters.cover import answers_by_chapter, cover_blocks
 from strutwork.reports.chapters.model import check_chapter, structure_chapter, summary_chapter
 from strutwork.reports.chapters.model_loads import forces_chapter, loads_chapter
-from strutwork.reports.chapters.model_tool import budget_chapter, tool_chapter
+from strutwork.reports.chapters.model_tool import tool_chapter
 from strutwork.reports.chapters.overconstraint_model import tolerance_chapter
+from strutwork.reports.chapters.part_budget import budget_chapter
 from strutwork.reports.chapters.vibration import vibration_chapter
 from strutwork.reports.content import Answers, Block, Chapter, Links, Points, Text
 from strutwork.reports.data_files import DataFile
@@ -36,8 +38,9 @@ from strutwork.reports.subject import Subject
 COVER = "cover"
 COVER_TEXT = (
     "The machine as it stands at home, each answer with the chapter that says more. What its "
-    "document prints stands beside ours further down. Where the document leaves a dimension open "
-    "it is calibrated or chosen by us, and these answers depend on it: the assumptions name each."
+    "document prints stands beside the computed values further down. Where the document leaves a "
+    "dimension "
+    "open it is calibrated or assumed, and these answers depend on it: the assumptions name each."
 )
 
 NO_TOOL = "it has no tool: add [tool] with tcp"
@@ -135,6 +138,7 @@ CHAPTERS: tuple[Offered, ...] = (
     _module(workspace_assembly),
     _module(accuracy),
     _module(dynamics),
+    _module(inputs),
 )
 
 
@@ -230,7 +234,7 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
         # how many nodes and freedoms it has stands in the back
         plain = summary_chapter(subject.model, subject.check, subject.solution)
         written = tuple(
-            replace(c, blocks=(*plain.blocks, *c.blocks)) if c.key == "check" else c
+            replace(c, blocks=(*plain.blocks[:1], *c.blocks)) if c.key == "check" else c
             for c in written
         )
     chapters = (first, *_answered(written, first.blocks))

@@ -81,6 +81,12 @@ class Column:
     group: str = ""
     width: Literal["", "wide", "narrow"] = ""
 
+    @property
+    def label(self) -> str:
+        """All of its heading in one line, for a cell that stands by itself."""
+        words = ", ".join(part for part in (self.group, self.title) if part)
+        return f"{words} ({self.unit})" if self.unit and words else words or self.unit
+
 
 @dataclass(frozen=True)
 class Cell:
@@ -201,6 +207,22 @@ class Row:
 
 
 @dataclass(frozen=True)
+class Details:
+    """Tables and text that open within a chapter: what few readers want, folded.
+
+    Parameters
+    ----------
+    summary : str
+        What is inside, in a few words.
+    items : tuple of Table or Text
+    """
+
+    summary: str
+    items: tuple[Table | Text, ...]
+    kind: ClassVar[str] = "details"
+
+
+@dataclass(frozen=True)
 class Links:
     """Files beside the report, each with what it holds."""
 
@@ -216,7 +238,7 @@ class Points:
     kind: ClassVar[str] = "points"
 
 
-Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Links
+Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Details | Links
 
 
 @dataclass(frozen=True)

@@ -200,7 +200,7 @@ def _comparison(compared: Sequence[Compared]) -> Chapter:
         Note(
             "Machines differ in size, and the documents leave dimensions open: a row shows what "
             "its model does, not which machine is better. The condition number takes the machine's "
-            "characteristic length as one radian; the whole workspace is that of its report."
+            "characteristic length as one radian; the entire workspace is that of its report."
         ),
         *((Points(remarks),) if (remarks := tuple(_remarks(compared))) else ()),
     )

@@ -37,7 +37,8 @@ def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | No
     if found is not None and named:
         warnings.warn(
             f"material {', '.join(sorted(named))}: the loss factor is not used, since the damping "
-            f"of the whole ({found}) holds it already. Leave [damping] out to use the materials'.",
+            f"of the structure ({found}) holds it already. Leave [damping] out to use the "
+            f"materials'.",
             ModelWarning,
             stacklevel=2,
         )

@@ -31,6 +31,6 @@ def model_report(
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
     model = read_model(path) if put is None else put(read_model(path))
-    about = Subject(model, file, visible(path.stem), progress)
+    about = Subject(model, file, visible(path.stem), progress, file=path)
     with answering(about, fresh=fresh) as subject:
         return subject.title, subtitle, report_of(subject), subject

@@ -16,6 +16,7 @@ from plotly.offline import get_plotlyjs
 
 from strutwork.reports.archive import Carried
 from strutwork.reports.content import Page
+from strutwork.reports.formulas import typeset
 
 HARD_SPACE = "\N{NO-BREAK SPACE}"
 
@@ -128,7 +129,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["embedded"] = embedded
-    environment.filters["unbroken"] = unbroken
+    environment.filters["unbroken"] = typeset(unbroken)
     return environment
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -75,6 +76,8 @@ class Subject:
         Given the name of a part of the work, returns what is told how far it is.
     source : Source, optional
         Where its answers come from; without one each is found where it is asked for.
+    file : Path, optional
+        The model file that it was read from.
     """
 
     model: Model
@@ -82,6 +85,7 @@ class Subject:
     stem: str
     progress: Teller | None = None
     source: Source | None = field(default=None, repr=False, compare=False)
+    file: Path | None = None
 
     def __repr__(self) -> str:
         return f"<Subject {self.name}: {self.model!r}>"

@@ -1,4 +1,4 @@
-"""Table 5 of Azulay et al. 2014: the four machines' least dynamic stiffness beside ours."""
+"""Table 5 of Azulay et al. 2014: the four machines' least dynamic stiffness, computed too."""
 
 from __future__ import annotations
 

@@ -65,7 +65,7 @@ def machine_chapters(
 
 
 def published_chapter(study: MachineStudy) -> Chapter:
-    """Table 4 beside ours; Table 2 stands with the link lengths."""
+    """Table 4 beside the computed values; Table 2 stands with the link lengths."""
     rows = {model: study.rows[TABLE_4.key, model] for model in MODEL_NAMES}
     blocks, file = published_table(TABLE_4, rows)
     return Chapter("published", "Beside the published numbers", (Text(READING), *blocks), (file,))

@@ -55,7 +55,7 @@ def note_of(entry: PublishedValue, model: str) -> str:
     if entry.quantity.endswith("variance"):
         notes.append(
             "nothing was fitted to a variance: it follows from what was fitted to the means, and "
-            "the variances as a whole do not come out"
+            "the variances together do not come out"
         )
     if machine == _PROPOSED and not _other_length(entry.row) and entry.quantity == "Kzz mean":
         notes.append(

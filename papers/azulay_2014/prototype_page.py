@@ -34,9 +34,10 @@ from strutwork.studies.progress import Teller, silent
 NAME = "prototype-3ppprs"
 
 UNPRINTED = (
-    "The paper prints no numbers of this machine, so none stand beside ours. Only the guide's "
+    "The paper prints no numbers of this machine, so none stand beside the computed values. Only "
+    "the guide's "
     "radius, the links' steel and tube and the motors' stiffness have a source; masses, heights "
-    "and travels are our choice."
+    "and travels are assumed."
 )
 
 
@@ -112,7 +113,7 @@ def prototype_chapters(
                 ),
             ),
             assumptions=(
-                "Damping: 1 % of critical in every mode, viscous, our choice.",
+                "Damping: 1 % of critical in every mode, viscous, assumed.",
                 (
                     "Roots of the links clamped in the radial tables but for their hinges; locked "
                     "guides rigid, linear drives 3 N/µm each along their motion."
@@ -187,7 +188,7 @@ def _assumptions(machine: Prototype3PPPRS) -> Chapter:
     def mm(length: float) -> str:
         return f"{significant(1e3 * length)} mm"
 
-    ours = "our choice"
+    ours = "assumed"
     rows = [
         ("Radius of the guide", mm(machine.base_radius), "the guide's model number, 150R"),
         ("Radius of the spherical joints' circle", mm(machine.platform_radius), ours),

@@ -1,4 +1,4 @@
-"""Every result that Azulay et al. 2014 print, beside ours."""
+"""Every result that Azulay et al. 2014 print, beside the computed values."""
 
 from __future__ import annotations
 
@@ -122,7 +122,8 @@ def _lengths(study: TiltStudy) -> tuple[Statement, ...]:
     tilts = {length: degrees(found[at].connected) for length, found in study.by_radius.items()}
     why = (
         "what ends the tilt is a slider's stroke at 196 mm and a spherical joint at 216 mm: the "
-        "pole's height and the neutral directions are ours, and the figure's radii are not legible"
+        "pole's height and the neutral directions are assumed, and the figure's radii are not "
+        "legible"
     )
     shown = "; ".join(f"{1e3 * length:g} mm {tilt:.1f}" for length, tilt in tilts.items())
     return (
@@ -169,7 +170,7 @@ def _types(study: TiltStudy) -> tuple[Statement, ...]:
                 f"{axis}; {end}",
                 "calibrated",
                 "the first is the tilt whose tangent is R_p over the radius of the sphere, at one "
-                "roll; whether it and the second are reached depends on the pole, which is ours",
+                "roll; whether it and the second are reached depends on the pole, which is assumed",
                 f"{test}::test_type_1_on_the_axis",
             )
         )
@@ -181,7 +182,7 @@ def _types(study: TiltStudy) -> tuple[Statement, ...]:
                 "not shown",
                 "none" if one.both > 0 else "where the end of reach meets a ring",
                 "calibrated",
-                "no pose of type 1 on the 4 mm hemisphere is one of type 2, with our pole",
+                "no pose of type 1 on the 4 mm hemisphere is one of type 2, with the assumed pole",
                 f"{test}::test_no_pose_is_of_type_3",
             )
         )

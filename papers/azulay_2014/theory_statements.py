@@ -1,4 +1,4 @@
-"""What section 2 of Azulay et al. 2014 says of kinematics and dynamics, beside ours."""
+"""What section 2 of Azulay et al. 2014 says of kinematics and dynamics, beside computed values."""
 
 from __future__ import annotations
 

@@ -46,7 +46,9 @@ def machine_chapters(name: str, _progress: Teller | None = None) -> Contents:
 def paper_chapters(_progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters of the document's own page."""
     said = statements()
-    table = statements_chapter("statements", "Every printed result beside ours", said)
+    table = statements_chapter(
+        "statements", "Every printed result beside the computed values", said
+    )
     rows = square_rows()
     beside = Chapter(
         table.key,
@@ -63,7 +65,7 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
         closing_chapter(CHABLAT_2003.key, {"document": CHABLAT_2003.key}, content, chapters)
     )
     return (
-        "A machine of two legs in a plane, and a third that turns its tool: published and ours",
+        "A machine of two legs in a plane, and a third that turns its tool: published and computed",
         CHABLAT_2003.citation,
         tuple(chapters),
     )

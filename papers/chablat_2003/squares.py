@@ -112,9 +112,10 @@ def square_corners(angle: float) -> Array:
 
 
 def square_rows() -> tuple[PublishedRow, ...]:
-    """The two areas beside ours."""
+    """The two areas beside the computed values."""
     note = (
-        "printed about half of ours, to 1 and 2 %, for both; their ratio, 1.435, is ours, 1.425. "
+        "printed about half of the computed ones, to 1 and 2 %; their ratio is 1.435, computed "
+        "1.425. "
         "No reading of the bounds, of the legs' length or of the shape gives the half, and nothing "
         "is rescaled"
     )

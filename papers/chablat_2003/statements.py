@@ -1,4 +1,4 @@
-"""Every result that Chablat, Wenger and Majou 2003 print, beside ours."""
+"""Every result that Chablat, Wenger and Majou 2003 print, beside the computed values."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from strutwork.reports.data_files import json_file
 from strutwork.reports.drawing_data import drawing_data
 from strutwork.reports.figures.model import model_view
 
-_OURS = "ours"
+_OURS = "assumed"
 TITLES = {DELTA: "linear Delta", PLATFORM: "measuring platform"}
 
 
@@ -163,7 +163,7 @@ def assumptions_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:
                 f"{1e3 * (delta.stroke[1] - delta.stroke[0]):.0f} mm",
                 "what the printed workspace needs",
             ),
-            ("Delta: carriages behind the platform", "", "ours; Fig. 1 is not legible"),
+            ("Delta: carriages behind the platform", "", "assumed; Fig. 1 is not legible"),
         ),
         PLATFORM: (
             (
@@ -178,7 +178,7 @@ def assumptions_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:
                     f"steel, {platform.cylinder.name} mm and {platform.rod.name} mm, universal "
                     "joint at the base"
                 ),
-                "ours; the document has a ball there as well, whose spin measures nothing",
+                "assumed; the document has a ball there as well, whose spin measures nothing",
             ),
             (
                 "platform: lengths of the legs",

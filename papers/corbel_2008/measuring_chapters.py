@@ -57,7 +57,7 @@ def resolution_chapter(study: MeasuringStudy) -> Chapter:
             Note(
                 "The document's box of tool points, the resolution that it prints and the height "
                 f"of the plate are not legible. The box here, {BOX_TEXT} of the plate's "
-                "centre, is ours. Legs of the printed range leave the plate's height at home "
+                "centre, is assumed. Legs of the printed range leave the plate's height at home "
                 f"between {1e3 * low:.1f} and {1e3 * high:.1f} mm; nearer to the base is better."
             ),
             Figure(

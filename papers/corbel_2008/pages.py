@@ -61,7 +61,7 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
     }
     chapters.append(closing_chapter(CORBEL_2008.key, settings, content, chapters))
     return (
-        "A machine tool that measures where its tool is: published and ours",
+        "A machine tool that measures where its tool is: published and computed",
         CORBEL_2008.citation,
         tuple(chapters),
     )

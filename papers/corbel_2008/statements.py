@@ -1,4 +1,4 @@
-"""Every result of Corbel et al. 2008 beside ours."""
+"""Every result of Corbel et al. 2008 beside the computed values."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _delta(study: ActuationStudy) -> tuple[Statement, ...]:
             computed=f"{study.corner:.4f} at L = 800, ΔR = 480 mm; {best[0].worst:.4f} at best for "
             f"L = 700 mm, {best[-1].worst:.4f} for 1000 mm",
             status="not reproducible",
-            reason="the numbers of the figure are lost; ours stand in the map",
+            reason="the numbers of the figure are lost; the computed ones stand in the map",
             test=_ACTUATION + "test_largest_condition_number_at_the_printed_dimensions",
         ),
         said(
@@ -114,7 +114,7 @@ def _platform(study: MeasuringStudy) -> tuple[Statement, ...]:
     said = partial(Statement, unit="", status="predicted", reason="")
     lost = _FOLDER + "test_published.py::test_what_is_not_legible_has_no_number"
     trend = _MEASURING + "test_small_angles_and_large_radii_are_better"
-    box = "with the box of tool points that we chose, since the document's is not legible"
+    box = "with the box of tool points that is assumed, since the document's is not legible"
     return (
         said(
             place="eq. 6",

@@ -118,13 +118,13 @@ def one_link_thin(tilt: float, radius: float = 0.015) -> tuple[float, ...]:
 
 
 def table_2_rows() -> tuple[PublishedRow, ...]:
-    """The magnitudes of Table II beside ours; four dimensions were fitted to them."""
+    """The magnitudes of Table II beside computed values; four dimensions were fitted to them."""
     found = {
         f"{axis} at tilt {name} deg": float(value)
         for name, tilt in (("0", 0.0), ("90", HORIZONTAL))
         for axis, value in zip(AXES, ellipsoid(at_plate(), tilt).magnitudes, strict=True)
     }
-    note = "fitted as a whole to 5 % of the matrix's norm; the smallest axes are not met alone"
+    note = "fitted together to 5 % of the matrix's norm; the smallest axes are not met alone"
     return tuple(
         PublishedRow(v.row, v.quantity, v.unit, v.value, found[v.quantity], "calibrated", note)
         for v in TABLE_2
@@ -132,7 +132,7 @@ def table_2_rows() -> tuple[PublishedRow, ...]:
 
 
 def barrier_rows() -> tuple[PublishedRow, ...]:
-    """The two singular tilt angles beside ours at γ = 0."""
+    """The two singular tilt angles beside the computed values at γ = 0."""
     return tuple(
         PublishedRow(
             PROTOTYPE, v.quantity, v.unit, v.value, float(ours), "calibrated", "at spindle angle 0"

@@ -1,4 +1,4 @@
-"""What Kim et al. 2001 print of radii and of the machines built, beside ours."""
+"""What Kim et al. 2001 print of radii and of the machines built, beside the computed values."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ def radii() -> tuple[Statement, ...]:
     first, second, _ = one_link_thin(0.0)
     lying_first, lying_second, _ = one_link_thin(HORIZONTAL)
     order = f"{OURS}::test_the_printed_order_of_sensitivity_does_not_come_out"
-    drawn = "drawn without legible numbers; ours stands in the chapters on radii and on workspace"
+    drawn = (
+        "drawn without legible numbers; the computed one stands in the chapters on radii and "
+        "on workspace"
+    )
     return (
         Statement(
             "section V",

@@ -47,7 +47,7 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
     content: dict[str, Any] = {"rows": plain([r.to_dict() for r in (*table_2_rows(),)])}
     chapters.append(closing_chapter(KIM_2001.key, {"document": KIM_2001.key}, content, chapters))
     return (
-        "A redundantly actuated machine on a circular guide: published and ours",
+        "A redundantly actuated machine on a circular guide: published and computed",
         KIM_2001.citation,
         tuple(chapters),
     )

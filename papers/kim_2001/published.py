@@ -91,7 +91,7 @@ MEASURED = PublishedTable(
         *rows_of("horizontal, radial", "N/um", (PROTOTYPE, MACHINE), 3.0, 5.8),
     ),
     "Sections VI and VII. Joints, drives and bearings yield in them, and nothing about those is "
-    "printed: they stand here as data, with no number of ours beside them.",
+    "printed: they stand here as data, with no computed number beside them.",
 )
 
 #: The paper's tables by their key.

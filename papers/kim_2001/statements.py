@@ -1,4 +1,4 @@
-"""Every result that Kim et al. 2001 print, beside ours."""
+"""Every result that Kim et al. 2001 print, beside the computed values."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def _singular() -> tuple[Statement, ...]:
             "approximately 30",
             f"{barriers()[1]:.1f}",
             "not reproducible",
-            "a link that lies so is singular whatever the dimensions; with ours it is that of leg "
+            "a link that lies so is singular whatever the dimensions; here it is that of leg "
             "1 at the second singular tilt, and at the first no link lies in the plate",
             f"{HERE}::test_a_link_in_the_plate",
         ),
@@ -305,7 +305,8 @@ def _directions() -> tuple[Statement, ...]:
                 if close
                 else "not perpendicular to the printed largest: a sign is lost"
                 if lost
-                else "units and stiffnesses of the drives are not printed; ours are six, each as "
+                else "units and stiffnesses of the drives are not printed; assumed are six, "
+                "each as "
                 "stiff along its path",
                 f"{OURS}::test_table_2" if structural else f"{HERE}::test_joint_ellipsoids",
             )
@@ -338,7 +339,8 @@ def _joint() -> tuple[Statement, ...]:
                 value.value / first,
                 float(ours[int(tilt)][AXES.index(axis)]),
                 "not reproducible",
-                "units and stiffnesses of the drives are not printed; ours are six, each as stiff "
+                "units and stiffnesses of the drives are not printed; assumed are six, each as "
+                "stiff "
                 "along its path",
                 f"{HERE}::test_joint_ellipsoids",
             )

@@ -157,7 +157,7 @@ def calibrate_assembly(cases: Sequence[str] = tuple(CASES)) -> AssemblyCalibrati
 
 
 def table_2_rows(which: Set = "all cases") -> tuple[PublishedRow, ...]:
-    """The 36 entries of Table 2 beside ours, kN.
+    """The 36 entries of Table 2 beside the computed values, kN.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 """Designs (a), (b), (c) of Fig. 39 of Son 2002 as data: which rails share a datum surface.
 
-The figure's dimensions are not published. This is our reading of it and of section 6.6: every
+The figure's dimensions are not published. This is a reading of it of it and of section 6.6: every
 datum surface is located within one zone of its own, and every rail lies on its datum within a
 smaller one. What a common datum does to all of its rails together, it does not do to one of them
 against the other.
@@ -50,7 +50,7 @@ class Design:
     datums: tuple[tuple[int, ...], ...]
 
 
-#: The three designs. Which two rails share a datum in (b) is our choice: those of the equal struts.
+#: The three designs. Which two rails share a datum in (b) is assumed: those of the equal struts.
 DESIGNS: Mapping[str, Design] = MappingProxyType(
     {
         d.letter: d

@@ -1,4 +1,4 @@
-"""The page of Son 2002: every result that the thesis prints, beside ours."""
+"""The page of Son 2002: every result that the thesis prints, beside the computed values."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def document_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[C
     ]
     chapters.append(closing_chapter(SON_2002.key, {}, {}, chapters))
     return (
-        "A hybrid five-axis machine: what its thesis prints, beside ours",
+        "A hybrid five-axis machine: what its thesis prints, beside the computed values",
         SON_2002.citation,
         tuple(chapters),
     )

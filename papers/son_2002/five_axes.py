@@ -48,7 +48,7 @@ def five_axes(
     machine: MitSS1 | None = None,
     table: WorkTable | None = None,
 ) -> Array:
-    """Inverse kinematics of the whole machine, Son 2002, eqs 43 to 47, batch first.
+    """Inverse kinematics of the entire machine, Son 2002, eqs 43 to 47, batch first.
 
     Parameters
     ----------

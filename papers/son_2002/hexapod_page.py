@@ -151,8 +151,8 @@ def _summary(study: HexapodStudy) -> Chapter:
     )
     note = (
         "The thesis prints the dimensions but neither the stiffness of a leg nor, in the text at "
-        "hand, the drawing of Appendix A. Stiffness is proportional to the leg's, which is our "
-        "choice: read its shape, not its size."
+        "hand, the drawing of Appendix A. Stiffness is proportional to the leg's, which is "
+        "assumed: read its shape, not its size."
     )
     return Chapter("summary", "Summary", (Text(text), Facts(facts), Note(note)))
 
@@ -235,7 +235,7 @@ def _verdict(study: HexapodStudy) -> Text:
     return Text(
         "The thesis says that the hexapod's stiffness “drops far more rapidly as the end-effector "
         f"moves away from the middle” (section 6.2). {sentence('x')}; {sentence('z')}. Over the "
-        "whole maps the MIT-SS-1 falls as well, towards the two corners where its struts come "
+        "entire maps the MIT-SS-1 falls as well, towards the two corners where its struts come "
         "near a common point."
     )
 
@@ -246,10 +246,10 @@ def _assumptions(study: HexapodStudy) -> Chapter:
     def mm(length: float) -> str:
         return f"{significant(1e3 * length, 4)} mm"
 
-    thesis, ours = "Appendix A", "our choice"
+    thesis, ours = "Appendix A", "assumed"
     rows = [
         ["Sides of the fixed hexagon, in turn", f"{mm(m.long_side)}, {mm(m.short_side)}", thesis],
-        ["Equal angles of the hexagon", "120°", "our reading: the drawing is missing"],
+        ["Equal angles of the hexagon", "120°", "as read here: the drawing is missing"],
         ["Fixed platform over the work table", mm(m.base_height), thesis],
         [
             "Joint centres beside and above the tool tip",
@@ -259,9 +259,9 @@ def _assumptions(study: HexapodStudy) -> Chapter:
         [
             "Two legs to a joint centre (“6 x 3 type”)",
             "facing the short sides",
-            "our reading: facing the long sides the condition number is 2.31 to 2.59",
+            "as read here: facing the long sides the condition number is 2.31 to 2.59",
         ],
-        ["A long side along x", "", "our reading"],
+        ["A long side along x", "", "as read here"],
         ["Height of the tool tip", mm(LEVEL), "sections 2.2 and 6.2"],
         [
             "Reach of figures 3 to 5",
@@ -271,7 +271,7 @@ def _assumptions(study: HexapodStudy) -> Chapter:
         [
             "Stiffness of a leg along its line",
             f"{significant((m.leg_stiffness or np.inf) / 1e6)} N/µm",
-            "our choice: the k_i of the MIT-SS-1's struts; the thesis prints none",
+            "assumed: the k_i of the MIT-SS-1's struts; the thesis prints none",
         ],
         ["Platforms, joints across the legs", "rigid, without play", ours],
         ["Bending and twist of the legs, friction, weight", "none", ours],

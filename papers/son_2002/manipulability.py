@@ -90,7 +90,7 @@ def hexapod_manipulability(
 
 
 def manipulability_rows(found: xr.Dataset) -> tuple[PublishedRow, ...]:
-    """The hexapod's rows of the published table beside ours.
+    """The hexapod's rows of the published table beside the computed values.
 
     Parameters
     ----------

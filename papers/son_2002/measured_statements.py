@@ -1,4 +1,4 @@
-"""What Son 2002 asks of its machine (chapter 7) and measures on it (chapter 9), beside ours."""
+"""What Son 2002 asks of its machine (chapter 7) and measures on it (chapter 9); computed values."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def targets() -> tuple[Statement, ...]:
         ),
         Statement(
             "chapter 7",
-            f"target: stiffness; ours along {'xyz'[soft]} at home, the least",
+            f"target: stiffness; computed along {'xyz'[soft]} at home, the least",
             "N/µm",
             30.0,
             float(stiffness[soft]) / 1e6,

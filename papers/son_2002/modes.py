@@ -48,7 +48,7 @@ COUNT = 18
 
 @dataclass(frozen=True, repr=False)
 class NamedModes:
-    """Modes of the whole machine at one pose with names for those that have one.
+    """Modes of the entire machine at one pose with names for those that have one.
 
     Parameters
     ----------
@@ -243,7 +243,7 @@ def mode_picture(named: NamedModes, name: str) -> ModePicture:
 
 
 def mode_rows() -> tuple[PublishedRow, ...]:
-    """Published frequencies beside ours at home, from the calibrated machines."""
+    """Published frequencies beside the computed values at home, from the calibrated machines."""
     ours = {which: named_modes(calibrated_machine(which)).frequencies for which in get_args(Which)}
     rows = []
     for table in (MODES, MOUNT_MODES):
@@ -269,7 +269,7 @@ def _note(row: str, quantity: str, ours: Mapping[str, Mapping[str, float]]) -> s
     if row.startswith("rigid body"):
         note = "stiffnesses of the mounts calibrated to 22.6, 39.3 and 62.0 Hz"
         if row == "rigid body 1":
-            note += "; beside our second mode, along y, the shapes being in pictures only"
+            note += "; beside the second computed mode, along y, the shapes being in pictures only"
         return note
     if row.startswith("granite"):
         note = (

@@ -140,7 +140,7 @@ STIFFNESS = PublishedTable(
 )
 
 #: Highest tick of the vertical axis of Fig. 29-(a), N/m. No value of Kx is printed; that the flat
-#: part of the map lies there is our assumption.
+#: part of the map lies there is an assumption.
 FIGURE_29_TICK = 150e6
 
 

@@ -28,7 +28,7 @@ Array = NDArray[Any]
 HEADS: Mapping[Axes, str] = MappingProxyType({"ac": "A–C", "ab": "A–B"})
 
 #: Reach of the flat surface to either side, m, and points along it, for each machine that is
-#: looked at; our choice. The hexapod's is wide enough for what the thesis has outside its work.
+#: looked at; assumed. The hexapod's is wide enough for what the thesis has outside its work.
 HALF, POINTS = 0.1, 9
 HEXAPOD_HALF, HEXAPOD_POINTS = 0.4, 17
 BRIDGE_GRID = ((0.18, 13), (0.10, 3))

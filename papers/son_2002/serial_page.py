@@ -24,7 +24,7 @@ OPEN = (
         "stand still; a bridge would add its own give."
     ),
     (
-        f"The bridge's mass of {MovingBridge.bridge_mass:g} kg is our choice; it counts in the "
+        f"The bridge's mass of {MovingBridge.bridge_mass:g} kg is assumed; it counts in the "
         "force of the drive along y alone."
     ),
 )

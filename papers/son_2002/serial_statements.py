@@ -1,4 +1,4 @@
-"""What Son 2002 says of serial machines, and of all machines over a flat surface, beside ours."""
+"""What Son 2002 says of serial machines, and of all machines over a flat surface; computed."""
 
 from __future__ import annotations
 
@@ -158,7 +158,8 @@ def _reached() -> tuple[Statement, ...]:
             "a much smaller area",
             f"{100 * hexapod:.0f} % of {size}",
             "predicted",
-            "the size of the surface is not printed; ours is wide enough for all singular points",
+            "the size of the surface is not printed; here it is wide enough for all singular "
+            "points",
             f"{HERE}::test_shares_that_are_reached_without_a_reversal",
         ),
         Statement(

@@ -14,7 +14,7 @@ from strutwork.studies.similarity import ROLLERS, SIMILAR, JointScaling
 #: Frequencies: with the granite the first six are those of the mounts.
 MODES, MODES_WHOLE = 4, 10
 
-#: The two kinds of machine in Fig. 9, as templates of model files: dimensions of our choice.
+#: The two kinds of machine in Fig. 9, as templates of model files: dimensions of assumed.
 FIGURE_9 = {"hexapod": "6-UPS", "serial machine": "gantry"}
 
 #: Sizes and laws at which they are compared; the first law is section 3.3's.

@@ -1,4 +1,4 @@
-"""Every result that Son 2002 prints, beside ours."""
+"""Every result that Son 2002 prints, beside the computed values."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def _figure_9(machine: str) -> tuple[Statement, ...]:
         lowest = float(study.frequency_law(law).exponent[0])
         # along which axis they differ the figure does not say: the one farthest from 1
         exponents = (float(stiffness[np.abs(stiffness - 1.0).argmax()]), lowest)
-        why = "the figure carries no numbers and no dimensions; ours is the template “{}”, {}"
+        why = "the figure carries no numbers and no dimensions; drawn here is the template “{}”, {}"
         said = (
             "exact"
             if law == 0
@@ -152,7 +152,7 @@ def _reversals() -> tuple[Statement, ...]:
             "33, 30, 15, 6, 3, 0",
             "not counted",
             "not reproducible",
-            f"{curved}; the index theorem, which the text states, holds on ours",
+            f"{curved}; the index theorem, which the text states, holds on the computed one",
             f"{places}::test_strong_less_weak_points_are_the_winding_with_the_tool_normal",
         ),
     )
@@ -227,7 +227,7 @@ def _modes_of_work() -> Statement:
         "working modes: signs of the three roots",
         "",
         "one sign is taken, the blocks above the housing",
-        f"{len(names)}, each over the whole nominal workspace; free of actuator singularities "
+        f"{len(names)}, each over the entire nominal workspace; free of actuator singularities "
         f"there: {good}",
         "predicted",
         "",

@@ -1,4 +1,4 @@
-"""Table 6 of Son 2002, the measured stiffness, beside ours, a fit and the null model."""
+"""Table 6 of Son 2002, the measured stiffness, beside computed values, a fit and the null model."""
 
 from __future__ import annotations
 
@@ -41,7 +41,8 @@ STARTS = ((1e8, 3e7), (3e8, 1e8), (1e9, 1e9))
 BOUNDS = (1e6, 1e11)
 
 MEASURED = (
-    "measured at the spindle housing, at a place that is not published, after a dead zone; ours is "
+    "measured at the spindle housing, at a place that is not published, after a dead zone; "
+    "computed is "
     "1/C_ii at the tool tip"
 )
 
@@ -141,7 +142,9 @@ def table_6_fits(machine: MitSS1 | None = None) -> tuple[ColumnFit, ...]:
                 _rms(np.log(constant / published)),
                 dict(zip(QUANTITIES, constant.tolist(), strict=True)),
             ),
-            ColumnFit(reading, "ours, calibrated elsewhere", _rms(np.log(ours / published)), {}),
+            ColumnFit(
+                reading, "computed, calibrated elsewhere", _rms(np.log(ours / published)), {}
+            ),
             *(_fitted(machine, reading, published, f) for f in ("corrected", "thesis")),
         ]
     return tuple(found)

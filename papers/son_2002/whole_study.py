@@ -1,4 +1,4 @@
-"""What the report of the MIT-SS-1 needs to know about the whole machine on its granite."""
+"""What the report of the MIT-SS-1 needs to know about the entire machine on its granite."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class WholeStudy:
     named : mapping of set to NamedModes
         At home.
     rows : tuple of PublishedRow
-        Published frequencies beside ours.
+        Published frequencies beside the computed values.
     postures : Dataset
         Of `posture_frequencies`.
     stiffness : Dataset
@@ -109,9 +109,9 @@ class WholeStudy:
 
 
 def study_whole(progress: Teller | None = None) -> WholeStudy:
-    """Compute everything that the report shows of the whole machine."""
+    """Compute everything that the report shows of the entire machine."""
     tell: Teller = progress or (lambda _: silent)
-    done, steps = tell("the whole machine: granite, modes, responses"), 6
+    done, steps = tell("the entire machine: granite, modes, responses"), 6
     done(0, steps)
     named_ = {which: named_modes(calibrated_machine(which)) for which in get_args(Which)}
     whole = named_["numerical"].whole

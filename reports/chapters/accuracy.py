@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from strutwork.kinematics import DIRECTIONS
+from strutwork.reports.alike import grouped, word
 from strutwork.reports.content import Block, Chapter, Column, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, netcdf_file
 from strutwork.reports.figures.slices import slice_figure
@@ -71,11 +72,15 @@ def _causes(
     names: list[str], parts: np.ndarray[tuple[int], np.dtype[np.float64]], at: str
 ) -> Table:
     total = float(np.sum(parts)) or 1.0
+    by_name = dict(zip(names, np.asarray(parts, dtype=float).tolist(), strict=True))
+    groups = grouped(dict.fromkeys(names, ()))
+    alike = [word(group.names) or group.label for group in groups]
+    sums = np.array([sum(by_name[name] for name in group.names) for group in groups])
     rows = [
         [name, significant(1e6 * value), share(value / total)]
-        for name, value in top_sources(names, parts)
+        for name, value in top_sources(alike, sums)
     ]
-    columns = (Column("source of error", "", False), Column("adds", "µm"), Column("share"))
+    columns = (Column("sources of error", "", False), Column("adds", "µm"), Column("share"))
     return Table(f"Largest contributors to the largest displacement, {at}", columns, rows)
 
 
@@ -120,7 +125,7 @@ def _map(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
         netcdf_file(f"{STEM}.nc", "accuracy over the workspace, NetCDF", found),
         DataFile(
             f"{STEM}.csv",
-            "accuracy over the workspace: one line a pose",
+            "accuracy over the workspace: one line per pose",
             lambda path: write_survey(path, found),
         ),
     )

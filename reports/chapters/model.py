@@ -7,9 +7,21 @@ import numpy as np
 from strutwork.machines.model import Model
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
 from strutwork.names import listed
-from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Note, Table, Text
+from strutwork.reports.alike import grouped
+from strutwork.reports.content import (
+    Block,
+    Chapter,
+    Column,
+    Details,
+    Fact,
+    Facts,
+    Figure,
+    Table,
+    Text,
+)
 from strutwork.reports.data_files import json_file
 from strutwork.reports.figures.model import model_view
+from strutwork.reports.free_motions import joint_words, tool_words
 from strutwork.reports.model_check import ModelCheck
 from strutwork.reports.model_solution import ModelSolution
 from strutwork.reports.numbers import MINUS, clean, count, significant
@@ -53,7 +65,7 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
             value, unit = significant(free[i] / 1e6), "N/µm"
             if not np.isfinite(free[i]):
                 value, unit = "does not move", ""
-            detail = f"other directions free, 1/C_ii; blocked, (C⁻¹)_ii: {held}"
+            detail = f"the other directions follow; with them blocked: {held}"
             facts.append(Fact(f"Tool stiffness along {axis}", value, unit, detail))
     return Chapter("summary", "Summary", (Text(text), Facts(tuple(facts))))
 
@@ -106,44 +118,63 @@ def structure_chapter(model: Model) -> Chapter:
 
 def check_chapter(check: ModelCheck) -> Chapter:
     """Mobility, redundancy, mechanisms and states of self-stress of the rigidified linkage."""
-    found = check.mobility
-    rows: list[list[str]] = [
-        ["mobility, driven directions free", str(found.mobility)],
-        ["mobility, driven directions held", str(found.mobility_locked)],
-        ["redundant constraints, driven directions held", str(found.redundant)],
-        ["Grübler's count, which knows no geometry", str(found.gruebler).replace("-", MINUS)],
-    ]
-    if check.mass is None:
-        rows.append(["mass", "not known: a density is missing"])
-    else:
-        rows.append(["mass, kg", significant(check.mass.total, 4)])
-        if check.mass.center is not None:
-            middle = clean([1e3 * v for v in check.mass.center], 4)
-            rows.append(["centre of mass x, y, z, mm", middle])
-    blocks: list[Block] = [
-        Text(
-            "Every beam, solid, body and elastic joint counts as rigid here, springs to ground as "
-            "absent; rank decides, not a count."
-        ),
-        Table("Mobility and redundancy", (Column("quantity", "", False), Column("value")), rows),
-    ]
-    for title, motions in (
-        ("Motions left with the drives held", found.motions),
-        ("Motions with the drives free", found.driven_motions),
+    found, model = check.mobility, check.model
+    blocks: list[Block] = [Text(_counted(check)), Text(_weight(check))]
+    for when, motions in (
+        ("With the drives held", found.motions),
+        ("With the drives free", found.driven_motions),
     ):
         if motions:
-            lines = [[str(i), m.description] for i, m in enumerate(motions[:SHOWN], 1)]
-            columns = (Column("", "", False), Column("motion", "", False))
-            blocks.append(Table(title, columns, lines, "check.json"))
+            words = tool_words(model, motions)
+            lines = [[str(i), joint_words(m)] for i, m in enumerate(motions[:SHOWN], 1)]
+            columns = (Column("motion", "", False), Column("joints that move", "", False))
+            table = Table(f"{when}: joints that move", columns, lines, "check.json")
+            blocks += [
+                Text(f"{when}: {words[0].lower()}{words[1:]}"),
+                Details(f"The joints of {count(len(motions), 'motion')}", (table,)),
+            ]
     if found.self_stress:
-        lines = [[str(i), ", ".join(s.joints)] for i, s in enumerate(found.self_stress[:SHOWN], 1)]
-        columns = (Column("", "", False), Column("joints that take part", "", False))
-        blocks.append(Table("States of self-stress", columns, lines, "check.json"))
-        blocks.append(
-            Note(
-                "Redundant constraints let manufacturing errors lock forces into the joints named; "
+        many = count(len(found.self_stress), "independent state")
+        lines = [
+            [str(i), listed([g.label for g in grouped(dict.fromkeys(s.joints, ()))], ";")]
+            for i, s in enumerate(found.self_stress[:SHOWN], 1)
+        ]
+        columns = (Column("state", "", False), Column("joints that take part", "", False))
+        blocks += [
+            Text(
+                f"There {'is' if len(found.self_stress) == 1 else 'are'} {many} of self-stress: "
+                "redundant constraints let manufacturing errors lock forces into these joints; "
                 "without them there would be none."
-            )
-        )
+            ),
+            Details(
+                "The joints of the states of self-stress",
+                (Table("States of self-stress", columns, lines, "check.json"),),
+            ),
+        ]
     file = json_file("check.json", "mobility, redundancy, motions and mass, SI", check.to_dict())
     return Chapter("check", "Mobility and redundancy", tuple(blocks), (file,))
+
+
+def _counted(check: ModelCheck) -> str:
+    found = check.mobility
+    gruebler = str(found.gruebler).replace("-", MINUS)
+    many = "no" if not found.redundant else str(found.redundant)
+    verb = "constraint is" if found.redundant < 2 else "constraints are"
+    return (
+        f"Its mobility is {found.mobility} with the drives free and {found.mobility_locked} with "
+        f"them held; {many} {verb} redundant with the drives held. Grübler's count, which knows no "
+        f"geometry, says {gruebler} with the drives free. The flexible structure has "
+        f"{check.degrees_of_freedom} degrees of freedom. Every beam, solid, body and elastic joint "
+        "counts as rigid for the mobility, springs to ground as absent; the rank of the "
+        "constraints decides, not a count."
+    )
+
+
+def _weight(check: ModelCheck) -> str:
+    if check.mass is None:
+        return "Its mass is not known: a density is missing."
+    text = f"Its mass is {significant(check.mass.total, 4)} kg"
+    if check.mass.center is not None:
+        middle = clean([1e3 * v for v in check.mass.center], 4)
+        text += f", with the centre at x, y, z = {middle} mm"
+    return f"{text}."

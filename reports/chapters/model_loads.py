@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Table, Text
+from strutwork.reports.alike import label, pattern
+from strutwork.reports.content import Block, Chapter, Column, Details, Figure, Note, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file
 from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
 from strutwork.reports.model_solution import ModelSolution
-from strutwork.reports.numbers import significant, times
+from strutwork.reports.numbers import count, significant, times
 from strutwork.reports.solution_tables import FORCE_TABLES, beam_ends, shown_energy, shown_tables
 
 #: Rows of a table a reader is shown; the file has all.
@@ -33,15 +34,24 @@ def loads_chapter(solution: ModelSolution) -> Chapter:
     shapes: list[list[Any]] = []
     for number, name in enumerate(solution.statics.cases):
         figure = _deformed(solution, number, shapes)
-        energy = significant(shown_energy(solution, number), 4)
-        blocks.append(Text(f"Case “{name}”: strain energy {energy} J."))
-        if figure is not None:
-            blocks.append(figure)
+        energy = significant(shown_energy(solution, number))
         tables = shown_tables(solution, number)
         moved = {n: _IN_SHOWN_UNITS * six for n, six in tables["displacements"].items()}
-        blocks += _six(f"Displacements, case “{name}”", "node", _MOVED, moved)
+        said = _tool(solution, moved)
+        blocks.append(Text(f"Case “{name}”: {said}the strain energy is {energy} J."))
+        if figure is not None:
+            blocks.append(figure)
         title, what, key = FORCE_TABLES[0]
-        blocks += _six(f"{title}, case “{name}”", what, _FORCE, tables[key])
+        folded = [
+            *_six(f"Displacements, case “{name}”", "node", _MOVED, moved),
+            *_six(f"{title}, case “{name}”", what, _FORCE, tables[key]),
+        ]
+        blocks.append(
+            Details(
+                f"Displacements of {count(len(moved), 'node')} and reactions, case “{name}”",
+                tuple(folded),
+            )
+        )
     files = [
         json_file(
             "solution.json", "displacements, reactions and forces of every case, SI", answers
@@ -56,20 +66,79 @@ def loads_chapter(solution: ModelSolution) -> Chapter:
     return Chapter("loads", "Load cases", tuple(blocks), tuple(files))
 
 
+def _tool(solution: ModelSolution, moved: Mapping[str, Any]) -> str:
+    """How far the tool moves in a case, in words."""
+    tool = solution.model.tool
+    if tool is None or tool not in moved:
+        return ""
+    x, y, z = (significant(float(v)) for v in moved[tool][:3])
+    return f"the tool moves by {x}, {y} and {z} µm along x, y and z; "
+
+
 def forces_chapter(solution: ModelSolution) -> Chapter:
-    """Forces in joints, springs and beams for every load case."""
+    """Forces in joints, springs and beams: the largest of every case, and folded all."""
     answers = solution.to_dict()
-    blocks: list[Block] = []
+    blocks: list[Block] = [
+        Text(
+            "The largest force and moment on each kind of part, over its load cases; parts whose "
+            "names differ by their numbers alone are one kind. Every force in its directions "
+            "stands below, by load case."
+        )
+    ]
     rows: list[list[Any]] = []
+    largest: dict[tuple[str, str], list[tuple[float, float, str, str]]] = {}
+    folded: list[Block] = []
     for number, (name, case) in enumerate(answers["cases"].items()):
         shown = shown_tables(solution, number)
         exact = case | {"beam_forces": beam_ends(case["beam_forces"])}
+        tables: list[Table | Text] = []
         for title, what, key in FORCE_TABLES[1:]:
-            blocks += _six(f"{title}, case “{name}”", what, _FORCE, shown[key], "forces.csv")
+            tables += _six(f"{title}, case “{name}”", what, _FORCE, shown[key], "forces.csv")
             rows += [[name, what, part, *force] for part, force in exact[key].items()]
+            for part, six in shown[key].items():
+                force, moment = float(np.linalg.norm(six[:3])), float(np.linalg.norm(six[3:]))
+                stem = part.rsplit(", at its ", 1)[0]
+                largest.setdefault((what, pattern(stem)), []).append((force, moment, part, name))
+        if tables:
+            folded.append(Details(f"Forces on every part, case “{name}”", tuple(tables)))
+    blocks += [*_largest(largest), *folded]
     columns = ("case", "kind", "part", *(f"{f}_{u}".replace("·", "") for f, u in _FORCE))
     file: DataFile = csv_file("forces.csv", "forces in joints, springs and beams", columns, rows)
     return Chapter("forces", "Forces in joints and beams", tuple(blocks), (file,))
+
+
+def _largest(
+    found: Mapping[tuple[str, str], Sequence[tuple[float, float, str, str]]],
+) -> list[Block]:
+    """The largest force and moment of parts alike."""
+    lines = []
+    for (what, _), some in found.items():
+        names = list(dict.fromkeys(part.rsplit(", at its ", 1)[0] for *_, part, _ in some))
+        known = [s for s in some if not (isnan(s[0]) or isnan(s[1]))]
+        if not known:
+            lines.append([label(names), what, "not determined", "", "not determined", ""])
+            continue
+        force = max(known, key=lambda s: s[0])
+        moment = max(known, key=lambda s: s[1])
+        lines.append(
+            [
+                label(names),
+                what,
+                significant(force[0]),
+                f"{force[2]}, {force[3]}" if force[0] else "",
+                significant(moment[1]),
+                f"{moment[2]}, {moment[3]}" if moment[1] else "",
+            ]
+        )
+    heads = (
+        Column("parts", "", False),
+        Column("kind", "", False),
+        Column("largest force", "N"),
+        Column("where, in which case", "", False),
+        Column("largest moment", "N·m"),
+        Column("where, in which case", "", False),
+    )
+    return [Table("Largest forces and moments", heads, lines, "forces.csv")] if lines else []
 
 
 def _six(
@@ -78,7 +147,7 @@ def _six(
     columns: Sequence[tuple[str, str]],
     values: Mapping[str, Any],
     data: str = "solution.json",
-) -> list[Block]:
+) -> list[Table | Text]:
     if not values:
         return []
     rows = [
@@ -86,7 +155,7 @@ def _six(
         for part, six in list(values.items())[:SHOWN]
     ]
     heads = (Column(what, "", False), *(Column(title, unit) for title, unit in columns))
-    blocks: list[Block] = [Table(title, heads, rows, data)]
+    blocks: list[Table | Text] = [Table(title, heads, rows, data)]
     if len(values) > SHOWN:
         blocks.append(Text(f"The first {SHOWN} of {len(values)} are shown; {data} has all."))
     return blocks

@@ -1,34 +1,27 @@
-"""Stiffness at the tool of a model file, and which part gives way."""
+"""Stiffness at the tool of a machine."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
-from strutwork.machines.model import Model
 from strutwork.msa import (
     axis_stiffness_blocked,
     axis_stiffness_free,
-    compliance_budget,
     stiffness_ellipsoid,
 )
-from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Table, Text
-from strutwork.reports.data_files import csv_file, json_file
-from strutwork.reports.figures.charts import REST, stacked_shares
+from strutwork.reports.content import Block, Chapter, Column, Details, Note, Table, Text
+from strutwork.reports.data_files import json_file
 from strutwork.reports.model_solution import ModelSolution
-from strutwork.reports.numbers import clean, matrix_without_rounding, share, significant
+from strutwork.reports.numbers import clean, matrix_without_rounding, significant
 
 Array = NDArray[Any]
 
-#: Parts told apart in the chart; the rest is one colour.
-LARGEST = 7
-
-FREE = "1/C_ii, other directions free"
-BLOCKED = "(C⁻¹)_ii, other directions blocked"
+FREE = "other directions follow, 1/C_ii"
+BLOCKED = "other directions blocked, (C⁻¹)_ii"
 
 
 def tool_chapter(solution: ModelSolution) -> Chapter:
@@ -46,8 +39,10 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         rows.append([direction, unit, *values])
     blocks: list[Block] = [
         Text(
-            f"At node “{solution.model.tool}”, global axes, drives held. Along an axis stiffness "
-            "has two meanings: with the five others free to follow, and with them blocked."
+            f"At the tool centre point {solution.model.tool}, in global axes, with the drives "
+            "held. Stiffness along an axis means a force over the displacement along it while the "
+            "five other directions are free to follow; beside it stands the stiffness with them "
+            "blocked, which is never less."
         ),
         Table(
             "Stiffness along each axis",
@@ -63,11 +58,10 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
                 "following."
             )
         )
+    matrices = [_matrix("Compliance matrix, m/N, 1/N and rad/(N·m)", compliance)]
     if stiffness is not None:
-        blocks.append(
-            _matrix("Stiffness matrix, N/m, N and N·m/rad (force then moment)", stiffness)
-        )
-    blocks.append(_matrix("Compliance matrix, m/N, 1/N and rad/(N·m)", compliance))
+        title = "Stiffness matrix, N/m, N and N·m/rad (force then moment)"
+        matrices.insert(0, _matrix(title, stiffness))
     ellipsoid = stiffness_ellipsoid(compliance, "free")
     principal = [
         [significant(v / 1e6, 4), clean(ellipsoid.directions[:, i].tolist())]
@@ -81,6 +75,7 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
             "tool.json",
         )
     )
+    blocks.append(Details("The complete stiffness and compliance matrices", tuple(matrices)))
     content = {
         "tool": solution.model.tool,
         "compliance": compliance.tolist(),
@@ -95,54 +90,6 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
     }
     file = json_file("tool.json", "compliance and stiffness at the tool, SI", content)
     return Chapter("tool", "Stiffness at the tool", tuple(blocks), (file,))
-
-
-def budget_chapter(model: Model) -> Chapter:
-    """Share of every part in the deflection under a force along each axis."""
-    budgets = [compliance_budget(model.placed, wrench) for wrench in np.eye(6)[:3]]
-    parts = budgets[0].parts
-    shares = 100.0 * np.stack([b.shares.reshape(-1) for b in budgets])
-    order = np.argsort(-shares.max(axis=0), kind="stable")
-    named = {parts[i]: shares[:, i] for i in order[:LARGEST]}
-    if len(order) > LARGEST:
-        named[REST] = shares[:, order[LARGEST:]].sum(axis=1)
-    categories = [f"force along {axis}" for axis in "xyz"]
-    rows = [
-        [parts[i], *(share(value / 100) for value in shares[:, i])] for i in order[: 3 * LARGEST]
-    ]
-    columns: Sequence[Column] = (
-        Column("part", "", False),
-        *(Column(f"along {axis}", "share") for axis in "xyz"),
-    )
-    deflections = [
-        "deflection, µm/N",
-        *(significant(1e6 * float(b.deflection), 4) for b in budgets),
-    ]
-    blocks: list[Block] = [
-        Text(
-            "A force at the tool does work on the parts in proportion to their strain energy; the "
-            "shares of one force add to 100 %. Other directions are free to follow."
-        ),
-        Figure(
-            "budget-bars",
-            "Compliance budget: share of the parts in the tool's deflection along the force.",
-            stacked_shares(categories, named, "share of the deflection"),
-            "Stacked bars of the share of the parts in the deflection along x, y and z.",
-            "budget.csv",
-            height=330,
-        ),
-        Table("Shares of the parts", columns, [deflections, *rows], "budget.csv"),
-    ]
-    file = csv_file(
-        "budget.csv",
-        "share of every part in the tool's deflection along a force",
-        ("part", "share_x", "share_y", "share_z"),
-        [
-            ["deflection_m_per_N", *(float(b.deflection) for b in budgets)],
-            *([part, *(float(v) / 100 for v in shares[:, i])] for i, part in enumerate(parts)),
-        ],
-    )
-    return Chapter("budget", "Compliance budget", tuple(blocks), (file,))
 
 
 def _finite(values: Array) -> list[float | None]:

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from strutwork.errors import NumericalError
 from strutwork.overconstraint import Quantity, Tolerance, given_size
+from strutwork.reports.alike import grouped
 from strutwork.reports.content import Block, Cell, Column, Fact, Facts, Note, Table
 from strutwork.reports.data_files import DataFile, json_file
+from strutwork.reports.inputs.echo import NONE
 from strutwork.reports.numbers import MINUS, significant
 from strutwork.studies.tolerance_result import ToleranceStudy
 
@@ -19,6 +21,9 @@ Array = NDArray[Any]
 
 #: A worst case this small beside the largest of its unit is no force.
 NOTHING = 1e-9
+
+#: From this size on a tolerance is written in mm, m.
+MILLIMETRES = 2e-3
 
 #: Shown unit and factor by a quantity's unit.
 UNITS = {"N": ("kN", 1e-3), "N*m": ("N·m", 1.0), "m": ("µm", 1e6), "rad": ("µrad", 1e6)}
@@ -145,11 +150,15 @@ def study_file(study: ToleranceStudy, key: str) -> DataFile:
 
 def tolerance_table(tolerances: Sequence[Tolerance], caption: str) -> Table:
     """What may deviate, by how much."""
-    rows = [
-        [t.name, t.kind.replace("_", " "), size_text(t), t.datum or "", ", ".join(t.joints)]
+    named = {
+        t.name: [t.kind.replace("_", " "), size_text(t), t.datum or NONE, ", ".join(t.joints)]
         for t in tolerances
-    ]
-    heads = ("tolerance", "kind", "size", "datum", "joints")
+    }
+    rows = [[group.label, *group.cells] for group in grouped(named, loose=(2, 3))]
+    heads = ["tolerance", "kind", "size", "datum", "joints"]
+    if all(row[3] == NONE for row in rows):
+        del heads[3]
+        rows = [[*row[:3], row[4]] for row in rows]
     return Table(caption, [Column(h, "", False) for h in heads], rows)
 
 
@@ -160,9 +169,10 @@ def size_text(tolerance: Tolerance, factor: float = 1.0) -> str:
 
 def size_value(tolerance: Tolerance, size: float) -> str:
     """A size of the same kind as the tolerance's."""
+    unit = ("µm", 1e6) if size < MILLIMETRES else ("mm", 1e3)
     if tolerance.slope is not None:
-        return f"{significant(1e6 * size)} µm/m"
-    text = f"{significant(1e6 * size)} µm"
+        return f"{significant(unit[1] * size)} {unit[0]}/m"
+    text = f"{significant(unit[1] * size)} {unit[0]}"
     return "±" + text if tolerance.kind == "length" else text
 
 

@@ -17,6 +17,9 @@ from strutwork.reports.numbers import significant
 #: Sizes of a tolerance that reaches no limited force are left as they are.
 UNTOUCHED = 1e-9
 
+#: A tolerance loosened by more than this is as good as none.
+MANY = 100
+
 
 def allocation_blocks(
     tolerances: tuple[Tolerance, ...], found: Mapping[str, Allocation], key: str, limits: str
@@ -45,7 +48,7 @@ def allocation_blocks(
             tone: Tone = "poor" if scale < 1 - UNTOUCHED else "good"
             row += [
                 size_value(tolerance, float(allocation.sizes[t])),
-                Cell(f"{significant(scale)} ×", tone),
+                Cell(_times(scale), tone),
             ]
         rows.append(row)
     points = []
@@ -85,6 +88,11 @@ def allocation_blocks(
     ]
     what = "allocated tolerances, m or rad, and their ratio to the given ones"
     return blocks, [csv_file(file, what, heads, content)]
+
+
+def _times(scale: float) -> str:
+    """A ratio of sizes; far beyond any use its digits say nothing."""
+    return f"over {MANY} ×" if scale > MANY else f"{significant(scale)} ×"
 
 
 def _active(allocation: Allocation) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.reports.alike import grouped, word
 from strutwork.reports.chapters.overconstraint import (
     UNITS,
     governing,
@@ -25,6 +26,7 @@ from strutwork.reports.figures.curves import histogram
 from strutwork.reports.figures.force_bars import ForceBars, force_bars
 from strutwork.reports.figures.theme import PALETTE
 from strutwork.reports.numbers import significant
+from strutwork.reports.part_groups import REST, told_apart
 from strutwork.studies.tolerance_result import ToleranceStudy
 
 #: Kinds of force in the order of charts, with colour and hatching.
@@ -38,6 +40,9 @@ MOST = 24
 
 #: Tolerances told apart in one chart at most.
 CAUSES = 10
+
+#: A rest of this many percent is left out.
+LITTLE = 0.05
 
 #: A limit is marked in a distribution when it lies within this many worst cases.
 FAR = 1.5
@@ -305,11 +310,11 @@ def cause_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Dat
         return [], []
     names = [t.name for t in study.tolerances]
     shares = {n: 100 * study.shares[some, t] for t, n in enumerate(names)}
-    largest = sorted(names, key=lambda n: -float(shares[n].max()))[:CAUSES]
-    chart = {n: v for n, v in shares.items() if n in largest}
-    rest = np.asarray(100 - sum(chart.values()))
-    if len(names) > len(largest) and float(np.max(rest)) > 0.05:
-        chart["all others"] = rest
+    if len(names) > CAUSES:
+        shares = _alike(shares)
+    chart = told_apart(shares, CAUSES)
+    if float(np.max(chart.get(REST, 0.0))) <= LITTLE:
+        chart.pop(REST, None)
     picked = [study.quantities[i] for i in some]
     categories = [f"{q.joint}, {q.kind.removesuffix(' force')}" for q in picked]
     file = f"{key}-shares.csv"
@@ -327,3 +332,11 @@ def cause_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Dat
     ]
     what = "share of each tolerance in each worst case"
     return [figure], [csv_file(file, what, ["quantity", *names], rows)]
+
+
+def _alike(shares: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Shares of tolerances whose names differ by their numbers alone, added up."""
+    return {
+        word(group.names) or group.label: np.sum([shares[name] for name in group.names], axis=0)
+        for group in grouped(dict.fromkeys(shares, ()))
+    }

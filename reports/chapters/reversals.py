@@ -24,7 +24,7 @@ TITLE = "Where do its drives turn back?"
 #: Points and drives that the page names.
 SHOWN = 12
 
-_CHECK = {True: "yes", False: "no: take more points", None: "not told"}
+_CHECK = {True: "yes", False: "no: take more points", None: "not reported"}
 
 
 def missing(subject: Subject) -> str:
@@ -124,7 +124,7 @@ def _table(study: ReversalStudy, names: tuple[str, ...]) -> Table:
         Column("drive", "", False),
         Column("strong points"),
         Column("weak points"),
-        Column("whole lines"),
+        Column("entire lines"),
         Column(f"lines when fed along {names[0]}"),
         Column("points at", "", False),
         Column("agrees with the border", "", False),
@@ -213,7 +213,7 @@ def _files(study: ReversalStudy, names: tuple[str, ...]) -> list[DataFile]:
     for drive in study.found.singular:
         rows += [[drive.drive, p.kind, 0, *p.place.tolist()] for p in drive.points]
         for number, points in enumerate(drive.lines, 1):
-            rows += [[drive.drive, "whole line", number, *p.tolist()] for p in points]
+            rows += [[drive.drive, "entire line", number, *p.tolist()] for p in points]
     for name, lines in study.lines.items():
         for number, points in enumerate(lines, 1):
             rows += [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -10,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from strutwork.fea.eigen import Array
+from strutwork.fea.least_stiffness import LeastStiffness
 from strutwork.fea.uff import UniversalFile, node_positions, response_records
 from strutwork.fea.uff_write import write_universal
+from strutwork.names import listed
 from strutwork.reports.content import (
     Block,
     Cell,
@@ -24,9 +25,13 @@ from strutwork.reports.content import (
     Text,
 )
 from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.equal_axes import equal_axes
+from strutwork.reports.figures.response_parts import response_parts
 from strutwork.reports.figures.theme import AXIS_COLOURS
-from strutwork.reports.figures.vibration import drawn_amplitude, mode_lines, mode_view, responses
+from strutwork.reports.figures.vibration import drawn_amplitude, mode_lines, mode_view
+from strutwork.reports.mode_words import moves
 from strutwork.reports.numbers import count, micro, percent, significant
+from strutwork.reports.part_groups import part_groups, titles
 from strutwork.reports.vibration_study import AXES, VibrationStudy
 from strutwork.studies.dynamic import GRID_STEP
 
@@ -86,7 +91,8 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
         damping = "none given"
         if ratios is not None:
             damping = f"{100 * ratios[i]:.3g} %" if np.isfinite(ratios[i]) else "withheld"
-        rows.append([str(i + 1), significant(float(frequency), 4), damping, bends(study, i)])
+        number = significant(float(frequency), 4)
+        rows.append([str(i + 1), number, damping, moves(study, i), bends(study, i)])
     rigid = int(modes.rigid_body_modes)
     text = caption or "Natural frequencies"
     if rigid:
@@ -97,6 +103,7 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
             Column("mode", "", False),
             Column("frequency", "Hz"),
             Column("equivalent damping ratio"),
+            Column("what moves most", "", False),
             Column("what bends: largest shares of the strain energy", "", False),
         ),
         rows,
@@ -105,27 +112,27 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
 
 
 def bends(study: VibrationStudy, mode: int) -> str:
-    """The kinds of parts that hold most of a mode's strain energy, equal legs together."""
-    shares: dict[str, float] = {}
-    for name, share in zip(study.modes.energy_parts, study.modes.energy_shares[mode], strict=True):
-        word, _, part = name.partition(" ")
-        kind = re.sub(r"^leg\d+/", "", part) + ("" if word == "beam" else f" {word}")
-        shares[kind] = shares.get(kind, 0.0) + 100.0 * float(share)
-    ordered = sorted(shares.items(), key=lambda item: -item[1])[:NAMED]
-    named = [f"{kind} {share:.0f} %" for kind, share in ordered if share >= LEAST_SHARE]
+    """The parts that hold most of a mode's strain energy, parts alike together."""
+    energies = zip(study.modes.energy_parts, study.modes.energy_shares[mode], strict=True)
+    groups = part_groups({name: 100.0 * float(share) for name, share in energies})
+    named = [
+        f"{title} {group.share:.0f}\N{NO-BREAK SPACE}%"
+        for title, group in list(zip(titles(groups), groups, strict=True))[:NAMED]
+        if group.share >= LEAST_SHARE
+    ]
     return ", ".join(named) or "nothing: it moves as a rigid body"
 
 
 def mode_figure(study: VibrationStudy, height: int = 560) -> Figure:
     """Mode shapes, swinging at a button."""
     labels = [
-        f"Mode {i + 1}, {significant(float(f), 4)} Hz"
+        f"Mode {i + 1}, {significant(float(f), 4)} Hz: {moves(study, i)}".removesuffix(": ")
         for i, f in enumerate(study.modes.frequencies)
     ]
     return Figure(
         f"modes-{study.key}",
-        f"{study.title}: mode shapes, grey at rest, yellow where a mode moves "
-        "most; the largest motion drawn as "
+        f"{study.title}: mode shapes, grey at rest, coloured by how far each "
+        "part moves; the largest motion drawn as "
         f"{significant(1e3 * drawn_amplitude(study), 2)} mm. Choose a mode and press the button.",
         mode_view(study, labels),
         f"Three-dimensional drawing of the mode shapes of {study.title}.",
@@ -135,34 +142,51 @@ def mode_figure(study: VibrationStudy, height: int = 560) -> Figure:
 
 
 def response_figure(study: VibrationStudy) -> Figure:
-    """Driving-point receptances at the tool along x, y and z."""
+    """Driving-point receptances at the tool along x, y and z; equal ones are one curve."""
     response = study.response
     assert response is not None  # noqa: S101 - callers have looked
     dashes = {"x": "solid", "y": "dash", "z": "solid"}
+    own = {a: response.receptance[:, i, i] for i, a in enumerate(AXES)}
+    together = equal_axes(list(own.values()), AXES)
+    least = dict(zip(AXES, study.least, strict=True))
     curves = {
-        f"along {a}": (
+        f"along {listed(some)}": (
             response.frequencies,
-            np.abs(response.receptance[:, i, i]),
-            AXIS_COLOURS[a],
-            dashes[a],
+            own[some[0]],
+            AXIS_COLOURS[some[0]],
+            dashes[some[0]],
         )
-        for i, a in enumerate(AXES)
+        for some in together
     }
     marks = [
-        (f"least along {a}", one.frequency, one.value, AXIS_COLOURS[a])
-        for a, one in zip(AXES, study.least, strict=True)
+        (
+            f"least along {listed(some)}",
+            least[some[0]].frequency,
+            least[some[0]].value,
+            AXIS_COLOURS[some[0]],
+        )
+        for some in together
     ]
     peaks = "; ".join(
-        f"{a} {significant(1e6 / one.value)} µm/N at {significant(one.frequency, 4)} Hz"
-        for a, one in zip(AXES, study.least, strict=True)
+        f"along {listed(some)} {micro(least[some[0]].value)} N/µm at "
+        f"{significant(least[some[0]].frequency, 4)} Hz"
+        for some in together
+    )
+    same = "".join(
+        f" {listed(some)} have the same response and share a curve."
+        for some in together
+        if len(some) > 1
     )
     return Figure(
         f"frf-{study.key}",
-        "Displacement of the tool per force in the same direction, amplitude per amplitude. "
-        f"Diamonds mark the exact least dynamic stiffness, the highest peak: {peaks}.",
-        responses(curves, marks),
-        f"Lines of the receptance at the tool of {study.title} along x, y and z; {peaks}.",
+        "Displacement of the tool per force in the same direction: magnitude, phase and real part. "
+        f"Diamonds mark the least dynamic stiffness, the highest peak of the magnitude: {peaks}."
+        f"{same}",
+        response_parts(curves, marks),
+        "Magnitude, phase and real part of the receptance at the tool of "
+        f"{study.title} along x, y and z; least dynamic stiffness {peaks}.",
         f"{study.key}-frf.csv",
+        720,
     )
 
 
@@ -182,7 +206,7 @@ def minima_table(studies: Sequence[tuple[str, VibrationStudy]], data: str) -> Ta
         columns.insert(0, Column("", "", False))
     rows: list[list[str | Cell]] = []
     for name, study in studies:
-        for axis, one, grid in zip(AXES, study.least, study.grid, strict=True):
+        for axis, one, grid in zip(_axes(study), *_firsts(study), strict=True):
             excess = 100.0 * (float(grid) / one.value - 1.0)
             line: list[str | Cell] = [
                 axis,
@@ -205,6 +229,24 @@ def minima_table(studies: Sequence[tuple[str, VibrationStudy]], data: str) -> Ta
         rows,
         data,
     )
+
+
+def _alike(study: VibrationStudy) -> list[tuple[str, ...]]:
+    """Axes with the same minimum together."""
+    answers = [
+        np.array([one.value, float(np.nan_to_num(grid)), one.static or 0.0])
+        for one, grid in zip(study.least, study.grid, strict=True)
+    ]
+    return equal_axes(answers, AXES)
+
+
+def _axes(study: VibrationStudy) -> list[str]:
+    return [listed(some) for some in _alike(study)]
+
+
+def _firsts(study: VibrationStudy) -> tuple[list[LeastStiffness], list[float]]:
+    which = [AXES.index(some[0]) for some in _alike(study)]
+    return [study.least[k] for k in which], [float(study.grid[k]) for k in which]
 
 
 def _end(frequency: float, band: tuple[float, float]) -> str:

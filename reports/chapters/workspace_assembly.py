@@ -93,7 +93,7 @@ def write(subject: Subject) -> Chapter:
         netcdf_file(f"{STEM}.nc", "assembly forces over the workspace, NetCDF", found),
         DataFile(
             f"{STEM}.csv",
-            "assembly forces over the workspace: one line a pose",
+            "assembly forces over the workspace: one line per pose",
             lambda path: write_survey(path, found),
         ),
     )

@@ -88,7 +88,7 @@ def write(subject: Subject) -> Chapter:
         netcdf_file(f"{STEM}.nc", "stiffness over the workspace, NetCDF", found),
         DataFile(
             f"{STEM}.csv",
-            "stiffness over the workspace: one line a pose",
+            "stiffness over the workspace: one line per pose",
             lambda path: write_survey(path, found),
         ),
     )

@@ -67,7 +67,7 @@ def write(subject: Subject) -> Chapter:
         netcdf_file(f"{STEM}.nc", "vibration over the workspace, NetCDF", found),
         DataFile(
             f"{STEM}.csv",
-            "vibration over the workspace: one line a pose",
+            "vibration over the workspace: one line per pose",
             lambda path: write_survey(path, found),
         ),
     )

@@ -164,7 +164,7 @@ def _print(result: dict[str, Any], grid: str, shape: tuple[str, str]) -> None:
     if result["outside_joint_ranges"]:
         out.print(f"  {result['outside_joint_ranges']} of them outside joint ranges", markup=False)
     rows: list[tuple[object, ...]] = []
-    words = {True: "yes", False: "no: take more points", None: "not told"}
+    words = {True: "yes", False: "no: take more points", None: "not reported"}
     for entry in result["drives"]:
         lines = len(entry["lines"])
         rows.append(

@@ -21,14 +21,15 @@ from strutwork.reports.figures.theme import (
 )
 from strutwork.reports.numbers import significant
 from strutwork.reports.page import plain
+from strutwork.reports.part_groups import REST
 
 Array = NDArray[Any]
 
 #: Bars of which one is so many times another stand on a logarithmic axis.
 FAR = 50.0
 
-#: Name and colour of what is left when the largest parts are told apart.
-REST, OTHERS = "all others", "#c9ced6"
+#: Colour of what is left when the largest parts are told apart.
+OTHERS = "#c9ced6"
 
 
 def distributions(

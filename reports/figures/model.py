@@ -15,6 +15,7 @@ from strutwork.msa.sections import Section
 from strutwork.reports.figures.shapes import Shape, ball, box, cylinder, mesh
 from strutwork.reports.figures.solid import (
     DrawnJoint,
+    colour_bar,
     joint_traces,
     path,
     scene,
@@ -140,16 +141,7 @@ def deformed_view(
         "colorscale": "Viridis",
         "width": 8,
         "showscale": True,
-        "colorbar": {
-            "orientation": "h",
-            "title": {"text": label, "side": "top"},
-            "thickness": 14,
-            "len": 0.8,
-            "x": 0.5,
-            "y": 0.0,
-            "yanchor": "top",
-            "outlinewidth": 0,
-        },
+        "colorbar": colour_bar(label),
     }
     texts = [f"{m * 1e6:.4g} µm" if np.isfinite(m) else "" for m in moved]
     bent = path(

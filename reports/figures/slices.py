@@ -56,7 +56,7 @@ def slice_figure(
     name, unit = quantity
     words = "least" if worst_is_least else "largest"
     caption = (
-        f"{name[:1].upper()}{name[1:]}{at}: {words} of the whole workspace "
+        f"{name[:1].upper()}{name[1:]}{at}: {words} of the entire workspace "
         f"{significant(worst.value)} {unit} at {worst.where}."
     )
     scales = {d: (np.degrees(axes[d]) if d.startswith("r") else 1e3 * axes[d]) for d in shown}

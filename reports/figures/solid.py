@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.reports.figures.camera import camera_of
 from strutwork.reports.figures.shapes import Shape, across, ball, box, cylinder, mesh
 from strutwork.reports.figures.theme import FONT, LINE, SOFT, layout, rounded
 
@@ -164,6 +165,20 @@ def triad(origin: Array, rotation: Array, size: float) -> list[dict[str, Any]]:
     return [lines, letters]
 
 
+def colour_bar(title: str) -> dict[str, Any]:
+    """A colour bar below a view, above its legend."""
+    return {
+        "orientation": "h",
+        "title": {"text": title, "side": "top"},
+        "thickness": 14,
+        "len": 0.8,
+        "x": 0.5,
+        "y": 0.0,
+        "yanchor": "top",
+        "outlinewidth": 0,
+    }
+
+
 def _bounds(traces: Sequence[dict[str, Any]]) -> tuple[Array, Array]:
     """Box about everything drawn, with some air and no side that is flat, mm."""
     drawn = [np.array([t[a] for a in "xyz"], dtype=float) for t in traces]
@@ -200,10 +215,7 @@ def scene(traces: Sequence[dict[str, Any]]) -> dict[str, Any]:
         "xaxis": side(0),
         "yaxis": side(1),
         "zaxis": side(2),
-        "camera": {
-            "eye": {"x": 1.24, "y": -1.47, "z": 0.95},
-            "center": {"x": 0, "y": 0, "z": -0.15},
-        },
+        "camera": camera_of(ratio),
     }
     margin = {"l": 0, "r": 0, "t": 8, "b": 8}
     legend = {"orientation": "h", "x": 0, "y": 0, "yanchor": "top", "itemsizing": "constant"}

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.machines.model_solid_element import SolidElement
-from strutwork.reports.figures.solid import path, scene
+from strutwork.reports.figures.solid import colour_bar, path, scene
 from strutwork.reports.figures.theme import INK, LEGEND, axis, layout, rounded
 from strutwork.reports.numbers import significant
 from strutwork.reports.page import plain
@@ -91,6 +91,7 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
     resting = path(points, "at rest", "#a9b2bd", 3)
     sizes = [rounded(np.nan_to_num(np.linalg.norm(m, axis=-1)), 3) for m in motion]
     scale = {"color": sizes[0], "colorscale": "Viridis", "cmin": 0.0, "cmax": 1.0, "width": 9}
+    scale |= {"showscale": True, "colorbar": colour_bar("motion beside the largest")}
     swung = path(
         points + amplitude * motion[0], "swinging", "#0072b2", 9, line=scale, showlegend=False
     )
@@ -98,6 +99,9 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
     # the invisible trace only sized the view
     figure["data"].pop()
     figure["layout"]["uirevision"] = "keep"
+    # below the view: the colour bar, above the legend
+    figure["layout"]["margin"] = figure["layout"]["margin"] | {"b": 100}
+    figure["layout"]["legend"] = LEGEND
     modes = [
         {
             "label": label,

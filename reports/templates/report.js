@@ -67,9 +67,11 @@
       const spec = JSON.parse(figure.querySelector("script").textContent);
       if (spec.layout.scene) {
         // in a narrow window the view needs more room around it, or its labels are cut
-        const { eye } = spec.layout.scene.camera;
-        const away = Math.min(1.35, Math.max(1, 700 / drawing.clientWidth));
-        for (const side of ["x", "y", "z"]) eye[side] *= away;
+        const { eye, center } = spec.layout.scene.camera;
+        const away = Math.max(1, (1.15 * drawing.clientHeight) / drawing.clientWidth);
+        for (const side of ["x", "y", "z"]) {
+          eye[side] = center[side] + away * (eye[side] - center[side]);
+        }
       }
       const modeBarButtons = spec.layout.scene ? solid : flat;
       await Plotly.newPlot(drawing, spec.data, spec.layout, { ...config, modeBarButtons });
@@ -101,7 +103,8 @@
     });
     return work;
   };
-  const chapters = [...document.querySelectorAll("main details")];
+  // details within a chapter hold tables alone, and stay as the reader left them
+  const chapters = [...document.querySelectorAll("main > section > details:not(.more)")];
   for (const chapter of chapters) {
     chapter.addEventListener("toggle", () => chapter.open && drawOpen());
   }

@@ -45,6 +45,7 @@ CHAPTERS = (
     "budget",
     "workspace-stiffness",
     "dynamics",
+    "inputs",
     "files",
 )
 

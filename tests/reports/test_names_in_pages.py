@@ -75,7 +75,9 @@ def strings(value: Any) -> Iterator[str]:
     elif isinstance(value, dict):
         for key, part in value.items():
             yield key
-            yield from strings(part)
+            # of a mode: text of an option, which the template escapes and plotly never sees
+            if key != "label":
+                yield from strings(part)
     elif isinstance(value, list):
         for part in value:
             yield from strings(part)

@@ -25,7 +25,7 @@ def table_of(*statements: Statement) -> tuple[list[str], list[list[str]]]:
 
 def test_units_stand_with_numbers_among_words() -> None:
     heads, rows = table_of(said(0.5, 0.25, "because"), said("large", float("nan")))
-    assert heads == ["place", "what", "published", "ours", "difference", "status"]
+    assert heads == ["place", "what", "published", "computed", "difference", "status"]
     assert rows[0][2:4] == ["0.500\u00a0m²", "0.250\u00a0m²"]
     assert rows[0][-1] == "predicted (1)"
     # words have their units in them, and what is not known has none

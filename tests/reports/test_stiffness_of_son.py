@@ -51,7 +51,7 @@ def test_manipulability_of_the_hexapod(hexapod_report: WrittenReport) -> None:
 def test_hexapod_says_what_was_assumed(hexapod_report: WrittenReport) -> None:
     page = text_of(hexapod_report.report)
     for words in (
-        "our choice: the k_i",
+        "assumed: the k_i",
         "the drawing is missing",
         "the thesis prints none",
         "6 x 3 type",

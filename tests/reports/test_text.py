@@ -38,7 +38,7 @@ def test_columns_of_words_have_their_width() -> None:
         Page("t", "", (Chapter("c", "C", (Table("s", columns, [["Table 1", "words"]]),)),), "")
     )
     assert '<th scope="row" class="short narrow">Table 1</th>' in html
-    assert '<td class="short wide">words</td>' in html
+    assert '<td class="short wide" data-label="what">words</td>' in html
 
 
 def test_bars_of_very_different_length_stand_on_a_logarithmic_axis() -> None:

@@ -57,10 +57,33 @@ def test_responses_on_the_page_are_those_of_the_files(
         rows = rows_of(folder / f"{key}-frf.csv")
         plot = specs(report.report)[f"frf-{key}"]["data"]
         minima = rows_of(folder / f"{key}-minima.csv")
-        for axis, curve, mark, row in zip("xyz", plot[:3], plot[3:], minima, strict=True):
+        # equal directions share a curve, by the name of all
+        curves = {
+            axis: curve
+            for curve in plot
+            if curve["mode"] == "lines" and "yaxis" not in curve
+            for axis in re.findall(r"\b[xyz]\b", curve["name"])
+        }
+        marks = {
+            axis: mark
+            for mark in plot
+            if mark["mode"] == "markers"
+            for axis in re.findall(r"\b[xyz]\b", mark["name"])
+        }
+        phases = [curve for curve in plot if curve.get("yaxis") == "y2"]
+        reals = [curve for curve in plot if curve.get("yaxis") == "y3"]
+        assert len(phases) == len(reals) == len({id(c) for c in curves.values()})
+        for axis, row in zip("xyz", minima, strict=True):
+            curve, mark = curves[axis], marks[axis]
             parts = [[float(r[f"{p}_{axis}_m/N"]) for r in rows] for p in ("real", "imaginary")]
             # the page rounds to five digits
             np.testing.assert_allclose(curve["y"], 1e6 * np.hypot(parts[0], parts[1]), rtol=1e-4)
+            real = next(c for c in reals if c["name"] == curve["name"])
+            np.testing.assert_allclose(real["y"], 1e6 * np.array(parts[0]), rtol=1e-3, atol=1e-4)
+            phase = next(c for c in phases if c["name"] == curve["name"])
+            # a driving point lags behind its force by half a turn at most
+            assert min(phase["y"]) >= -180.0
+            assert max(phase["y"]) <= 1e-3
             assert mark["y"][0] == pytest.approx(1e6 * float(row["peak_m/N"]), rel=1e-5)
             assert mark["x"][0] == pytest.approx(float(row["frequency_Hz"]), rel=1e-5)
 

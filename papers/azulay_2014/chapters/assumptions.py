@@ -10,7 +10,7 @@ from strutwork.reports.content import Cell, Column, Table
 from strutwork.reports.numbers import significant
 from strutwork.studies import Filters
 
-PAPER, OURS, CALIBRATED = "paper", "our choice", "calibrated"
+PAPER, OURS, CALIBRATED = "paper", "assumed", "calibrated"
 
 Line = tuple[str, str, str, str]
 
@@ -40,7 +40,7 @@ def method_table(filters: Filters) -> Table:
                 "radius 4 mm, 317 points",
                 PAPER,
                 (
-                    "section 3; which points is not printed: ours are the lattice i² + j² ≤ 100, "
+                    "section 3; which points is not printed: taken is the lattice i² + j² ≤ 100, "
                     "projected up"
                 ),
             ),
@@ -131,7 +131,7 @@ def _common(machine: ThreeLegs) -> list[Line]:
             "Stiffness of a drive",
             "3 N/µm on both drives of a leg",
             PAPER,
-            "section 3.3.1 gives the value; that both drives have it is our reading",
+            "section 3.3.1 gives the value; that both drives have it is a reading of it",
         ),
         ("Range of the passive revolute joint", f"{low:.0f}° to {high:.0f}°", PAPER, "Table 3"),
         ("Tool centre point", "centre of the spherical joints", OURS, "not printed"),

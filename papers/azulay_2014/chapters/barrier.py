@@ -56,7 +56,7 @@ def regions_chapter(found: Mapping[str, Barred], first: str) -> Chapter:
                 "The paper's means are met best with the ranges of the revolute joints alone; "
                 "the other ranges of its Tables 1 and 3 take away the points that the next table "
                 "counts. Neutral directions of the spherical joints and middles of strokes are not "
-                "printed and are our choice."
+                "printed and are assumed."
             ),
             ranges_table(found, first),
         ),

@@ -141,7 +141,7 @@ def _along(axes: Sequence[str]) -> str:
 
 
 def means_table(study: Comparison) -> Table:
-    """Means over the hemisphere, published and ours."""
+    """Means over the hemisphere, published and computed."""
     columns = [Column("machine", "", False)]
     for axis in AXES:
         group = f"mean K{axis * 2}, N/µm"
@@ -204,7 +204,7 @@ def rankings_chapter(study: Comparison) -> Chapter:
                 f"means-{axis}",
                 f"Mean K{axis * 2} over the hemisphere.",
                 grouped([SHORT[n] for n in study.names], bars, f"mean K{axis * 2} (N/µm)"),
-                f"Bars of the mean K{axis * 2} of the four machines, published and ours.",
+                f"Bars of the mean K{axis * 2} of the four machines, published and computed.",
                 "published-azulay-2014-table-4.csv",
                 height=400,
             )
@@ -235,7 +235,7 @@ def rankings_chapter(study: Comparison) -> Chapter:
 
 
 def published_chapter(study: Comparison) -> Chapter:
-    """Tables 4 and 2 beside ours."""
+    """Tables 4 and 2 beside the computed values."""
     fourth, fourth_file = published_table(TABLE_4, study.rows(TABLE_4.key))
     second, second_file = published_table(TABLE_2, study.rows(TABLE_2.key))
     return Chapter(
@@ -250,7 +250,7 @@ def reasons_chapter(study: Comparison) -> Chapter:
     """What cannot be reproduced, and why."""
     rows = study.rows(TABLE_4.key)
     missed = "; ".join(
-        f"{r.quantity[:3]} of the {SHORT[r.row]} machine {significant(r.published, 2)}, ours "
+        f"{r.quantity[:3]} of the {SHORT[r.row]} machine {significant(r.published, 2)}, computed "
         f"{significant(r.computed, 2)} and, as the paper's numbers suggest, "
         f"{significant(other.computed, 2)}"
         for r, other in zip(rows["spherical"], rows["apparent"], strict=True)

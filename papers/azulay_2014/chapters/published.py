@@ -21,7 +21,7 @@ READING = (
     "other five directions are held. This is the meaning that agrees with the paper. All means "
     "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
     "were chosen with the means of these tables in view. To the variances nothing was fitted; as "
-    "a whole they do not come out and are called not reproducible. Nothing is rescaled."
+    "a set they do not come out and are called not reproducible. Nothing is rescaled."
 )
 
 
@@ -71,7 +71,7 @@ def published_file(table: PublishedTable, rows: Rows) -> DataFile:
         for model, name in MODEL_NAMES.items()
         for row in rows[model]
     ]
-    what = f"{_label(table)} of the paper beside ours, both joint models"
+    what = f"{_label(table)} of the paper beside the computed values, both joint models"
     return rows_file(file_name(table.key), what, content)
 
 

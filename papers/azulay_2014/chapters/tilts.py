@@ -41,18 +41,21 @@ def tilts_chapter(study: TiltStudy) -> Chapter:
             Text(
                 "Table 3 prints one tilt angle for each machine, and does not say at which roll, "
                 "from where a joint's range is counted, nor whether the way there leads through a "
-                "singular pose. Ours stand beside it for the 4 mm hemisphere: with some roll, "
+                "singular pose. The computed tilts stand beside it for the 4 mm hemisphere: with "
+                "some roll, "
                 "joint ranges kept, however the machine came there; by poses within the ranges "
                 "that lead there from the pole; and the same before the singular ring, which is as "
                 "far as six drives go. Bodies that touch are not looked at. Neutral directions of "
-                "the spherical joints, middles of strokes and heights of the pole are ours: none "
+                "the spherical joints, middles of strokes and heights of the pole are assumed: "
+                "none "
                 "of these tilts is a prediction, and none meets the paper's."
             ),
             _tilts_table(study),
             Row(tuple(_plane(name, found) for name, found in study.planes.items()), 380),
             Text(
                 "Fig. 3 draws the tilt of the proposed machine by the radius of the sphere for "
-                "several link lengths, and the paper finds 196 mm better than 216 mm. With our "
+                "several link lengths, and the paper finds 196 mm better than 216 mm. With the "
+                "assumed "
                 "heights and neutral directions it is the other way about on small spheres: links "
                 "of 196 mm bring the sliders to the inner end of their stroke, with 216 mm a "
                 "spherical joint ends the tilt."
@@ -100,7 +103,7 @@ def _tilts_table(study: TiltStudy) -> Table:
             "connected with the pole",
             "before the ring",
             unit="deg",
-            group="ours, not reproducible",
+            group="computed, not reproducible",
         ),
     )
     return Table("Largest tilt from the pole, 4 mm hemisphere", columns, rows, PLANES)

@@ -169,7 +169,7 @@ def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block]
             line += [significant(row.computed), difference(row), row.status]
         lines.append(line)
     kept = [row for row in dynamics.table() if row.row.rsplit(",", 1)[0] in names]
-    what = "Table 5 of the paper beside ours, both sets"
+    what = "Table 5 of the paper beside the computed values, both sets"
     file = rows_file(file_name(TABLE_5.key), what, kept)
     notes: dict[str, list[str]] = {}
     for row in kept:

@@ -54,7 +54,8 @@ def places_chapter() -> Chapter:
             Text(
                 "Positioning workspace: the points at which the tilted spindle can be turned all "
                 "the way round the vertical while its own turn is free, with balls of ±55°. On a "
-                "whole guide its radius is all that the joints limit; heights follow from strokes, "
+                "complete guide its radius is all that the joints limit; heights follow from "
+                "strokes, "
                 "which are not printed. Nor are the axes of the sockets: counted from the links at "
                 "home they leave nothing at 90°, since the link of leg 1 turns by 87° in the "
                 "platform. Singular poses on the way are not looked at."

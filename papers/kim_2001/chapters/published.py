@@ -1,4 +1,4 @@
-"""Table II, its ellipsoids and the singular tilts beside ours, and what was measured."""
+"""Table II, its ellipsoids and the singular tilts beside computed values, and what was measured."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TILTS = {"0": 0.0, "90": HORIZONTAL}
 
 
 def published_chapter() -> Chapter:
-    """Table II and the singular tilt angles beside ours."""
+    """Table II and the singular tilt angles beside the computed values."""
     groups = ((TABLE_2, table_2_rows()), (BARRIERS, barrier_rows()))
     return Chapter(
         "published",

@@ -28,7 +28,7 @@ def radius_chapter() -> Chapter:
         (
             Text(
                 "Norm of the compliance of the tool's position. The document finds it flat from "
-                "35 mm on, and chose 33 mm; so does ours, with its calibrated dimensions."
+                "35 mm on, and chose 33 mm; so does the model, with its calibrated dimensions."
             ),
             Table(
                 "All links, relative to rigid ones; calibrated",
@@ -45,7 +45,8 @@ def radius_chapter() -> Chapter:
             ),
             Text(
                 "The document draws the norm over the radius of each link (Fig. 14) and over those "
-                "of all links and all columns (Fig. 15). Ours stands relative to the machine as "
+                "of all links and all columns (Fig. 15). The computed one stands relative to the "
+                "machine as "
                 "built. At tilt 0 it is links 2 and 3 that matter most and at tilt 90 link 1: the "
                 "document has it the other way about. With six drives the forces in the rods do "
                 "not depend on their radii, and the compliance is a sum over the rods."

@@ -31,7 +31,7 @@ STRUCTURE = (
         "The end-effector is rigid. Joints 1, 2 stand at x = −95 mm, 3, 4 at x = +95 mm, 5, 6 at "
         "z = −150 mm, with r and t of Appendix B; odd joints are the far bearings (y = w), even "
         "ones the near ones in the datum y = 0. Struts 1 and 2 stand along z, strut 3 along x. "
-        "Ours."
+        "Assumed."
     ),
     (
         "Each moving block's axis is tilted by 300 µm/m at any azimuth about the datum and takes "
@@ -39,7 +39,7 @@ STRUCTURE = (
     ),
     (
         "Stiffness along the strut k at the far, 2k at the near joint; across the strut twice "
-        "that; along the pin k_y at every joint. Ours; k and k_y are fitted."
+        "that; along the pin k_y at every joint. Assumed; k and k_y are fitted."
     ),
     "The worst case is taken over all azimuths, for each force by itself, exactly.",
 )
@@ -84,7 +84,7 @@ def misfit_blocks(study: MitSS1Study, case: str = "I") -> tuple[list[Block], lis
 
 
 def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
-    """All 36 forces beside ours, with both fits."""
+    """All 36 forces beside the computed values, with both fits."""
     file = file_name(TABLE_2.key)
     columns = (*texts("case"), *numbers("joint"), *texts("force"), *numbers("published", unit="kN"))
     rows: list[list[str | Cell]] = []
@@ -119,7 +119,9 @@ def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         ),
     ]
     # what the second fit makes of each row stands in the file beside it
-    what = "Table 2 of the thesis beside ours, stiffnesses fitted to all 36 forces, kN"
+    what = (
+        "Table 2 of the thesis beside the computed values, stiffnesses fitted to all 36 forces, kN"
+    )
     return blocks, [rows_file(file, what, study.table_2["all cases"])]
 
 
@@ -130,7 +132,7 @@ def case_i_file(study: MitSS1Study) -> DataFile:
     """Table 2 beside the stiffnesses that were fitted to Case I alone."""
     return rows_file(
         "published-son-2002-table-2-fitted-to-case-I.csv",
-        "Table 2 of the thesis beside ours, stiffnesses fitted to Case I alone, kN",
+        "Table 2 of the thesis beside the computed values, stiffnesses fitted to Case I alone, kN",
         study.table_2["case I"],
     )
 

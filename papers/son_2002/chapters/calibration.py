@@ -161,7 +161,7 @@ def _targets(found: Mapping[Part, Calibration]) -> Table:
         "Targets; residuals in units of the stated uncertainty, red beyond two",
         (
             *texts("target"),
-            *numbers("published and weight", "ours"),
+            *numbers("published and weight", "computed"),
             *texts("unit"),
             *numbers("difference", "residual"),
             *texts("step"),

@@ -1,4 +1,4 @@
-"""Designs (a), (b), (c) of Fig. 39 of Son 2002, as we read them."""
+"""Designs (a), (b), (c) of Fig. 39 of Son 2002, as read here, them."""
 
 from __future__ import annotations
 
@@ -56,8 +56,9 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     blocks: list[Block] = [
         Text(
             "The thesis shows three designs in Fig. 39: rails on separate datum surfaces, two on "
-            "one, all on one ground surface. Its dimensions are not published. Our reading, with "
-            f"sizes that are ours: every datum surface lies within {1e6 * DATUM_ZONE:g} µm of its "
+            "one, all on one ground surface. Its dimensions are not published. This reading, with "
+            f"sizes that are assumed: every datum surface lies within {1e6 * DATUM_ZONE:g} µm of "
+            f"its "
             "place (height along y and two tilts, its corners within the zone); every rail lies on "
             f"its datum within {1e6 * RAIL_HEIGHT:g} µm (the parallelism of section 8.6) over "
             f"{1e3 * RAIL_LENGTH:g} mm of length; surfaces are {1e3 * MARGIN:g} mm wider than "
@@ -83,7 +84,7 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         Table(
             "The three designs: largest worst-case force in any bearing",
             (
-                *texts("design, our reading"),
+                *texts("design, as read here"),
                 *numbers("radial", "axial", unit="kN", group="rails alone"),
                 *numbers("radial", "axial", unit="kN", group="rails and pins"),
                 *numbers("tool along y, rails alone", unit="µm"),
@@ -104,5 +105,5 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     heads = ["design", "title"]
     heads += [f"{of}_{kind.split()[0]}_N" for of in ("rails", "rails_and_pins") for kind in FORCES]
     heads += [f"tool_{d}" for d in ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")]
-    what = "worst-case forces of the designs of Fig. 39, our reading"
+    what = "worst-case forces of the designs of Fig. 39, as read here"
     return blocks, [csv_file(file, what, heads, content)]

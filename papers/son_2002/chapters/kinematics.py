@@ -188,8 +188,8 @@ def _published_kinematics(study: MitSS1Study) -> Table:
         for r in condition_rows(study.kinematics)
     ]
     return Table(
-        "Manipulability of section 6.4 beside ours",
-        (*texts("quantity"), *numbers("published", "ours", "difference"), *texts("status")),
+        "Manipulability of section 6.4 beside the computed values",
+        (*texts("quantity"), *numbers("published", "computed", "difference"), *texts("status")),
         rows,
         file_name(MANIPULABILITY.key),
     )
@@ -220,7 +220,7 @@ def _kinematics_files(study: MitSS1Study) -> list[DataFile]:
         ),
         rows_file(
             file_name(MANIPULABILITY.key),
-            "manipulability of the thesis beside ours",
+            "manipulability of the thesis beside the computed values",
             condition_rows(study.kinematics),
         ),
     ]

@@ -67,7 +67,7 @@ def summary_chapter(study: MitSS1Study) -> Chapter:
         Note(
             f"With two elastic bearings a pin the machine has {states} states of self-stress. The "
             "dimensions are the thesis's; stiffnesses, masses and thicknesses are calibrated; the "
-            "static rating, the damping and some tolerances are our assumptions, each named below. "
+            "static rating, the damping and some tolerances are assumptions, each named below. "
             "The thesis's numbers do not all come from one machine: stiffness map and assembly "
             "forces, the modes of its finite element model and the measured ones each have their "
             "own set of bearings, and each chapter says which it uses."
@@ -197,7 +197,7 @@ def _force_facts(study: MitSS1Study) -> list[Fact]:
 
 
 def drawing_chapter(study: MitSS1Study) -> Chapter:
-    """The whole machine and its mechanism in 3-D at home."""
+    """The complete machine and its mechanism in 3-D at home."""
     machine = study.machine
     placement = machine.place(machine.home())
     file = f"drawing-{NAME}.json"
@@ -215,7 +215,7 @@ def drawing_chapter(study: MitSS1Study) -> Chapter:
     blocks, files = whole_blocks(study.whole)
     return Chapter(
         "drawing",
-        "The whole machine",
+        "The complete machine",
         (*blocks, Text(DRAWING), figure),
         (*files, json_file(file, what, content)),
     )
@@ -241,7 +241,7 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
     def mm(*lengths: float) -> str:
         return ", ".join(significant(1e3 * v, 4) for v in lengths) + " mm"
 
-    ours = "our choice"
+    ours = "assumed"
     thesis = DIMENSIONS.note.split(".")[0]
     return [
         [
@@ -258,7 +258,7 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
         [
             "Distance of a pin's bearings",
             mm(machine.pin_width),
-            "ours: section 8.2 has 140 to 220 mm",
+            "assumed: section 8.2 has 140 to 220 mm",
         ],
         [
             "Radial stiffness of a bearing",
@@ -271,7 +271,7 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
             "calibrated: two in series are the k_y of the reconstructed Table 2",
         ],
         ["Struts", f"{machine.section.name} mm, {machine.material.name}, beams with shear", ours],
-        ["Guides, drives, blocks, housing", "rigid", "section 6.2 holds the drives; rest ours"],
+        ["Guides, drives, blocks, housing", "rigid", "section 6.2 holds the drives; rest assumed"],
         [
             "Parallelism of the pins in the blocks",
             "300 µm/m, any azimuth, about the near bearing",
@@ -280,7 +280,7 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
         [
             "Parallelism of the pins in the housing",
             f"{1e6 * HOUSING_TILT:g} µm/m",
-            "ours: wire EDM in one set-up, “quite good” (section 8.6)",
+            "assumed: wire EDM in one set-up, “quite good” (section 8.6)",
         ],
         [
             "Height of the rails on the granite",
@@ -291,19 +291,19 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
             "Static rating of a bearing",
             f"{significant(STATIC_RATING / 1e3)} kN",
             (
-                "ours: Table 4 names a tapered roller bearing 15 x 35 mm by NSK, no rating; "
+                "assumed: Table 4 names a tapered roller bearing 15 x 35 mm by NSK, no rating; "
                 "catalogues give 13 to 15 kN for this size (30202)"
             ),
         ],
         [
             "Limit of a bearing",
             "radial and axial force each below the static rating, safety factor 1",
-            f"ISO 76: P₀ = max(Fr, ½ Fr + {AXIAL_FACTOR:g} Fa); each taken by itself, ours",
+            f"ISO 76: P₀ = max(Fr, ½ Fr + {AXIAL_FACTOR:g} Fa); each taken by itself, assumed",
         ],
         [
             "Distribution of the machine's tolerances",
             "uniform in each zone; Table 2's on the surface of the cone",
-            "ours; section 6.6 for Table 2",
+            "assumed; section 6.6 for Table 2",
         ],
         ["Clearance, preload, friction, gravity", "none", ours],
     ]

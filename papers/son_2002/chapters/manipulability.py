@@ -61,13 +61,14 @@ def manipulability_chapter(found: xr.Dataset) -> Chapter:
         Points(
             (
                 (
-                    f"{IDENTITY[0].upper()}{IDENTITY[1:]}. Ours add to six within "
+                    f"{IDENTITY[0].upper()}{IDENTITY[1:]}. The computed ones add to six within "
                     f"{_identity(found):.0e}."
                 ),
                 (
                     "Condition number, smallest axis and volume as printed do not contradict this: "
                     "with three different axes, 2.76 and 0.465 make a volume of 0.68. With "
-                    "three-fold symmetry, as we read the drawing, two axes are equal at home, and "
+                    "three-fold symmetry, as the drawing is read here, two axes are equal at "
+                    "home, and "
                     "2.76 makes 0.735 there or, with the smaller ones equal, 0.584: outside the "
                     "printed 0.66 to 0.71."
                 ),
@@ -90,7 +91,9 @@ def manipulability_chapter(found: xr.Dataset) -> Chapter:
         ),
         netcdf_file("manipulability.nc", "the same as a dataset, with all semi-axes", found),
         rows_file(
-            file_name(MANIPULABILITY.key), "manipulability of the thesis beside ours", published
+            file_name(MANIPULABILITY.key),
+            "manipulability of the thesis beside the computed values",
+            published,
         ),
     )
     return Chapter("manipulability", "Manipulability", tuple(blocks), files)
@@ -104,8 +107,8 @@ def _identity(found: xr.Dataset) -> float:
 
 def _published(rows: tuple[PublishedRow, ...]) -> Table:
     return Table(
-        "Section 2.2 of the thesis beside ours",
-        (*texts("quantity"), *numbers("published", "ours", "difference"), *texts("status")),
+        "Section 2.2 of the thesis beside the computed values",
+        (*texts("quantity"), *numbers("published", "computed", "difference"), *texts("status")),
         [
             [
                 r.quantity,

@@ -94,10 +94,10 @@ def _published(study: WholeStudy) -> Table:
             ]
         )
     return Table(
-        f"Frequencies of the thesis beside ours at home; red: beyond {MET:g} %",
+        f"Frequencies of the thesis beside the computed values at home; red: beyond {MET:g} %",
         (
             *texts("mode", "thesis"),
-            *numbers("published", "ours", unit="Hz"),
+            *numbers("published", "computed", unit="Hz"),
             *numbers("difference"),
             *texts("status"),
         ),
@@ -117,14 +117,14 @@ def _dots(study: WholeStudy) -> Figure:
     for quantity in ("numerical", "measured"):
         found = {r.row: r for r in study.rows if r.quantity == quantity}
         series[f"thesis, {quantity}"] = [found[n].published if n in found else None for n in order]
-        series[f"ours beside {quantity}"] = [
+        series[f"computed beside {quantity}"] = [
             found[n].computed if n in found else None for n in order
         ]
     return Figure(
         "modes-published",
-        "Published frequencies (open) and ours (filled).",
+        "Published frequencies (open) and computed (filled).",
         frequency_dots(order, series),
-        "Frequencies of each mode, published numerical and measured beside ours.",
+        "Frequencies of each mode, published numerical and measured beside the computed values.",
         file_name(MODES.key),
         460,
     )
@@ -148,7 +148,7 @@ def _shapes(study: WholeStudy) -> Figure:
     length = field.drawing_scale * float(np.linalg.norm(field.displacement, axis=1).max())
     return Figure(
         "mode-shapes",
-        "Mode shapes of the whole machine: the granite's surface and the mechanism's rods "
+        "Mode shapes of the entire machine: the granite's surface and the mechanism's rods "
         "coloured by displacement as a share of the largest, at rest in grey. At the slider's "
         f"middle the largest motion is drawn as {significant(1e3 * length, 2)} mm.",
         modes_view(pictures),
@@ -199,7 +199,7 @@ def _postures(study: WholeStudy) -> list[Block]:
             f"b = {fixed(float(b[-1]), 0)}°, where the lines of the struts come near one point; "
             f"the strut assembly's stays between {fixed(float(struts.min()), 1)} and "
             f"{fixed(float(struts.max()), 1)} Hz. The thesis has its first mode nearly independent "
-            "of the spindle's orientation: ours, a tilt about y, is not."
+            "of the spindle's orientation: the computed one, a tilt about y, is not."
         ),
     ]
 
@@ -234,7 +234,7 @@ def _left_open(study: WholeStudy) -> tuple[str, ...]:
 
 def _beside() -> str:
     pairs = (
-        " beside our ".join(name.removeprefix("rigid body ") for name in pair)
+        " beside the computed ".join(name.removeprefix("rigid body ") for name in pair)
         for pair in MOUNT_ROWS.items()
     )
     return "its " + ", ".join(pairs)
@@ -260,7 +260,7 @@ def _files(study: WholeStudy) -> list[DataFile]:
     published = [
         rows_file(
             file_name(table.key),
-            f"{table.title} beside ours",
+            f"{table.title} beside the computed values",
             [r for r in study.rows if r.row in {v.row for v in table}],
         )
         for table in (MODES, MOUNT_MODES)

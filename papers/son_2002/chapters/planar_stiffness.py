@@ -45,7 +45,7 @@ MAP, FITS = "planar-stiffness.csv", "table-6-fits.json"
 
 
 def stiffness_chapter() -> Chapter:
-    """The planar stiffness by both formulas, and the measured one beside ours."""
+    """The planar stiffness by both formulas, and the measured one beside the computed values."""
     found = planar_stiffness_map()
     rows, fits = table_6_rows(), table_6_fits()
     blocks: list[Block] = [
@@ -61,8 +61,9 @@ def stiffness_chapter() -> Chapter:
         Text(
             f"k_i = {micro(STRUT_STIFFNESS)} N/µm is calibrated: with it the flat part of the map "
             "lies at 150 N/µm, the highest tick of Fig. 29-(a), which prints no value. The "
-            "stiffness is 1/C_xx at the tool tip, tilt and z free to follow. Ours in Table 6 is "
-            "the whole structure with the bearings that are calibrated to the thesis's numerical "
+            "stiffness is 1/C_xx at the tool tip, tilt and z free to follow. The computed one in "
+            "Table 6 is "
+            "the entire structure with the bearings that are calibrated to the thesis's numerical "
             "frequencies and to its K_y of 35 N/µm at home."
         ),
         _table_6(rows),
@@ -145,11 +146,12 @@ def _table_6(rows: tuple[PublishedRow, ...]) -> Table:
         )
     groups = ("as printed", "last two rows swapped")
     return Table(
-        "Table 6 of the thesis, measured stiffness, beside ours at the tool tip, N/µm: "
+        "Table 6 of the thesis, measured stiffness, beside the computed values at the tool tip, "
+        "N/µm: "
         "not reproducible",
         (
             *texts("place", "along"),
-            *numbers("ours"),
+            *numbers("computed"),
             *(
                 Column(head, "", True, group)
                 for group in groups
@@ -175,7 +177,7 @@ def _fits_table(fits: tuple[ColumnFit, ...]) -> Table:
         for fit in fits
     ]
     return Table(
-        "Residuals: root mean square of ln(ours/published); 0.69 is a factor of two",
+        "Residuals: root mean square of ln(computed/published); 0.69 is a factor of two",
         (
             Column("model, reading", "", False),
             *(Column(q) for q in QUANTITIES),
@@ -233,6 +235,10 @@ def _files(
     return [
         plane_file(MAP, "stiffness over x and tilt by both formulas", found, maps),
         netcdf_file("planar-stiffness.nc", "the same as a dataset, blocked stiffness too", found),
-        rows_file(file_name(TABLE_6.key), "Table 6 of the thesis beside ours, both readings", rows),
+        rows_file(
+            file_name(TABLE_6.key),
+            "Table 6 of the thesis beside the computed values, both readings",
+            rows,
+        ),
         json_file(FITS, "residuals of every model for Table 6", [f.to_dict() for f in fits]),
     ]

@@ -25,11 +25,11 @@ SHOWN = (0, 1, 5, 10, 30, 60, 80, 89, 90)
 
 SPEEDS, FLAT, HOME = "axis-speeds.csv", "flat-surface.csv", "heads-at-home.csv"
 
-OURS = "our choice"
+OURS = "assumed"
 
 NOTES = (
     (
-        "Lengths, sections, stiffnesses and masses are our choice: the thesis shows these machines "
+        "Lengths, sections, stiffnesses and masses are assumed: the thesis shows these machines "
         "as skeletons and prints no dimension of one. Nothing in this table is a prediction of a "
         "printed number."
     ),
@@ -64,7 +64,7 @@ def heads_chapter() -> Chapter:
             Text(
                 "Found from the joints alone, without the formulas; the two differ by "
                 f"{max(h.apart for h in found):.0e} at most. The spindle is driven as well, so "
-                "that such a pose is a serial singularity of the whole machine too."
+                "that such a pose is a serial singularity of the entire machine too."
             ),
             _home_table(found),
             Points(NOTES),
@@ -165,7 +165,7 @@ def flat_chapter() -> Chapter:
             ),
             Table(
                 "Reversal singularities, flat surface and tool held",
-                texts("machine", "thesis", "ours", "where"),
+                texts("machine", "thesis", "computed", "where"),
                 [[r.machine, r.printed, r.found, r.where] for r in rows],
                 FLAT,
             ),
@@ -178,7 +178,7 @@ def flat_chapter() -> Chapter:
             csv_file(
                 FLAT,
                 "reversal singularities over a flat surface, machine by machine",
-                ["machine", "thesis", "ours", "where", "places_mm"],
+                ["machine", "thesis", "computed", "where", "places_mm"],
                 [
                     [r.machine, r.printed, r.found, r.where, " ".join(map(repr, r.places))]
                     for r in rows

@@ -17,7 +17,7 @@ from strutwork.studies.scale import ScaleStudy
 
 FILE = "size.csv"
 
-#: Modes that the figure of the whole machine shows, from 0: beyond those of the mounts.
+#: Modes that the figure of the entire machine shows, from 0: beyond those of the mounts.
 SHOWN = (6, 7, 8, 9)
 
 

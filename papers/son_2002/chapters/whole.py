@@ -22,12 +22,12 @@ DRAWING_FILE, STIFFNESS_FILE = "drawing-whole-machine.json", "stiffness-calibrat
 
 
 def whole_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
-    """The whole machine in 3-D, its masses and size as a model."""
+    """The complete machine in 3-D, its masses and size as a model."""
     whole = study.whole
     weight = study.masses["whole"] - study.masses["moving"]
     blocks: list[Block] = [
         Text(
-            "The whole machine is one structure: the granite, a solid, on four elastic mounts; "
+            "The complete machine is one structure: the granite, a solid, on four elastic mounts; "
             "three rails on its vertical plate; blocks, struts as beams, pins in two bearings "
             "each, and the spindle housing. It stands at any pose of the plane; the granite is "
             "reduced once to the footings of its mounts and rails."
@@ -60,8 +60,9 @@ def whole_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
         ),
         Figure(
             "drawing-whole-machine",
-            "The whole MIT-SS-1 at home. The granite is drawn as it is computed, with its cells; "
-            "drag to turn, scroll to zoom, names show under the pointer. Without the work table.",
+            "The complete MIT-SS-1 at home. The granite is drawn as it is computed, with its "
+            "cells; drag to turn, scroll to zoom, names show under the pointer. Without the "
+            "work table.",
             whole_machine_view(whole),
             "Three-dimensional drawing: an L of granite on four mounts, three rails on its plate, "
             "struts, spindle housing and tool before them.",
@@ -70,7 +71,7 @@ def whole_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
         ),
     ]
     return blocks, [
-        json_file(DRAWING_FILE, "what the drawing of the whole machine shows", _drawing(whole))
+        json_file(DRAWING_FILE, "what the drawing of the entire machine shows", _drawing(whole))
     ]
 
 
@@ -142,7 +143,7 @@ def _at_home(study: WholeStudy) -> Table:
     home = study.stiffness["stiffness"].sel(x=0.0, b=0.0, method="nearest")
     rows = [
         [
-            f"ours, {base}",
+            f"computed, {base}",
             *(micro(float(home.sel(base=base, direction=axis))) for axis in AXES),
         ]
         for base in map(str, study.stiffness["base"].to_numpy())
@@ -164,12 +165,12 @@ def _at_home(study: WholeStudy) -> Table:
 
 
 def whole_assumptions(whole: MitSS1Whole) -> Table:
-    """What the whole machine assumes, with the sources."""
+    """What the entire machine assumes, with the sources."""
     frame, machine = whole.frame, whole.machine
     mm = 1e3
     mounts = " and ".join(micro(k) for k in whole.mount_stiffness)
     return assumed(
-        "The whole machine: granite, mounts, masses; its bearings differ from those above, "
+        "The complete machine: granite, mounts, masses; its bearings differ from those above, "
         "which are calibrated to other numbers",
         [
             [
@@ -177,7 +178,7 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
                 " × ".join(f"{v:g}" for v in frame.envelope) + " m; 78 GPa, 3000 kg/m³",
                 "sections 6.1 and 8.1",
             ],
-            ["Poisson's ratio of the granite", "0.25", "ours; the thesis prints none"],
+            ["Poisson's ratio of the granite", "0.25", "assumed; the thesis prints none"],
             [
                 "Thickness of plate and base",
                 ", ".join(f"{mm * v:g} mm" for v in CALIBRATED_GRANITE.values()),
@@ -194,7 +195,7 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
                     f"{mm * frame.rail_width:g} mm wide; {mm * frame.mount_size:g} mm square, "
                     f"{mm * frame.mount_inset:g} mm from the edges"
                 ),
-                "ours; mean motion of the footing (RBE3), the blocks' rails rigid",
+                "assumed; mean motion of the footing (RBE3), the blocks' rails rigid",
             ],
             [
                 "Plane of the mechanism",
@@ -202,7 +203,7 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
                     f"{mm * whole.offset:g} mm before the plate, origin {mm * whole.height:g} mm "
                     "above the base"
                 ),
-                "ours",
+                "assumed",
             ],
             [
                 "Bearings on the housing, radial and axial",
@@ -228,7 +229,7 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
                 ),
                 "calibrated; housing on its lower bounds",
             ],
-            ["Damping of every mode", "1 %", "ours; the thesis prints none"],
+            ["Damping of every mode", "1 %", "assumed; the thesis prints none"],
             [
                 "Work table; masses of blocks, screws, motors",
                 "left out",
