@@ -76,7 +76,8 @@ def compare_files(
         found.append(_function_pair(ours, theirs, scales))
     if progress is not None and matched:
         progress(len(matched), len(matched))
-    notes = (*_told("computed", computed), *_told("measured", measured), *notes, *said)
+    read = (*_told("computed", computed), *_told("measured", measured))
+    notes = (*read, *notes, *pairs.notes, *said)
     return replace(pairs, functions=tuple(found), notes=notes)
 
 
