@@ -63,7 +63,16 @@ def _print(found: Comparison) -> None:
             for p in found.modes
         ]
         # every word fits its column at 80 characters: a table folds its headings anywhere
-        columns = ["no.", "no. in test", "Hz", "Hz in test", "off, %", "ζ, %", "ζ in test, %", "MAC"]
+        columns = [
+            "no.",
+            "no. in test",
+            "Hz",
+            "Hz in test",
+            "off, %",
+            "ζ, %",
+            "ζ in test, %",
+            "MAC",
+        ]
         out.print(table("Paired modes", columns + ["span of"] * spans, rows, names=0))
     for what, rest in (("computed", found.only_computed), ("measured", found.only_measured)):
         if rest:

@@ -1,7 +1,7 @@
-"""The tutorials as notebooks: `python -m tests.docs.notebooks` writes them into examples/notebooks.
+"""The tutorials as notebooks: `python -m tests.docs.notebooks`, into examples/notebooks.
 
-A file of a page becomes a cell that writes it, a command one that calls it, and what a page shows as
-printed is left out, since the notebook prints it itself. No outputs are stored.
+A file of a page becomes a cell that writes it, a command one that calls it, and what a page shows
+as printed is left out, since the notebook prints it itself. No outputs are stored.
 """
 
 from __future__ import annotations
@@ -24,7 +24,9 @@ import plotly.io
 plotly.io.renderers.default = "plotly_mimetype+notebook\""""
 
 #: What is said of a page's blocks alone.
-OF_PAGES = re.compile(r"A block that begins with the name of a file .*?follow a `\$`\.\n", re.DOTALL)
+OF_PAGES = re.compile(
+    r"A block that begins with the name of a file .*?follow a `\$`\.\n", re.DOTALL
+)
 PICTURE = re.compile(r"^!\[.*?\]\(.*?\)\n", re.MULTILINE | re.DOTALL)
 LINK = re.compile(r"\]\((?!https?:|#)([^)#]*)(#[^)]*)?\)")
 

@@ -23,7 +23,7 @@ from tests.reports.browser import Browser, chromium
 IMAGES = ROOT / "docs" / "images"
 SIZE = (1300, 1000)
 
-#: By picture: the tutorial, what it is of, and how it is drawn; "report" is a report's first screen.
+#: By picture: the tutorial, what of it, and how it is drawn; "report" is a report as it opens.
 OF_TUTORIALS: dict[str, tuple[str, str, dict[str, Any] | str]] = {
     "tutorial-1-head": ("01-three-rps", "head.toml", {}),
     "tutorial-1-report": ("01-three-rps", "out/head/report.html", "report"),
@@ -38,7 +38,7 @@ OF_TUTORIALS: dict[str, tuple[str, str, dict[str, Any] | str]] = {
 def picture_of(browser: Browser, source: str | Path, drawn: dict[str, Any]) -> bytes:
     """PNG of a machine as `plot(**drawn)` shows it in a notebook, and nothing else."""
     figure = strutwork.load(str(source)).plot(**drawn)
-    hidden = dict.fromkeys(("xaxis", "yaxis", "zaxis"), {"visible": False})
+    hidden = {axis: {"visible": False} for axis in ("xaxis", "yaxis", "zaxis")}
     figure.update_layout(
         title=None,
         showlegend=False,
