@@ -45,7 +45,7 @@ def _linked(words: str, page: Path) -> str:
 
 def _sources(page: Path) -> list[tuple[str, str]]:
     written: set[str] = set()
-    made = [("code", f"%mkdir -p {page.stem}\n%cd {page.stem}"), ("code", DRAWINGS)]
+    made = [("code", f"%mkdir -p {page.stem}\n%cd {page.stem}\n%env COLUMNS=100"), ("code", DRAWINGS)]
     for cell in cells(page):
         if cell.kind == "words":
             words = PICTURE.sub("", OF_PAGES.sub("", cell.text))
@@ -53,7 +53,9 @@ def _sources(page: Path) -> list[tuple[str, str]]:
         elif cell.kind in {"python", "shown"}:
             made.append(("code", cell.text.strip()))
         elif cell.kind == "console":
-            made.append(("code", "\n".join(f"!{command}" for command, _ in steps(cell.text))))
+            commands = "\n".join(command for command, _ in steps(cell.text))
+            # without a terminal: no bars that are drawn again and again, and a failure is one
+            made.append(("code", f"%%bash -e\n{commands}"))
         elif cell.kind == "file":
             made.append(("code", _writing(cell, again=cell.file in written)))
             written.add(cell.file)
