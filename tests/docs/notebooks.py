@@ -45,7 +45,8 @@ def _linked(words: str, page: Path) -> str:
 
 def _sources(page: Path) -> list[tuple[str, str]]:
     written: set[str] = set()
-    made = [("code", f"%mkdir -p {page.stem}\n%cd {page.stem}\n%env COLUMNS=100"), ("code", DRAWINGS)]
+    begin = f"%mkdir -p {page.stem}\n%cd {page.stem}\n%env COLUMNS=100"
+    made = [("code", begin), ("code", DRAWINGS)]
     for cell in cells(page):
         if cell.kind == "words":
             words = PICTURE.sub("", OF_PAGES.sub("", cell.text))
