@@ -18,7 +18,7 @@ GALLERY = ROOT / "docs" / "gallery"
 
 
 def output(example: Example) -> list[str]:
-    """Those lines of the command's output that the example wants shown."""
+    """The lines of the output that the example wants shown, dots for what is between."""
     program, *arguments = shlex.split(example.command)
     run = subprocess.run(
         [{"strutwork": COMMAND, "python": sys.executable}[program], *arguments],
@@ -33,12 +33,16 @@ def output(example: Example) -> list[str]:
     for text in example.shown:
         start = found[-1] + 1 if found else 0
         found.append(next(i for i in range(start, len(lines)) if text in lines[i]))
-    return [lines[i].rstrip() for i in found]
+    kept, last = [], -1
+    for i in found:
+        kept += ["..."] * (i > last + 1) + [lines[i].rstrip()]
+        last = i
+    return kept + ["..."] * (last < len(lines) - 1)
 
 
 def page(example: Example, printed: Sequence[str]) -> str:
     """Its page, with these lines as the command's output."""
-    console = "\n".join(f"...\n{line}" for line in printed)
+    console = "\n".join(printed)
     return f"""# {example.title}
 
 <!-- written by python -m tests.docs.gallery, from the head of {example.path} -->
@@ -50,7 +54,6 @@ def page(example: Example, printed: Sequence[str]) -> str:
 ```console
 $ {example.command}
 {console}
-...
 ```
 
 The file: [{example.path}](../../{example.path}).
@@ -59,8 +62,7 @@ The file: [{example.path}](../../{example.path}).
 
 def printed_on(text: str) -> list[str]:
     """The command's output as a page has it."""
-    block = text.partition("```console\n")[2].partition("```")[0].splitlines()[1:]
-    return [line for line in block if line != "..."]
+    return text.partition("```console\n")[2].partition("```")[0].splitlines()[1:]
 
 
 def main(names: Sequence[str]) -> None:

@@ -20,8 +20,9 @@ def test_a_page_is_made_of_the_head_of_its_example(example: Example) -> None:
     text = (GALLERY / f"{example.name}.md").read_text(encoding="utf-8")
     printed = printed_on(text)
     assert text == page(example, printed), "python -m tests.docs.gallery writes it anew"
-    assert len(printed) == len(example.shown) > 0
-    assert all(wanted in line for wanted, line in zip(example.shown, printed, strict=True))
+    kept = [line for line in printed if line != "..."]
+    assert len(kept) == len(example.shown) > 0
+    assert all(wanted in line for wanted, line in zip(example.shown, kept, strict=True))
     assert len(example.words.split()) > 10, "its head says what it shows"
 
 
