@@ -1,6 +1,13 @@
 """The MIT-SS-1 half and twice as large: what its bearings make of similarity.
 
-Run it where the package is installed: `python examples/07_scale_mit_ss1.py`.
+A study in Python: stiffness, frequencies and the deflection at constant removal rate against the
+size of a machine, under three laws for its bearings and one of one's own.
+
+$ python examples/07_scale_mit_ss1.py
+> similar joints
+> roller bearings
+> unscaled joints
+> half a power
 """
 
 from strutwork.kinematics import DIRECTIONS

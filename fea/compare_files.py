@@ -76,7 +76,8 @@ def compare_files(
         found.append(_function_pair(ours, theirs, scales))
     if progress is not None and matched:
         progress(len(matched), len(matched))
-    notes = (*_told("computed", computed), *_told("measured", measured), *notes, *said)
+    read = (*_told("computed", computed), *_told("measured", measured))
+    notes = (*read, *notes, *pairs.notes, *said)
     return replace(pairs, functions=tuple(found), notes=notes)
 
 
@@ -142,6 +143,11 @@ def _function_pair(ours: FrfRecord, theirs: FrfRecord, scales: tuple[float, floa
     return FunctionPair(":".join(theirs.output), ":".join(theirs.input), motion, found, theirs.run)
 
 
+def _some(nodes: Sequence[str]) -> str:
+    """Enough names to see how the nodes of a file are called."""
+    return ", ".join(nodes[:3]) + (f" and {len(nodes) - 3} more" if len(nodes) > 3 else "")
+
+
 def _common_shapes(
     computed: Sequence[ModeRecord], measured: Sequence[ModeRecord], to_computed: dict[str, str]
 ) -> tuple[ModeSet, ModeSet]:
@@ -153,7 +159,8 @@ def _common_shapes(
     if not everywhere:
         raise ModelError(
             "comparison",
-            "the modes of the two files have no node in common.",
+            "the modes of the two files have no node in common: "
+            f"{_some(computed[0].nodes)} computed, {_some(measured[0].nodes)} measured.",
             "Give the nodes the same names, or both files positions (data set 2411).",
         )
     ours = [_at(mode, [to_computed[n] for n in everywhere]) for mode in computed]

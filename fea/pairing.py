@@ -15,6 +15,9 @@ from strutwork.fea.comparison import Comparison, ModePair
 
 Array = NDArray[Any]
 
+#: From this MAC on two modes are commonly held to be the same.
+SURELY_ALIKE = 0.9
+
 
 @dataclass(frozen=True)
 class ModeSet:
@@ -142,7 +145,27 @@ def pair_modes(
         modes=tuple(pairs),
         only_computed=_rest(computed, {p.computed for p in pairs}),
         only_measured=_rest(measured, {p.measured for p in pairs}),
+        notes=_alike_and_far(computed, measured, alike, pairs, max(least, SURELY_ALIKE)),
     )
+
+
+def _alike_and_far(
+    computed: ModeSet, measured: ModeSet, alike: Array, pairs: list[ModePair], least: float
+) -> tuple[str, ...]:
+    """Modes left over on both sides whose shapes are the same: the window kept them apart."""
+    mine = sorted(set(range(len(computed.frequencies))) - {p.computed for p in pairs})
+    theirs = sorted(set(range(len(measured.frequencies))) - {p.measured for p in pairs})
+    notes = []
+    for j in theirs:
+        i = int(max(mine, key=lambda i: alike[i, j], default=-1))
+        ours, real = float(computed.frequencies[i]), float(measured.frequencies[j])
+        if i >= 0 and real > 0 and alike[i, j] >= least:
+            notes.append(
+                f"computed {ours:.4g} Hz and measured {real:.4g} Hz have the same shape (MAC "
+                f"{alike[i, j]:.3f}) and are {100.0 * abs(ours - real) / real:.0f} % apart: a "
+                "wider window pairs them"
+            )
+    return tuple(notes)
 
 
 def _with_neighbours(members: list[int], groups: list[list[int]]) -> list[int]:

@@ -78,8 +78,9 @@ class ToolStiffness:
 
     def _repr_html_(self) -> str:
         rows = [
-            (d, f"{f:.4g}", f"{b:.4g}", "N/m" if d in "xyz" else "N·m/rad")
+            (d, f"{f / scale:.4g}", f"{b / scale:.4g}", unit)
             for d, f, b in zip(DIRECTIONS, self.free, self.blocked, strict=True)
+            for scale, unit in [(1e6, "N/µm") if d in "xyz" else (1e3, "kN·m/rad")]
         ]
         return table("Stiffness at the tool", rows, ("", "others free", "others blocked", ""))
 

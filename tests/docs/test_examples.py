@@ -8,7 +8,6 @@ console block the lines after `$ strutwork …` are what the command prints on s
 from __future__ import annotations
 
 import contextlib
-import doctest
 import io
 import os
 import re
@@ -20,23 +19,19 @@ from pathlib import Path
 import pytest
 
 from tests.docs.markdown import Block, blocks
+from tests.docs.tutorial import COMMAND, ROOT, TUTORIALS, matches, steps
 
-ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
-COMMAND = Path(sys.executable).with_name("strutwork")
-
-
-def matches(wanted: str, got: str) -> bool:
-    flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-    return doctest.OutputChecker().check_output(wanted, got, flags)
+# the others are a way to be gone from its beginning: tests/docs/test_tutorials.py
+LOOSE = [page for page in PAGES if page not in TUTORIALS]
 
 
 def programs() -> list[Path]:
-    return [page for page in PAGES if any(b.language == "python" for b in blocks(page))]
+    return [page for page in LOOSE if any(b.language == "python" for b in blocks(page))]
 
 
 def consoles() -> list[Block]:
-    found = [block for page in PAGES for block in blocks(page)]
+    found = [block for page in LOOSE for block in blocks(page)]
     return [block for block in found if block.language == "console"]
 
 
@@ -72,13 +67,12 @@ def test_python_blocks_run_and_print_what_the_page_says(page: Path) -> None:
     [pytest.param(b, marks=pytest.mark.slow if b.slow else (), id=str(b)) for b in consoles()],
 )
 def test_commands_run_and_print_what_the_page_says(block: Block, workplace: Path) -> None:
-    steps = re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block.text, re.MULTILINE)
-    assert steps, f"{block}: a console block starts with a prompt"
-    for command, wanted in steps:
+    found = steps(block.text)
+    assert found, f"{block}: a console block starts with a prompt"
+    for command, wanted in found:
         program, *arguments = shlex.split(command)
-        assert program == "strutwork", f"{block}: only the program strutwork is tried"
         run = subprocess.run(
-            [COMMAND, *arguments],
+            [{"strutwork": COMMAND, "python": sys.executable}[program], *arguments],
             cwd=workplace,
             env={**os.environ, "COLUMNS": "100", "NO_COLOR": "1"},
             stdin=subprocess.DEVNULL,

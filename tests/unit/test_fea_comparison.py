@@ -167,8 +167,13 @@ def test_window_and_least_leave_modes_alone() -> None:
     found = pair_modes(computed, measured)
     assert found.modes == ()
     assert (found.only_computed, found.only_measured) == ((100.0, 200.0), (150.0, 200.0))
+    # of the two left over, one pair has one shape and lies too far apart; the other has not
+    (note,) = found.notes
+    assert note.startswith("computed 100 Hz and measured 150 Hz have the same shape (MAC 1.000)")
+    assert "33 % apart: a wider window" in note
     wide = pair_modes(computed, measured, window=0.5, least=0.1)
     assert [round(p.mac, 12) for p in wide.modes] == [1.0, 0.2]
+    assert wide.notes == ()
 
 
 @given(st.floats(0, np.pi))
@@ -231,7 +236,7 @@ def test_nodes_with_other_names_are_found_by_their_place() -> None:
     assert pair.mac == pytest.approx(1.0)
     nowhere = {"7": PLACES["c"] + 0.1, "3": PLACES["b"] + 0.1}
     apart = UniversalFile(modes=measured.modes, positions=nowhere)
-    with pytest.raises(ModelError, match="no node in common"):
+    with pytest.raises(ModelError, match="no node in common: a, b, c computed, 7, 3 measured"):
         compare_files(computed, apart)
 
 

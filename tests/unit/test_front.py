@@ -164,6 +164,9 @@ def test_shown_in_a_notebook(machine: Machine) -> None:
     assert "460.8 N" not in shown
     table = machine.stiffness()._repr_html_()
     assert table.count("<tr>") == 7
+    # in the units that the command prints
+    assert ">460.8</td>" in table
+    assert table.count("N/µm") == table.count("kN·m/rad") == 3
     assert "z 460.8 N/µm" in repr(machine.stiffness())
 
 
