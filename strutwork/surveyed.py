@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
 
 
-@xr.register_dataset_accessor("strutwork")  # type: ignore[no-untyped-call, untyped-decorator]
+@xr.register_dataset_accessor("strutwork")  # type: ignore[no-untyped-call]
 class Surveyed:
     """The result of `survey`, of a machine or of `strutwork.studies`.
 
