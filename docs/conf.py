@@ -68,6 +68,8 @@ html_copy_source = False
 html_show_sourcelink = False
 # the summaries would be fetched from the pages, which a browser forbids for files
 html_show_search_summary = False
+# else the first page that a reader opens complains in the console
+html_context = {"default_mode": "auto"}
 html_theme_options = {
     "logo": {"text": "Strutwork"},
     "navbar_align": "left",

@@ -30,6 +30,7 @@ from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
 from strutwork.reports.cli.report_command import report
 from strutwork.reports.cli.reversals_command import reversals
+from strutwork.reports.cli.schema_command import schema
 from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.trajectory_command import trajectory
@@ -366,6 +367,7 @@ app.command()(move)
 app.command()(workspace)
 app.command()(new)
 app.command()(reversals)
+app.command()(schema)
 app.command()(singularities)
 app.command()(trajectory)
 app.command()(report)
