@@ -15,7 +15,8 @@ from strutwork.reports.cli.app import app as program
 
 #: An option, a placeholder or a value in a help text, which is shown as code.
 CODE = re.compile(
-    r"(?<![\w`=:])(--[a-z][\w-]*(?: [\w.:]+=[^\s;]*[^\s;.,:])?|[A-Z]{3,}(?::[A-Z]+)*(?:_[A-Z]+)*)(?!\w)"
+    r"(?<![\w`=:])(--[a-z][\w-]*(?: [\w.:]+=[^\s;]*[^\s;.,:])?"
+    r"|[A-Z]{3,}(?::[A-Z]+)*(?:_[A-Z]+)*)(?!\w)"
 )
 #: Upper-case words that are no placeholders.
 WORDS = {"CSV", "JSON", "NPZ", "MAC", "STL", "PLY", "UFF", "HTML", "SVG", "PDF", "TOML", "STEP"}

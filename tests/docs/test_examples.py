@@ -19,9 +19,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.markdown import Block, blocks
+from tests.docs.markdown import ROOT, Block, blocks, named
 
-ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 COMMAND = Path(sys.executable).with_name("strutwork")
 
@@ -49,7 +48,7 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.usefixtures("workplace")
-@pytest.mark.parametrize("page", programs(), ids=lambda page: page.name)
+@pytest.mark.parametrize("page", programs(), ids=named)
 def test_python_blocks_run_and_print_what_the_page_says(page: Path) -> None:
     names: dict[str, object] = {"__name__": "__main__"}
     printed = ""
