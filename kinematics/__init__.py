@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 from strutwork.kinematics.forward import FoundPoses, forward_kinematics
@@ -30,6 +29,7 @@ from strutwork.kinematics.rows import (
     characteristic_lengths,
     constraint_rows,
 )
+from strutwork.later import later
 
 if TYPE_CHECKING:
     from strutwork.kinematics.assembly_modes import AssemblyModes
@@ -132,8 +132,7 @@ __all__ = [
 ]
 
 #: Files of names that are read when first asked for: compiled code and its libraries more than
-#: double the time of an import. No name of a file stands here, since Python puts the file itself
-#: in the place of such a name once it is read.
+#: double the time of an import.
 _LATER = {
     "AssemblyModes": "assembly_modes",
     "Branches": "branches",
@@ -170,13 +169,4 @@ _LATER = {
 }
 
 
-def __getattr__(name: str) -> object:
-    if name not in _LATER:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    found: object = getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
-    globals()[name] = found
-    return found
-
-
-def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+__getattr__, __dir__ = later(__name__, _LATER)

@@ -8,6 +8,7 @@ from math import isfinite
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.joint import DIRECTIONS, Joint, State
+from strutwork.names import choices
 
 #: A joint coordinate by its joint and direction.
 Coordinate = tuple[str, str]
@@ -136,7 +137,7 @@ def _end(
         raise ModelError(
             part,
             f'names the unknown joint "{name}".',
-            "Joints: " + ", ".join(list(index)[:12]) + ".",
+            choices("Joints", name, index),
         )
     joint, d = joints[index[name]], DIRECTIONS.index(direction)
     states = joint.states

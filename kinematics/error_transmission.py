@@ -20,6 +20,7 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.rows import characteristic_lengths, constraint_rows
+from strutwork.names import choices
 
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]
@@ -103,7 +104,7 @@ def error_transmission(
             raise ModelError(
                 f"joint {joint}",
                 "is not in the linkage.",
-                "Joints: " + ", ".join(list(linkage.joint_index)[:12]) + ".",
+                choices("Joints", joint, linkage.joint_index),
             )
         if (joint, direction) not in number:
             raise ModelError(

@@ -12,6 +12,9 @@ from strutwork.kinematics.frames import cross_matrix
 
 Array = NDArray[Any]
 
+#: Below this, rad, two terms of the series of a turn are all that doubles can tell.
+SMALL_TURN = 1e-4
+
 
 def rotation_matrix(vector: Array) -> Array:
     """Rotation about a vector by its length in rad, (..., 3) to (..., 3, 3) (Rodrigues)."""
@@ -24,12 +27,16 @@ def rotation_matrix(vector: Array) -> Array:
 
 def rotation_vector(matrix: Array) -> Array:
     """Axis times angle, 0 to π, of rotations, (..., 3, 3) to (..., 3)."""
+    flat = np.reshape(matrix, (-1, 3, 3))
+    if np.abs(flat - np.eye(3)).max(initial=0.0) < SMALL_TURN:
+        # sin t times the axis; of arcsin t the two terms that doubles can tell
+        skew = 0.5 * np.stack([flat[:, 2, 1], flat[:, 0, 2], flat[:, 1, 0]], axis=-1)
+        skew -= 0.5 * np.stack([flat[:, 1, 2], flat[:, 2, 0], flat[:, 0, 1]], axis=-1)
+        sine = np.sum(skew**2, axis=-1, keepdims=True)
+        return np.asarray((skew * (1.0 + sine / 6.0)).reshape(*matrix.shape[:-2], 3))
     # imported late: it takes a third of a small command's start
     from scipy.spatial.transform import Rotation  # noqa: PLC0415
 
-    flat = np.reshape(matrix, (-1, 3, 3))
-    if not len(flat):
-        return np.zeros((*matrix.shape[:-2], 3))
     return np.asarray(Rotation.from_matrix(flat).as_rotvec().reshape(*matrix.shape[:-2], 3))
 
 

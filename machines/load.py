@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
-from strutwork.machines.catalogue import CATALOGUE, Machine
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
-from strutwork.machines.variants import is_machine, named_machine, require_mass
 from strutwork.names import meant
+
+if TYPE_CHECKING:
+    from strutwork.machines.catalogue import Machine
 
 
 def load(name: str | Path) -> Model:
@@ -37,11 +39,17 @@ def load(name: str | Path) -> Model:
         No such machine, variant or file, or a wrong model.
     """
     text = str(name)
+    path = Path(text)
+    if path.suffix == ".toml":
+        # no machine's name ends so: those of the literature are not read for a file
+        return read_model(text)
+    from strutwork.machines.catalogue import CATALOGUE
+    from strutwork.machines.naming import is_machine, named_machine
+
     if is_machine(text):
         found = named_machine(text)
         return machine_model(found.machine, found.title, found.around_home)
-    path = Path(text)
-    if path.suffix != ".toml" and path.name == text and not os.path.lexists(path):
+    if path.name == text and not os.path.lexists(path):
         raise ModelError(
             text,
             "is no machine of the catalogue and no model file.",
@@ -60,6 +68,8 @@ def load_heavy(name: str | Path) -> Model:
         As `load`, and a variant that is for statics alone; names those that are not.
     """
     text = str(name)
+    from strutwork.machines.naming import is_machine, named_machine, require_mass
+
     if not is_machine(text):
         return load(text)
     found = require_mass(named_machine(text))

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, ModelWarning
-from strutwork.fea import preloaded
 from strutwork.kinematics import Placement, Poses
 from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.kinematics.motion import Motion
@@ -189,6 +188,9 @@ class Model:
         StrutworkError
             The preload cannot be solved.
         """
-        return (
-            self.placed if self.preload is None else preloaded(self.placed, self.case(self.preload))
-        )
+        if self.preload is None:
+            return self.placed
+        # vibration has its libraries: a check of mobility needs none of them
+        from strutwork.fea.preload import preloaded
+
+        return preloaded(self.placed, self.case(self.preload))

@@ -27,6 +27,7 @@ from strutwork.machines.model_schema import (
     TubeTable,
 )
 from strutwork.msa import Beam, Material, PointMass, Section, Spring, box, rectangle, rod, tube
+from strutwork.names import choices
 
 #: Poisson's ratio and shear modulus may disagree by this share without a warning.
 SHEAR_TOLERANCE = 0.01
@@ -42,9 +43,7 @@ def by_direction(
 
 def unknown(part: str, kind: str, name: str, known: Mapping[str, object]) -> ModelError:
     """The error for a name that stands for nothing."""
-    listed = list(known)
-    more = " …" if len(listed) > 8 else "."
-    remedy = f"Known: {', '.join(listed[:8])}{more}" if listed else f"The file defines no {kind}."
+    remedy = choices("Known", name, known, 8) if known else f"The file defines no {kind}."
     return ModelError(part, f'names the unknown {kind} "{name}".', remedy)
 
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
+from numpy.typing import NDArray
 
 from strutwork.msa.structure import PlacedStructure
 
 #: Nodes nearer to one another than this share of the structure's size stand at one place.
 NEAR = 1e-6
+
+#: Points are sorted along this direction, in which hardly any two of a regular drawing are level.
+SWEEP = np.array([0.4816, 0.5931, 0.6453])
 
 
 def unjoined_nodes(placed: PlacedStructure) -> tuple[tuple[str, ...], ...]:
@@ -34,7 +38,7 @@ def unjoined_nodes(placed: PlacedStructure) -> tuple[tuple[str, ...], ...]:
     size = float(np.ptp(points, axis=0).max(initial=0.0)) if len(points) else 0.0
     if size == 0.0 and len(points) < 2:
         return ()
-    pairs = cKDTree(points).query_pairs(NEAR * size, output_type="ndarray")
+    pairs = _near_pairs(points, NEAR * size)
     if not len(pairs):
         return ()
     ground = len(points)
@@ -101,3 +105,22 @@ def _labels(count: int, edges: Sequence[Sequence[int]]) -> np.ndarray:
     for a, b in edges:
         parent[root(b)] = root(a)
     return np.array([root(i) for i in range(count)])
+
+
+def _near_pairs(points: NDArray[Any], distance: float) -> NDArray[Any]:
+    """Pairs of points (n, 3) that are at most so far apart, (p, 2).
+
+    SciPy's tree would do it as well; loading it takes longer than checking a hexapod.
+    """
+    along = points @ SWEEP
+    order = np.argsort(along, kind="stable")
+    level, sorted_points = along[order], points[order]
+    pairs = []
+    for step in range(1, len(points)):
+        at = np.flatnonzero(level[step:] - level[:-step] <= distance)
+        if not len(at):
+            break
+        apart = np.linalg.norm(sorted_points[at + step] - sorted_points[at], axis=-1)
+        at = at[apart <= distance]
+        pairs.append(np.stack([order[at], order[at + step]], axis=-1))
+    return np.sort(np.concatenate(pairs), axis=-1) if pairs else np.empty((0, 2), dtype=int)

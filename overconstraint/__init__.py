@@ -1,6 +1,8 @@
 """Forces that manufacturing errors lock into over-constrained mechanisms."""
 
-from strutwork.overconstraint.allocation import Allocation, allocate
+from typing import TYPE_CHECKING
+
+from strutwork.later import later
 from strutwork.overconstraint.distribution import Distribution, distribution
 from strutwork.overconstraint.influence import (
     AssemblyForces,
@@ -32,6 +34,9 @@ from strutwork.overconstraint.tolerance import DISTRIBUTIONS, KINDS, TILTS, Tole
 from strutwork.overconstraint.tool_deviation import ToolDeviation, tool_deviation
 from strutwork.overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
 from strutwork.overconstraint.worst_case import WorstCase, worst_case
+
+if TYPE_CHECKING:
+    from strutwork.overconstraint.allocation import Allocation, allocate
 
 __all__ = [
     "BINS",
@@ -80,3 +85,6 @@ __all__ = [
     "tool_quantities",
     "worst_case",
 ]
+
+#: The optimisers that these need are slow to read.
+__getattr__, __dir__ = later(__name__, {"Allocation": "allocation", "allocate": "allocation"})

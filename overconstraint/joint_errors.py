@@ -12,6 +12,7 @@ import numpy as np
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, State
 from strutwork.msa.structure import PlacedStructure
+from strutwork.names import choices
 from strutwork.overconstraint.sources import Block, MisfitSources, misfit_sources
 from strutwork.overconstraint.tolerance import Tolerance
 from strutwork.overconstraint.unit_sets import Interval
@@ -99,7 +100,7 @@ def error_sources(
             raise ModelError(
                 error.name,
                 f'names the unknown joint "{error.joint}".',
-                "Joints: " + ", ".join(list(linkage.joint_index)[:12]) + ".",
+                choices("Joints", error.joint, linkage.joint_index),
             )
         states = linkage.states()[linkage.joint_index[error.joint]]
         if states[DIRECTIONS.index(error.direction)] == State.FREE:

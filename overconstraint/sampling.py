@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammainc, gammaincinv, ndtr, ndtri
 
 from strutwork.errors import ModelError
 from strutwork.overconstraint.sources import MisfitSources
@@ -129,6 +128,8 @@ def _second_moment(distribution: str, dimension: int) -> float:
         return 1.0
     if distribution == "uniform":
         return dimension / (dimension + 2)
+    from scipy.special import gammainc  # noqa: PLC0415 - slow to import, needed by samples alone
+
     # a chi distribution of `dimension` degrees of freedom, cut at CUT and scaled to one
     half, end = dimension / 2, CUT**2 / 2
     return float(dimension / CUT**2 * gammainc(half + 1, end) / gammainc(half, end))
@@ -152,6 +153,8 @@ def _normal(shape: UnitSet, uniform: Array) -> Array:
 
 def _normal_gauge(share: Array, dimension: int) -> Array:
     """The gauge within which a share of the points lies; closed forms where there are."""
+    from scipy.special import gammainc, gammaincinv, ndtr, ndtri  # noqa: PLC0415 - as above
+
     if dimension == 1:
         found = ndtri(0.5 + share * (ndtr(CUT) - 0.5))
     elif dimension == 2:

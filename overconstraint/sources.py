@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Linkage, State, axes_frame, cross_matrix
 from strutwork.msa.structure import PlacedStructure
+from strutwork.names import choices
 from strutwork.overconstraint.tolerance import TILTS, Tolerance
 from strutwork.overconstraint.unit_sets import Ball, Disc, Interval, PlaneZone, UnitSet
 
@@ -191,7 +192,7 @@ def _joints(linkage: Linkage, tolerance: Tolerance) -> list[int]:
             raise ModelError(
                 part,
                 f'names the unknown joint "{joint}".',
-                "Joints: " + ", ".join(list(linkage.joint_index)[:12]) + ".",
+                choices("Joints", joint, linkage.joint_index),
             )
     if tolerance.datum is not None and tolerance.datum not in linkage.node_index:
         raise ModelError(

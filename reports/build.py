@@ -138,7 +138,7 @@ def compose(
         A model that cannot be solved.
     """
     from strutwork.machines.catalogue import CATALOGUE
-    from strutwork.machines.variants import is_machine
+    from strutwork.machines.naming import is_machine
 
     pages = paper_pages()
     subject: Subject | None = None
@@ -188,8 +188,8 @@ def _machine(
     A model beside the machine's own has what every machine has, where the document has no more.
     """
     from strutwork.machines.load import load
+    from strutwork.machines.naming import named_machine
     from strutwork.machines.paper_reference import resolve
-    from strutwork.machines.variants import named_machine
     from strutwork.reports.composed import chapters_beside, report_of
 
     model, found = load(name), named_machine(name)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from strutwork.errors import StrutworkError
 from strutwork.machines.catalogue import CATALOGUE
 from strutwork.machines.load import load
-from strutwork.machines.variants import heavy_variants, named_machine
+from strutwork.machines.naming import heavy_variants, named_machine
 from strutwork.reports.build import (
     Composed,
     WrittenReport,

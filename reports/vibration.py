@@ -33,6 +33,7 @@ from strutwork.files import write_whole
 from strutwork.machines import is_machine, named_machine, require_mass
 from strutwork.machines.model import Model
 from strutwork.msa import LoadCase, PlacedStructure
+from strutwork.names import choices
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.model_damping import model_damping
 from strutwork.reports.preload_note import WATCHED, warn_of_preload
@@ -96,8 +97,8 @@ class Target:
         port = Port.parse(text, tuple(known))
         for name in (port.node, port.against):
             if name is not None and name not in known:
-                some = ", ".join(self.nodes[:8]) + (", ..." if len(self.nodes) > 8 else "")
-                raise ModelError(f'port "{text}"', f'has no node "{name}".', f"Nodes: {some}.")
+                remedy = choices("Nodes", name, self.nodes, 8)
+                raise ModelError(f'port "{text}"', f'has no node "{name}".', remedy)
         return port
 
     def require_damping(self) -> AnyDamping:

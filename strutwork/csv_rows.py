@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import re
 from collections.abc import Iterable
-from typing import Any, TextIO
+from typing import IO, Any
 
 #: Spreadsheets take a cell that begins so for a formula, or skip what it begins with. The quote
 #: is among them so that what was marked and what began with a quote stay apart.
@@ -47,7 +47,7 @@ class RowWriter:
         Opened with newline="".
     """
 
-    def __init__(self, stream: TextIO) -> None:
+    def __init__(self, stream: IO[str]) -> None:
         self._writer = csv.writer(stream, lineterminator="\n")
         self._quoting = csv.writer(stream, lineterminator="\n", quoting=csv.QUOTE_ALL)
 

@@ -68,8 +68,29 @@ def meant(name: str, known: Iterable[str]) -> str:
     >>> meant("other", ["mit-ss1", "biglide"])
     ''
     """
-    near = get_close_matches(name, list(known), n=1, cutoff=0.75)
+    near = get_close_matches(name, list(known), n=1, cutoff=0.66)
     return f'Did you mean "{visible(near[0])}"? ' if near else ""
+
+
+def choices(what: str, name: str, known: Iterable[str], most: int = 12) -> str:
+    """What a name that is not known could have been: the nearest, and what there is.
+
+    Parameters
+    ----------
+    what : str
+        Kind of the names, as a heading: "Joints".
+    name : str
+        As it was written.
+    known : iterable of str
+    most : int
+        So many are listed.
+
+    >>> choices("Nodes", "TPC", ["TCP", "base"])
+    'Did you mean "TCP"? Nodes: TCP, base.'
+    """
+    words = list(known)
+    some = ", ".join(visible(word) for word in words[:most]) + (" …" if len(words) > most else ".")
+    return f"{'' if name in words else meant(name, words)}{what}: {some}"
 
 
 def listed(words: Sequence[str], mark: str = ",") -> str:

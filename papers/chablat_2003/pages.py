@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from strutwork.machines.literature import CHABLAT_2003
-from strutwork.machines.variants import named_machine
+from strutwork.machines.naming import named_machine
 from strutwork.papers.chablat_2003.published import HIGH, SQUARES
 from strutwork.papers.chablat_2003.squares import (
     ANGLES,

@@ -25,6 +25,7 @@ from strutwork.reports.cli.choices import (
     Target,
 )
 from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
+from strutwork.reports.cli.manner import speaking
 from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
@@ -45,7 +46,6 @@ app = typer.Typer(
     epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
     "3 a result cannot be written, 130 interrupted, 141 nobody reads the output any more.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -91,6 +91,7 @@ def program(
 
 
 @app.command()
+@speaking
 def machines(json: Json = False) -> None:
     """List the machines of the literature, with their papers."""
     from strutwork.reports.cli import machines as work
@@ -99,6 +100,7 @@ def machines(json: Json = False) -> None:
 
 
 @app.command()
+@speaking
 def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
     """Count freedoms and redundant constraints of a machine, and name them."""
     from strutwork.reports.cli import check as work
@@ -108,6 +110,7 @@ def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
 
 
 @app.command()
+@speaking
 def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
     """Solve the load cases of a machine, and the stiffness at its tool."""
     from strutwork.reports.cli import solve as work
@@ -116,10 +119,11 @@ def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
     work.run(subject(target, pose, joint), json)
 
 
-app.command("map")(map_command)
+app.command("map")(speaking(map_command))
 
 
 @app.command()
+@speaking
 def modes(
     target: Target,
     count: Annotated[
@@ -159,6 +163,7 @@ def modes(
 
 
 @app.command()
+@speaking
 def frf(
     target: Target,
     given: Annotated[
@@ -214,6 +219,7 @@ def frf(
 
 
 @app.command()
+@speaking
 def compare(
     computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
     measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
@@ -248,6 +254,7 @@ def compare(
 
 
 @app.command()
+@speaking
 def tolerance(
     target: Target,
     pose: Pose = None,
@@ -301,6 +308,7 @@ def tolerance(
 
 
 @app.command()
+@speaking
 def scale(
     machine: Annotated[
         str,
@@ -362,12 +370,12 @@ def scale(
     study(machine, span, count, width_ratio, tilt, out, granite=granite, json=json)
 
 
-app.command()(accuracy)
-app.command()(move)
-app.command()(workspace)
+app.command()(speaking(accuracy))
+app.command()(speaking(move))
+app.command()(speaking(workspace))
 app.command()(new)
-app.command()(reversals)
+app.command()(speaking(reversals))
 app.command()(schema)
-app.command()(singularities)
-app.command()(trajectory)
+app.command()(speaking(singularities))
+app.command()(speaking(trajectory))
 app.command()(report)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from strutwork.machines.model import Model
+from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, show, table
+from strutwork.reports.freedom_words import freedom_sentences
 from strutwork.reports.model_check import ModelCheck, check_model
 
 
@@ -49,12 +51,16 @@ def _print(found: ModelCheck) -> None:
         )
         out.print(f"Shapes that must not interfere: {named}.", soft_wrap=True)
     for title, motions in (
+        # those that a model should not have are listed always
         ("Motions left with the drives held", counts.motions),
-        ("Motions with the drives free", counts.driven_motions),
+        ("Motions with the drives free", counts.driven_motions if MANNER.whole else ()),
     ):
         if motions:
             numbered = [(i, motion.description) for i, motion in enumerate(motions, 1)]
             out.print(table(title, ["", "motion"], numbered, names=2))
-    if counts.self_stress:
+    if counts.self_stress and MANNER.whole:
         numbered = [(i, ", ".join(s.joints)) for i, s in enumerate(counts.self_stress, 1)]
         out.print(table("States of self-stress", ["", "joints that take part"], numbered, names=2))
+    out.print(" ".join(freedom_sentences(found)), soft_wrap=True)
+    if not MANNER.whole and (counts.driven_motions or counts.self_stress):
+        out.print("--verbose lists the joints that take part.")

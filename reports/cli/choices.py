@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from itertools import islice
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from strutwork.reports.cli.usage import typed
+
+#: Entries of a folder that a shell's completion looks at.
+MOST = 1000
 
 
 class Objective(StrEnum):
@@ -25,6 +30,32 @@ class Ranges(StrEnum):
     NONE = "none"
 
 
+def targets(incomplete: str) -> list[str]:
+    """What a shell offers for a machine: those of the literature, model files and folders.
+
+    Parameters
+    ----------
+    incomplete : str
+        What was typed.
+    """
+    from strutwork.machines.catalogue import CATALOGUE
+
+    folder, _, start = incomplete.rpartition("/")
+    inside = Path(folder or ("/" if incomplete.startswith("/") else "."))
+    lead = incomplete[: len(incomplete) - len(start)]
+    try:
+        beside = sorted(
+            lead + entry.name + ("/" if entry.is_dir() else "")
+            for entry in islice(inside.iterdir(), MOST)
+            if entry.name.startswith(start)
+            and (entry.suffix == ".toml" or entry.is_dir())
+            and not entry.name.startswith(".")
+        )
+    except OSError:
+        beside = []
+    return [name for name in CATALOGUE if name.startswith(incomplete)] + beside
+
+
 Json = Annotated[
     bool, typer.Option("--json", help="Print one JSON object, in SI units, and nothing else.")
 ]
@@ -32,7 +63,9 @@ Json = Annotated[
 Target = Annotated[
     str,
     typer.Argument(
-        metavar="FILE_OR_MACHINE", help="A model file, or a machine: NAME or NAME:VARIANT."
+        metavar="FILE_OR_MACHINE",
+        help="A model file, or a machine: NAME or NAME:VARIANT.",
+        autocompletion=targets,
     ),
 ]
 Pose = Annotated[

@@ -88,6 +88,6 @@ def map_command(
 
 
 def _in_catalogue(name: str) -> bool:
-    from strutwork.machines.variants import is_machine
+    from strutwork.machines.naming import is_machine
 
     return is_machine(name)

@@ -8,14 +8,16 @@ import re
 import sys
 from collections.abc import Iterable, Mapping, Sequence
 from math import isinf
-from typing import Any
+from typing import IO, Any
 
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from strutwork.errors import NumericalError
+from strutwork.csv_rows import RowWriter
+from strutwork.errors import ModelError, NumericalError
 from strutwork.names import visible
+from strutwork.reports.cli.manner import MANNER
 
 #: What JSON leaves as it is and a terminal may obey: DEL, C1 controls, bidirectional marks.
 _HIDDEN = re.compile(
@@ -34,9 +36,13 @@ def print_json(result: Mapping[str, Any]) -> None:
 
     Raises
     ------
+    ModelError
+        CSV is asked as well.
     NumericalError
         A number that is not finite; nothing is printed.
     """
+    if MANNER.csv:
+        raise ModelError("--json", "cannot stand beside --csv.", "Ask for one of the two.")
     try:
         text = json.dumps(result, allow_nan=False, ensure_ascii=False)
         if not _shows(text):
@@ -58,11 +64,32 @@ def tell(text: str) -> None:
     sys.stderr.write(visible(text, lines=True) + "\n")
 
 
+class Rows(Table):
+    """A table that keeps what its cells show."""
+
+    def __init__(
+        self, title: str, columns: Sequence[str], rows: Sequence[Sequence[object]]
+    ) -> None:
+        super().__init__(title=visible(title), title_justify="left", title_style="bold")
+        self.kept = (title, columns, rows)
+
+    def write_csv(self, out: IO[str], *, first: bool) -> None:
+        """Write it as CSV with every digit, below a line of its title."""
+        title, columns, rows = self.kept
+        words = " ".join(visible(title).split())
+        out.write(f"{'' if first else chr(10)}# {words}\n")
+        writer = RowWriter(out)
+        writer.writerow([visible(c) or ("value" if i else "name") for i, c in enumerate(columns)])
+        for row in rows:
+            writer.writerow([visible(v) if isinstance(v, str) else v for v in row])
+
+
 def table(
     title: str, columns: Sequence[str], rows: Iterable[Sequence[object]], names: int = 1
-) -> Table:
+) -> Rows:
     """A table whose first `names` columns are names and the others numbers."""
-    made = Table(title=visible(title), title_justify="left", title_style="bold")
+    rows = list(rows)
+    made = Rows(title, columns, rows)
     for i, column in enumerate(columns):
         # a number cut short would be a wrong number: narrow columns fold instead
         made.add_column(
@@ -81,7 +108,7 @@ def print_table(
     Rich measures and wraps every cell, a millisecond a row; a long table is for searching and
     has columns as wide as what stands in them.
     """
-    if len(rows) <= LONG:
+    if len(rows) <= LONG or MANNER.csv:
         out.print(table(title, columns, rows))
         return
     cells = [list(columns), *([visible(show(entry)) for entry in row] for row in rows)]
@@ -103,8 +130,20 @@ def show(value: object) -> str:
 class Screen(Console):
     """A console to which names are text: no markup, no signs for words, nothing hidden."""
 
+    #: Whether nothing was written as CSV yet.
+    first = True
+
     def print(self, *objects: Any, **options: Any) -> None:
-        """Print as the console does, with the hidden characters of texts written out."""
+        """Print as the console does, with the hidden characters of texts written out.
+
+        As CSV, tables alone.
+        """
+        if MANNER.csv and not self.stderr:
+            for made in objects:
+                if isinstance(made, Rows):
+                    made.write_csv(self.file, first=self.first)
+                    self.first = False
+            return
         shown = (visible(o, lines=True) if isinstance(o, str) else o for o in objects)
         super().print(*shown, **options)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from strutwork.machines.variants import MARK
+from strutwork.machines.naming import MARK
 from strutwork.names import visible
 from strutwork.reports.build import write_report
 from strutwork.reports.cli.output import console, print_json, tell

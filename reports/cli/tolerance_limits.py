@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from strutwork.errors import ModelError
+from strutwork.names import choices
 from strutwork.overconstraint import Limits, Quantity
 from strutwork.units import FORCE, MOMENT, quantity
 
@@ -64,7 +65,7 @@ def parsed_limits(
             raise ModelError(
                 f'limit "{text}"',
                 f"finds no {kind}" + (f" of a joint {joint}." if colon else "."),
-                "Joints: " + ", ".join(dict.fromkeys(q.joint or "" for q in quantities if q.joint)),
+                choices("Joints", joint, dict.fromkeys(q.joint for q in quantities if q.joint)),
             )
         found |= {(name, kind): number for name in joints}
     return found

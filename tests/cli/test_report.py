@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from strutwork.machines.variants import named_machine
+from strutwork.machines.naming import named_machine
 from strutwork.reports.manifest import MANIFEST
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES, SAMPLE, Content, put, sample

@@ -7,7 +7,7 @@ import pytest
 from strutwork.errors import ModelError
 from strutwork.machines.catalogue import CATALOGUE
 from strutwork.machines.load import load
-from strutwork.machines.variants import MARK, named_machine, variants
+from strutwork.machines.naming import MARK, named_machine, variants
 from strutwork.reports.build import Composed, compose
 
 #: Table 5 of Azulay et al. 2014 has no prototype: these two are named, and refused when made.

@@ -187,3 +187,11 @@ def test_the_rate_of_the_left_jacobian(size: float) -> None:
     wanted = (around[0] - 8 * around[1] + 8 * around[2] - around[3]) / (12 * h)
     # differences of differences of fourth order at steps of 1e-3 and 1e-2
     np.testing.assert_allclose(velocity_rates(v, rate), wanted, atol=1e-8)
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-9, 0.99e-4, 1.01e-4, 1.0])
+def test_a_turn_comes_back_as_the_vector_it_was_made_of(size: float) -> None:
+    # on either side of the size below which the series is used; 1e-16 is the rounding of a cosine
+    vectors = size * np.array([[[0.6, -0.64, 0.48]], [[0.0, 0.0, 1.0]]])
+    back = rotation_vector(rotation_matrix(vectors))
+    np.testing.assert_allclose(back, vectors, rtol=1e-12, atol=2e-16)
