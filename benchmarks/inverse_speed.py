@@ -186,7 +186,7 @@ def beside(found: dict[str, Rates]) -> list[str]:
         "allocated once, and Newton's method begins at home. *From Python*, one call of",
         "`computeJointJacobians` a pose and step, and NumPy solves the equations of 512 poses at",
         "once; *in C++*, the whole is one compiled call on Pinocchio's headers",
-        "(`-O3 -march=native`). Both take their margins from our singular values, which are faster",
+        "(`-O3 -march=native`). Both take their margins from Strutwork's singular values, which are faster",
         "than NumPy's. Newton's method alone may end in another working mode than home's, and",
         "tells the drives only; *legs* walks where it must, keeps the mode, says which joint ends",
         "the way, and places all bodies.",

@@ -1,4 +1,4 @@
-"""One page of documentation with every result that the documents print, beside ours.
+"""One page of documentation with every result that the documents print, beside the computed one.
 
 ``python -m strutwork.papers.results_page OUT docs/published-results.md`` reads the files of
 statements that ``strutwork report --all -o OUT`` has written.
@@ -21,8 +21,8 @@ STATUSES: tuple[Status, ...] = ("predicted", "calibrated", "not reproducible")
 
 HEAD = """# Published results
 
-Every result that the five documents print, beside ours, with its status, the reason, and the test
-that holds it. *Predicted* means that no choice was made with the published value in sight;
+Every result that the five documents print, beside the computed one, with its status, the reason,
+and the test that holds it. *Predicted* means that no choice was made with the published value in sight;
 *calibrated*, that one was; *not reproducible*, that the document does not say enough, or that it
 errs, as the reason tells.
 The page is written from the reports' files:
@@ -84,7 +84,7 @@ def _statements(said: Sequence[Statement]) -> str:
         ]
         for s in said
     ]
-    columns = ["place", "what", "published", "ours", "difference", "status", "reason", "test"]
+    columns = ["place", "what", "published", "computed", "difference", "status", "reason", "test"]
     why = "".join(f"{n}. {reason}\n" for n, reason in enumerate(reasons, 1))
     held = "".join(f"- T{n}: `{test}`\n" for n, test in enumerate(tests, 1))
     return f"{_table(columns, rows)}\nReasons:\n\n{why}\nTests:\n\n{held}"
