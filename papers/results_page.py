@@ -23,8 +23,8 @@ HEAD = """# Published results
 
 Every result that the five documents print, beside the computed one, with its status, the reason,
 and the test that holds it. *Predicted* means that no choice was made with the published value in
-sight; *calibrated*, that one was; *not reproducible*, that the document does not say enough, or that
-it errs, as the reason states.
+sight; *calibrated*, that one was; *not reproducible*, that the document does not say enough, or
+that it errs, as the reason states.
 The page is written from the reports' files:
 
     strutwork report --all -o out/all
