@@ -49,5 +49,5 @@ def test_comparisons_are_noted_with_their_tolerance_and_reason() -> None:
     twist = next(row for row in rows if row.quantity == "twist")
     assert (twist.expected, twist.tolerance) == (0.0341, 5e-05)
     assert twist.computed == pytest.approx(0.034109, abs=1e-6)
-    text = page(recorder)
+    text = page(recorder, {file.relative_to(ROOT).as_posix()})
     assert "| `twist` | 0.0341 | 0.034109 | ± 5e-05 | three digits of the later editions |" in text

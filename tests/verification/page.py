@@ -1,21 +1,23 @@
 """docs/validation.md: every case from outside with its source, tolerance and computed value.
 
 ``python -m tests.verification.page`` runs all tests of this folder, notes each comparison that they
-make, and writes the page. A reason is the comment before the comparison, or before the tolerance
-where that has a name, else what the test's docstring says.
+make, and writes the page; with names of its folders it renews their sections alone. A reason is the
+comment before the comparison, or before the tolerance where that has a name, else what the test's
+docstring says.
 """
 
 from __future__ import annotations
 
+import re
 import sys
 
 import pytest
 
 from strutwork.files import write_text
 from tests.verification.recorder import Recorder, Row
-from tests.verification.sources import FOLDER, Case, cases
+from tests.verification.sources import FOLDER, ROOT, Case, cases
 
-PAGE = FOLDER.parents[1] / "docs" / "validation.md"
+PAGE = ROOT / "docs" / "validation.md"
 HEAD = """# Validation
 
 Every case from outside this project that the tests hold: the source, what it gives, what Strutwork
@@ -84,11 +86,25 @@ def section(case: Case, rows: list[Row]) -> list[str]:
     return lines
 
 
-def page(recorder: Recorder) -> str:
-    """The page in Markdown."""
+def page(recorder: Recorder, run: set[str], old: str = "") -> str:
+    """The page in Markdown.
+
+    Parameters
+    ----------
+    recorder : Recorder
+    run : set of str
+        Paths of the files whose tests have run.
+    old : str
+        The page as it was, whose other sections stay.
+    """
+    headed = re.compile(r"^## (.*?)\n\n(.*?)(?=^## |^<!-- site)", re.MULTILINE | re.DOTALL)
+    kept = dict(headed.findall(old))
     lines = []
     for case in cases():
-        lines += section(case, recorder.rows(case.path))
+        if case.path in run or case.title not in kept:
+            lines += section(case, recorder.rows(case.path))
+        else:
+            lines += [f"## {case.title}", "", kept[case.title].rstrip(), ""]
     return HEAD + "\n".join(lines).rstrip() + "\n" + FOOT
 
 
@@ -101,10 +117,13 @@ def main() -> int:
         Exit status: that of the tests; the page is written where they passed.
     """
     recorder = Recorder()
-    status = int(pytest.main([str(FOLDER), "-q", "-p", "no:xdist", *sys.argv[1:]], [recorder]))
-    if status == 0 and len(sys.argv) == 1:
-        write_text(PAGE, page(recorder))
-        sys.stdout.write(f"Written: {PAGE.relative_to(FOLDER.parents[1])}\n")
+    folders = [FOLDER / name for name in sys.argv[1:]] or [FOLDER]
+    status = int(pytest.main([*map(str, folders), "-q", "-p", "no:xdist"], [recorder]))
+    if status == 0:
+        run = {c.path for c in cases() if any(f in (ROOT / c.path).parents for f in folders)}
+        old = PAGE.read_text(encoding="utf-8") if PAGE.exists() else ""
+        write_text(PAGE, page(recorder, run, old))
+        sys.stdout.write(f"Written: {PAGE.relative_to(ROOT)}\n")
     return status
 
 
