@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from importlib import import_module
-from typing import Any
+from typing import Any, get_origin
 
 from docutils import nodes
 from sphinx.addnodes import pending_xref
@@ -28,7 +28,8 @@ def kind_of(value: object) -> str:
     """Under which heading a name stands."""
     if inspect.isclass(value):
         return "Errors and warnings" if issubclass(value, BaseException) else "Classes"
-    return "Functions" if callable(value) else "Constants"
+    # a union of types, as an alias, can be called but is no function
+    return "Functions" if callable(value) and get_origin(value) is None else "Constants"
 
 
 def constant(package: str, name: str) -> list[str]:

@@ -97,14 +97,16 @@ def page(recorder: Recorder, run: set[str], old: str = "") -> str:
     old : str
         The page as it was, whose other sections stay.
     """
-    headed = re.compile(r"^## (.*?)\n\n(.*?)(?=^## |^<!-- site)", re.MULTILINE | re.DOTALL)
-    kept = dict(headed.findall(old))
+    headed = re.compile(r"^## .*?(?=^## |^<!-- site)", re.MULTILINE | re.DOTALL)
+    parts = [(re.search(r"^Tests: `(.*)`$", s, re.MULTILINE), s) for s in headed.findall(old)]
+    kept = {where[1]: text for where, text in parts if where}
     lines = []
     for case in cases():
-        if case.path in run or case.title not in kept:
+        if case.path in run or case.path not in kept:
             lines += section(case, recorder.rows(case.path))
         else:
-            lines += [f"## {case.title}", "", kept[case.title].rstrip(), ""]
+            text = kept[case.path].partition("\n")[2].rstrip()
+            lines += [f"## {case.title}", text, ""]
     return HEAD + "\n".join(lines).rstrip() + "\n" + FOOT
 
 

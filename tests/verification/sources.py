@@ -83,4 +83,14 @@ def cases() -> list[Case]:
         result.append(Case(path, title, citation(text), tuple(tests)))
     # a file without an entry has the source of its folder
     folders = {Path(c.path).parent: c.source for c in reversed(result) if c.source}
-    return [replace(c, source=c.source or folders.get(Path(c.path).parent, "")) for c in result]
+    shared = [c.title for c in result]
+    return [
+        replace(
+            c,
+            source=c.source or folders.get(Path(c.path).parent, ""),
+            title=c.title
+            if shared.count(c.title) == 1
+            else f"{c.title} ({Path(c.path).parent.name})",
+        )
+        for c in result
+    ]
