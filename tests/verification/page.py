@@ -28,6 +28,9 @@ documents of the catalogue's machines print stands in
 [published results](published-results.md).
 
 """
+FURTHER = (
+    "Further tests, which hold by a bound, by an exact answer, or whose numbers stand in the test:"
+)
 FOOT = """
 <!-- site
 ```{toctree}
@@ -81,7 +84,7 @@ def section(case: Case, rows: list[Row]) -> list[str]:
     compared = {row.test for row in rows}
     further = [test for test in case.tests if test not in compared]
     if further:
-        lines += ["Held by a bound or by an exact answer:", ""]
+        lines += [FURTHER, ""]
         lines += [*(f"- {said(test)}" for test in further), ""]
     return lines
 
