@@ -23,7 +23,7 @@ def mac(first: ArrayLike, second: ArrayLike) -> Array:
     Parameters
     ----------
     first, second : (m, k), (n, k)
-        Shapes as rows, real or complex.
+        Shapes as rows, real or complex, any unit.
 
     Returns
     -------
@@ -65,7 +65,7 @@ def subspace_mac(first: ArrayLike, second: ArrayLike) -> float:
     Parameters
     ----------
     first, second : (m, k), (n, k)
-        Shapes as rows.
+        Shapes as rows, real or complex, any unit.
 
     Raises
     ------
@@ -83,7 +83,15 @@ def _span(rows: ArrayLike) -> Array:
 
 
 def in_span(shapes: ArrayLike, span: ArrayLike) -> Array:
-    """Share of each shape (m, k) that lies in the span of others, squared, (m,)."""
+    """Share of each shape that lies in the span of others, squared, (m,).
+
+    Parameters
+    ----------
+    shapes : (m, k)
+        Shapes as rows, any unit.
+    span : (n, k)
+        The others as rows, any unit.
+    """
     parts = _span(span).conj().T @ _shapes(shapes).T
     return np.asarray(np.minimum((np.abs(parts) ** 2).sum(axis=0), 1.0))
 
@@ -97,7 +105,7 @@ def frac(first: ArrayLike, second: ArrayLike) -> float:
     Parameters
     ----------
     first, second : (f,)
-        On the same lines.
+        Responses on the same lines, complex, any unit.
 
     Raises
     ------

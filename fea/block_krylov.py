@@ -105,9 +105,9 @@ def krylov_reduction(
     Parameters
     ----------
     stiffness, mass : (n, n) sparse
-        Symmetric; the stiffness positive definite but for rigid-body modes.
+        N/m and kg, symmetric; the stiffness positive definite but for rigid-body modes.
     ports : (n, m)
-        Load on each dof per unit at each port; observed there too.
+        Load on each dof per unit at each port, no unit; observed there too.
     band : (float, float)
         Hz.
     damping : MatrixDamping, optional

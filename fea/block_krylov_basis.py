@@ -20,7 +20,17 @@ NEGATIVE = 1e-6
 
 
 class EnergyBasis:
-    """Vectors orthonormal in the energy K + shift M, with their products."""
+    """Vectors orthonormal in the energy K + shift M, with their products.
+
+    Parameters
+    ----------
+    stiffness, mass : (n, n) sparse
+        N/m and kg, symmetric.
+    shift : float
+        rad²/s²; the energy is that of K + shift M.
+    most : int
+        Vectors that it can hold.
+    """
 
     def __init__(
         self, stiffness: sp.csc_array, mass: sp.csc_array, shift: float, most: int
@@ -37,16 +47,24 @@ class EnergyBasis:
 
     @property
     def force(self) -> Array:
-        """K V."""
+        """K V, (n, size)."""
         return self._room[1][:, : self.size]
 
     @property
     def push(self) -> Array:
-        """M V."""
+        """M V, (n, size)."""
         return self._room[2][:, : self.size]
 
     def grow(self, loads: Array, block: Array) -> slice:
-        """Add what is new in the answers to some loads; says where it stands."""
+        """Add what is new in the answers to some loads; returns where it stands.
+
+        Parameters
+        ----------
+        loads : (n, k)
+            N, N·m.
+        block : (n, k)
+            The answers (K + shift M)⁻¹ loads, or near them, m and rad.
+        """
         # the energy of an answer, but for the sign where the expansion is not at zero
         before = np.abs(np.einsum("ij,ij->j", loads, block))
         if not np.all(np.isfinite(before)):

@@ -24,15 +24,16 @@ class MatrixDamping:
     Parameters
     ----------
     loss_factor : float
-        Structural damping of everything.
+        Structural damping of everything, no unit.
     mass_rate, stiffness_time : float
         Rayleigh's factors, 1/s and s.
     ports : (n, r) or None
-        Directions P in which single dampers act, as displacements per unit of their stretch.
+        Directions P in which single dampers act, as displacements per unit of their stretch, no
+        unit.
     dashpots, losses : (r,) or None
         Their viscous factors, N·s/m, and structural stiffnesses, N/m.
     viscous, structural : (n, n) sparse or None
-        Any others, symmetric.
+        Any others, symmetric, N·s/m and N/m.
 
     Raises
     ------
@@ -86,7 +87,17 @@ class MatrixDamping:
         return self.ports is None and self.viscous is None and self.structural is None
 
     def apply(self, stiffness: Array, mass: Array, at: Array) -> tuple[Array, Array]:
-        """C x and D x, from K x, M x and x, each (n, k)."""
+        """C x and D x, (n, k) each.
+
+        Parameters
+        ----------
+        stiffness : (n, k)
+            K x, N.
+        mass : (n, k)
+            M x, kg·m.
+        at : (n, k)
+            x, m and rad.
+        """
         c = self.mass_rate * mass + self.stiffness_time * stiffness
         d = self.loss_factor * stiffness
         if self.ports is not None:

@@ -24,13 +24,14 @@ class SmallModel:
     Parameters
     ----------
     stiffness, mass, viscous, structural : (k, k)
-        Symmetric; the dynamic stiffness is K + iD + iωC − ω²M.
+        Symmetric, N/m, kg, N·s/m and N/m times the squared size of the coordinates; the dynamic
+        stiffness is K + iD + iωC − ω²M.
     ports : (k, m)
-        Loads per unit of each port.
+        Loads per unit of each port, of the coordinates' own unit.
     proportional : bool
         Whether C and D are `factors` times K and M.
     factors : (3,)
-        Loss factor, mass rate (1/s), stiffness time (s).
+        Loss factor (no unit), mass rate, 1/s, stiffness time, s.
     """
 
     stiffness: Array
@@ -62,6 +63,11 @@ class SmallModel:
 
     def coordinates(self, frequencies: ArrayLike) -> Array:
         """Generalised coordinates per load at every port, (f, k, m), complex.
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
 
         Raises
         ------
@@ -114,7 +120,7 @@ class SmallModel:
 
     @property
     def undamped(self) -> tuple[Array, Array]:
-        """ω² of the undamped model, rad²/s², and mass-normalised vectors, rising."""
+        """ω² of the undamped model, (k,), rad²/s², rising, and mass-normalised vectors, (k, k)."""
         square, vectors = eigh(self.stiffness, self.mass)
         return square, vectors
 
@@ -139,7 +145,7 @@ class KrylovModel:
     worst : float
         Hz, where.
     tolerance : float
-        What was asked for.
+        What was asked for, as a share.
     solver : str
         Which factorisation ran.
     damping : str
@@ -164,7 +170,15 @@ class KrylovModel:
         )
 
     def receptance(self, frequencies: ArrayLike) -> Array:
-        """As `SmallModel.receptance`."""
+        """Displacement at every port per load at every port, (f, m, m), complex, m/N.
+
+        Errors as `SmallModel.receptance`.
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
+        """
         return self.small.receptance(frequencies)
 
     @property

@@ -41,11 +41,11 @@ def compare_files(
     ----------
     computed, measured : UniversalFile
     window, least, doublet : float
-        As `pair_modes`.
+        Shares, as `pair_modes`.
     scales : (float, float)
-        As `frac_with_scale`.
+        Least and largest frequency scale, no unit, as `frac_with_scale`.
     progress : callable, optional
-        Told how many responses of how many are compared.
+        Called with how many responses are compared, and of how many.
 
     Raises
     ------

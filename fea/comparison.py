@@ -1,4 +1,4 @@
-"""What a comparison of computed and measured vibration found."""
+"""What a comparison of computed and measured vibration gives."""
 
 from __future__ import annotations
 
@@ -19,10 +19,11 @@ class ModePair:
     computed_frequency, measured_frequency : float
         Hz.
     difference_percent : float
-        (computed − measured) / measured.
+        (computed − measured) / measured, %.
     computed_damping, measured_damping : float or None
+        Viscous ratio ζ, no unit; None where it is not known.
     mac : float
-        Of the two shapes; of the two spans where the mode is one of a group.
+        Of the two shapes, from 0 to 1, no unit; of the two spans where the mode is one of a group.
     group : int
         Number of modes of equal frequency that are compared as a span; one for a single mode.
     """
@@ -61,7 +62,7 @@ class FunctionPair:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What a comparison found.
+    """What a comparison gives.
 
     Parameters
     ----------
@@ -103,7 +104,7 @@ class Comparison:
         }
 
     def to_dataframe(self) -> Any:
-        """Paired modes as a `pandas.DataFrame`, a row a pair."""
+        """Paired modes as a `pandas.DataFrame`, one row per pair."""
         import pandas as pd  # noqa: PLC0415 - only here
 
         return pd.DataFrame([vars(pair) for pair in self.modes])

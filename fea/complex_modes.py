@@ -38,7 +38,7 @@ class ComplexModes:
         s, rad/s, with positive imaginary part where it oscillates; a mode damped beyond
         critical has two real ones, which stand as two modes.
     shapes : (m, n, 6)
-        Complex shape at the mesh nodes, largest entry one.
+        Complex shape at the mesh nodes, largest entry one; no unit.
     """
 
     frequencies: Array

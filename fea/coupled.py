@@ -32,7 +32,7 @@ class PartDamping:
     materials : bool
         Take the loss factors of the beams' materials, and of elements that have one.
     joints : mapping of joint name to float
-        Loss factors of elastic joints.
+        Loss factors of elastic joints, no unit.
     dashpots : bool
         Take the viscous damping of the joints.
 
@@ -71,7 +71,14 @@ AnyDamping = ModalRatio | LossFactor | Rayleigh | PartDamping
 def part_matrices(system: System, damping: PartDamping) -> tuple[Array, Array]:
     """Viscous matrix C and structural matrix D of the parts on the unknowns, (p, n, n).
 
-    The force of the structure is (K + iD + iωC − ω²M) u; the background is not in them.
+    N·s/m and N/m. The force of the structure is (K + iD + iωC − ω²M) u; the background is not in
+    them.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with n unknowns.
+    damping : PartDamping
 
     Raises
     ------
@@ -119,7 +126,13 @@ def part_matrices(system: System, damping: PartDamping) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class DampedMatrices:
-    """A structure's matrices on its independent coordinates, damping included, (p, c, c)."""
+    """A structure's matrices on its c independent coordinates, damping included.
+
+    Parameters
+    ----------
+    stiffness, mass, viscous, structural : (p, c, c)
+        K, M, C and D: N/m, kg, N·s/m and N/m, with rad for m of rotations.
+    """
 
     stiffness: Array
     mass: Array
@@ -131,6 +144,14 @@ def damped_matrices(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Damp
     """Damping of any kind as matrices C and D on the coordinates.
 
     A modal ratio becomes C = Σ 2ζω (Mφ)(Mφ)ᵀ over the modes that have mass.
+
+    Parameters
+    ----------
+    reduced : Reduced
+        At p poses.
+    eigen : Eigen
+        Its modes, for a modal ratio.
+    damping : damping of any kind
     """
     viscous = np.zeros_like(reduced.stiffness)
     structural = np.zeros_like(reduced.stiffness)
@@ -151,7 +172,13 @@ def damped_matrices(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Damp
 
 
 def is_coupled(reduced: Reduced, damping: AnyDamping) -> bool:
-    """Whether the damping couples the undamped modes of this structure."""
+    """Whether the damping couples the undamped modes of this structure.
+
+    Parameters
+    ----------
+    reduced : Reduced
+    damping : damping of any kind
+    """
     if not isinstance(damping, PartDamping):
         return False
     c, d = part_matrices(reduced.system, damping)

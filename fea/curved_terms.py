@@ -52,7 +52,13 @@ class CurvedAssembler:
         return self.solid.mesh
 
     def stiffness(self, weights: dict[str, float] | None = None) -> sp.csc_array:
-        """Stiffness, N/m, (3n, 3n); with `weights` each region's share times its weight."""
+        """Stiffness, N/m, (3n, 3n).
+
+        Parameters
+        ----------
+        weights : dict of region to float, optional
+            Factor on each region's share, no unit; one where it is not named.
+        """
         type_ = self._type
         at, quadrature = type_.quadrature(type_.field_degree)
         gradient = type_.gradient(at)

@@ -17,6 +17,11 @@ Array = NDArray[np.float64]
 class ModalRatio:
     """The same viscous damping ratio ζ in every mode.
 
+    Parameters
+    ----------
+    ratio : float
+        ζ, no unit; from 0 to below 1.
+
     Raises
     ------
     ModelError
@@ -34,7 +39,13 @@ class ModalRatio:
             )
 
     def viscous(self, square: Array) -> Array:
-        """Coefficient of iω in 1 − ω²μ + iωv + iη, s, for μ = 1/ω²: 2 ζ √μ."""
+        """Coefficient of iω in 1 − ω²μ + iωv + iη, s, for μ = 1/ω²: 2 ζ √μ, (...).
+
+        Parameters
+        ----------
+        square : (...)
+            μ, s².
+        """
         return np.asarray(2.0 * self.ratio * np.sqrt(square))
 
     @property
@@ -55,6 +66,11 @@ class ModalRatio:
 class LossFactor:
     """Structural (hysteretic) damping: stiffness times 1 + iη; at resonance η = 2 ζ.
 
+    Parameters
+    ----------
+    value : float
+        η, no unit; from 0 to below 2.
+
     Raises
     ------
     ModelError
@@ -72,7 +88,13 @@ class LossFactor:
             )
 
     def viscous(self, square: Array) -> Array:
-        """No viscous part."""
+        """No viscous part: zeros, (...).
+
+        Parameters
+        ----------
+        square : (...)
+            μ = 1/ω², s².
+        """
         return np.zeros_like(square)
 
     @property
@@ -113,7 +135,13 @@ class Rayleigh:
             )
 
     def viscous(self, square: Array) -> Array:
-        """Coefficient of iω: α μ + β, s."""
+        """Coefficient of iω: α μ + β, s, (...).
+
+        Parameters
+        ----------
+        square : (...)
+            μ = 1/ω², s².
+        """
         return np.asarray(self.alpha * square + self.beta)
 
     @property
@@ -139,6 +167,12 @@ def modal_ratios(damping: Damping, square: Array) -> Array:
 
     One and more where a mode is damped to critical and beyond, as stiffness-proportional damping
     does from some frequency on: such a mode creeps and has no resonance.
+
+    Parameters
+    ----------
+    damping : Damping
+    square : (..., m)
+        μ = 1/ω² of every mode, s²; zero for motions without mass.
     """
     root = np.sqrt(np.where(square > 0, square, np.inf))
     ratios = damping.viscous(square) / (2.0 * root) + damping.structural / 2.0

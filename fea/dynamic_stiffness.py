@@ -38,7 +38,7 @@ class MinimumDynamicStiffness:
     static : (..., q)
         1/H_ii(0), N/m; zero where a rigid-body mode moves the port.
     lower, upper : (..., q)
-        The two-sided bound 2ζ√(1−ζ²)·static and 2ζ·min 1/r², of the modes in the band.
+        The two-sided bound 2ζ√(1−ζ²)·static and 2ζ·min 1/r², of the modes in the band, N/m.
     certified : (..., q) of bool
         True where the proof that nothing in the band is lower, to 1e-6, was finished.
     """
@@ -64,7 +64,12 @@ HIGHEST = 1e9
 
 
 def check_band(low: float, high: float) -> None:
-    """Check a frequency band in Hz.
+    """Check a frequency band.
+
+    Parameters
+    ----------
+    low, high : float
+        Its ends, Hz.
 
     Raises
     ------
@@ -125,7 +130,17 @@ def minimum_dynamic_stiffness(
 def minimum_of(
     model: ModalModel, band: tuple[float, float], batch: tuple[int, ...] | None = None
 ) -> MinimumDynamicStiffness:
-    """The minimum from a modal model at hand; `batch` shapes the poses' axis."""
+    """The minimum from a modal model at hand.
+
+    Parameters
+    ----------
+    model : ModalModel
+        At p poses.
+    band : (float, float)
+        Hz.
+    batch : tuple of int, optional
+        Shape of the poses' axes in the result; by default (p,).
+    """
     check_band(*band)
     ratios = modal_ratios(model.damping, model.square)
     if not np.all(ratios[model.square > 0] > 0):
@@ -211,6 +226,11 @@ def _bounds(
 def blocked_dynamic_stiffness(receptance: Array) -> Array:
     """|Z_ii| with Z = H⁻¹: the other ports held, (..., q), N/m.
 
+    Parameters
+    ----------
+    receptance : (..., q, q)
+        H between the ports, complex, m/N.
+
     Raises
     ------
     ModelError
@@ -235,7 +255,7 @@ def worst_direction(receptance: Array) -> tuple[Array, Array]:
     Parameters
     ----------
     receptance : (..., q, q)
-        Usually the three translations of one node.
+        Usually between the three translations of one node, complex, m/N.
 
     Returns
     -------

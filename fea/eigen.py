@@ -39,7 +39,7 @@ class Eigen:
     square : (p, m)
         μ = 1/ω², s²; zero for motions without mass.
     rigid : (p, c, k)
-        Rigid-body modes, normalised to φᵀ M φ = 1; zero columns where a pose has fewer.
+        Rigid-body modes, normalised to φᵀ M φ = 1, 1/√kg; zero columns where a pose has fewer.
     """
 
     flexibility: Array
@@ -60,6 +60,11 @@ class Eigen:
 
 def solve_eigen(reduced: Reduced) -> Eigen:
     """All modes of every pose.
+
+    Parameters
+    ----------
+    reduced : Reduced
+        At p poses.
 
     Raises
     ------
@@ -122,10 +127,11 @@ def rigid_modes(system: System, rigid: Array, gram: Array, largest: Array) -> Ar
     ----------
     system : System
     rigid : (p, c, k)
+        Motions that cost no energy, in coordinates, m and rad.
     gram : (p, k, k)
-        Their mass.
+        Their mass, kg.
     largest : (p,)
-        Largest mass of a coordinate, beside which nothing is told from rounding.
+        Largest mass of a coordinate, kg, beside which the rest is rounding.
 
     Raises
     ------

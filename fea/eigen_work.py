@@ -36,7 +36,7 @@ def with_true_work(reduced: Reduced, vectors: Array, square: Array) -> tuple[Arr
 
     Returns
     -------
-    vectors, square
+    vectors, square : (p, c, m) and (p, m)
         The same, corrected in place.
 
     Raises

@@ -83,7 +83,13 @@ class Assembler(Protocol):
         """The mesh of the field: the nodes of the solid's mesh first and in its order."""
 
     def stiffness(self, weights: dict[str, float] | None = None) -> sp.csc_array:
-        """Stiffness, N/m, (3n, 3n); with `weights` each region's share times its weight."""
+        """Stiffness, N/m, (3n, 3n).
+
+        Parameters
+        ----------
+        weights : dict of region to float, optional
+            Factor on each region's share, no unit; one where it is not named.
+        """
 
     def mass(self) -> sp.csc_array:
         """Consistent mass, kg, (3n, 3n)."""
@@ -128,7 +134,13 @@ class StraightAssembler:
         return renumbered(mesh, points, number)
 
     def stiffness(self, weights: dict[str, float] | None = None) -> sp.csc_array:
-        """Stiffness, N/m, (3n, 3n); with `weights` each region's share times its weight."""
+        """Stiffness, N/m, (3n, 3n).
+
+        Parameters
+        ----------
+        weights : dict of region to float, optional
+            Factor on each region's share, no unit; one where it is not named.
+        """
         values = {
             region: elasticity(self.solid.materials[region]) * (weights or {}).get(region, 1.0)
             for region in self.solid.used_regions
@@ -178,7 +190,12 @@ class StraightAssembler:
 
 
 def assembler(solid: Solid) -> Assembler:
-    """What assembles the solid: SfePy where its cells are linear, else their own mapping."""
+    """What assembles the solid: SfePy where its cells are linear, else their own mapping.
+
+    Parameters
+    ----------
+    solid : Solid
+    """
     if solid.keeps_curves:
         return CurvedAssembler(solid)
     with _quiet():

@@ -13,7 +13,12 @@ Array = NDArray[Any]
 
 
 def elasticity(material: Material) -> Array:
-    """Stresses per engineering strain, Pa, (6, 6), in the order xx, yy, zz, xy, xz, yz."""
+    """Stresses per engineering strain, Pa, (6, 6), in the order xx, yy, zz, xy, xz, yz.
+
+    Parameters
+    ----------
+    material : Material
+    """
     ratio, shear = material.poissons_ratio, material.shear_modulus
     lame = 2.0 * shear * ratio / (1.0 - 2.0 * ratio)
     law = np.diag([2.0 * shear] * 3 + [shear] * 3)

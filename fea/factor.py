@@ -33,7 +33,7 @@ class Factor:
     memory : float or None
         Bytes foreseen.
     flops : float or None
-        Multiplications and additions foreseen.
+        Multiplications and additions foreseen, their number: no unit.
     """
 
     solve: Callable[[Array], Array]
@@ -50,7 +50,13 @@ class Factor:
 
 
 def complex_too(solve: Callable[[Array], Array]) -> Callable[[Array], Array]:
-    """Let a real factor solve complex right-hand sides, both parts in one go."""
+    """Let a real factor solve complex right-hand sides, both parts in one go.
+
+    Parameters
+    ----------
+    solve : callable
+        From a real right-hand side (n,) or (n, m) to the solution.
+    """
 
     def both(right: Array) -> Array:
         right = np.asarray(right)

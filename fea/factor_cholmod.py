@@ -34,6 +34,13 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
 
     Source: Chen, Davis, Hager and Rajamanickam (2008), ACM TOMS 35, algorithm 887.
 
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Real, symmetric, positive definite, any unit.
+    ordering : Ordering or None
+        Order of elimination; None lets METIS choose.
+
     Raises
     ------
     NotPositiveError

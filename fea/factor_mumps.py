@@ -55,6 +55,13 @@ def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
     Source: Amestoy, Duff, L'Excellent and Koster (2001), SIAM Journal on Matrix Analysis and
     Applications 23, 15.
 
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Symmetric, real or complex, any unit.
+    ordering : Ordering or None
+        Order of elimination; None lets MUMPS choose.
+
     Raises
     ------
     NumericalError

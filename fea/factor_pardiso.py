@@ -41,6 +41,13 @@ def factorize(matrix: sp.csc_array, _: Ordering | None) -> Factor:
 
     Source: Schenk and Gärtner (2004), Future Generation Computer Systems 20, 475.
 
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Real, symmetric, any unit.
+    _ : Ordering or None
+        Not used: PARDISO takes its own.
+
     Raises
     ------
     NumericalError

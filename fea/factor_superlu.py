@@ -30,6 +30,13 @@ def available() -> bool:
 def factorize(matrix: sp.csc_array, ordering: Ordering | None) -> Factor:
     """Factors without pivoting, after the order given or SuperLU's own for symmetric patterns.
 
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Symmetric, real or complex, any unit.
+    ordering : Ordering or None
+        Order of elimination; None lets SuperLU choose.
+
     Raises
     ------
     NumericalError

@@ -52,7 +52,7 @@ def factorize(matrix: sp.csc_array, solver: str | None = None, *, positive: bool
     Parameters
     ----------
     matrix : (n, n) sparse
-        Real, or complex and symmetric, not Hermitian.
+        Real, or complex and symmetric, not Hermitian; any unit.
     solver : "cholmod", "mumps", "pardiso" or "superlu", optional
         By default the fastest of those installed that takes the matrix.
     positive : bool

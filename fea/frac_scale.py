@@ -40,11 +40,11 @@ class FracScale:
     Parameters
     ----------
     frac : float
-        On the common lines, frequencies as they are.
+        On the common lines, frequencies as they are; from 0 to 1, no unit.
     scale : float
-        The computed frequencies times this meet the measured ones best.
+        The computed frequencies times this meet the measured ones best; no unit.
     scaled_frac : float
-        FRAC at that scale.
+        FRAC at that scale, no unit.
     at_limit : bool
         The best scale lies at the end of the search: the true one may lie beyond.
     """
@@ -76,6 +76,7 @@ def frac_with_scale(
     computed, measured : (frequencies (f,), values (f,))
         Hz, complex.
     limits : (float, float)
+        Least and largest scale, no unit.
 
     Returns
     -------

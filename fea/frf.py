@@ -48,7 +48,7 @@ class FrequencyResponse:
         another but for rounding (`strutwork.fea.rounding`).
     outputs, inputs : tuple of Port
     static_compliance : (..., o, i)
-        At zero frequency; infinite where a rigid-body mode takes part.
+        At zero frequency, m/N and the like; infinite where a rigid-body mode takes part.
     damping : str
         What damps, in words.
     method : str
@@ -78,17 +78,17 @@ class FrequencyResponse:
 
     @property
     def mobility(self) -> Array:
-        """Velocity per force, iωH, m/(N·s)."""
+        """Velocity per force, iωH, (..., f, o, i), m/(N·s)."""
         return np.asarray(1j * self._omega * self.receptance)
 
     @property
     def accelerance(self) -> Array:
-        """Acceleration per force, −ω²H, 1/kg."""
+        """Acceleration per force, −ω²H, (..., f, o, i), 1/kg."""
         return np.asarray(-(self._omega**2) * self.receptance)
 
     @property
     def dynamic_stiffness(self) -> Array:
-        """1/|H| of every pair of ports, N/m."""
+        """1/|H| of every pair of ports, (..., f, o, i), N/m."""
         return np.asarray(1.0 / np.abs(self.receptance))
 
     @property
@@ -148,7 +148,20 @@ def response_at(
     damping: AnyDamping,
     method: Method = "modal",
 ) -> FrequencyResponse:
-    """`frequency_response`, for steps of another solver that warns itself."""
+    """`frequency_response`, for steps of another solver that warns itself.
+
+    Errors as `frequency_response`.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    inputs, outputs : sequence of Port
+        Where it is loaded and observed.
+    frequencies : (f,)
+        Hz, not negative.
+    damping : damping of any kind
+    method : "modal", "all_modes" or "direct"
+    """
     lines = np.asarray(frequencies, dtype=float)
     if lines.ndim != 1 or not len(lines) or np.any(~np.isfinite(lines)) or np.any(lines < 0):
         raise ModelError("frequencies", "are empty or negative.", "Give frequencies in Hz.")

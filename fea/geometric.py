@@ -31,7 +31,7 @@ def local_geometric_stiffness(length: Array, properties: Array) -> Array:
     length : (...)
         m.
     properties : (6, ...)
-        As `Beam.properties`.
+        As `Beam.properties`: N, N·m² and m².
 
     Returns
     -------
@@ -66,6 +66,12 @@ def axial_forces(solution: StaticSolution, case: str) -> Array:
 
     The mean of the two ends of the whole beam; `strutwork.fea.preloaded` takes what acts along it
     too.
+
+    Parameters
+    ----------
+    solution : StaticSolution
+    case : str
+        One of its load cases.
     """
     if case not in solution.cases:
         raise ModelError("preload", f'no case "{case}".', "Cases: " + ", ".join(solution.cases))
@@ -110,9 +116,16 @@ def pulled(placed: PlacedStructure, axial: Array) -> PlacedStructure:
 
 
 def segment_parts(system: System, local: Array) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
-    """Matrices of the beam elements in local axes (p, s, 12, 12) at their mesh nodes.
+    """Matrices of the beam elements at their mesh nodes.
 
     Yields the name, the mesh nodes (2,) and the matrix in global axes (p, 12, 12).
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with s beam elements.
+    local : (p, s, 12, 12)
+        In local axes, N/m, N, N·m/rad.
     """
     placed, structure = system.placed, system.placed.structure
     _, axes = placed.beam_geometry
@@ -128,7 +141,13 @@ def segment_parts(system: System, local: Array) -> Iterator[tuple[str, NDArray[n
 
 
 def geometric_stiffness(system: System) -> Array:
-    """Geometric stiffness of a placed structure's preload on its unknowns, dense, (p, n, n)."""
+    """Geometric stiffness of a placed structure's preload on its unknowns, dense, (p, n, n).
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with n unknowns.
+    """
     matrix = np.zeros((system.poses, system.topology.size, system.topology.size))
     if system.placed.stiffening is not None:
         for _, nodes, part in system.placed.stiffening.contributions():
@@ -137,7 +156,13 @@ def geometric_stiffness(system: System) -> Array:
 
 
 def largest_work(system: System) -> Array:
-    """Largest entry of the geometric stiffness of any part, scaled unknowns, (p,), N/m."""
+    """Largest entry of the geometric stiffness of any part, scaled unknowns, (p,), N/m.
+
+    Parameters
+    ----------
+    system : System
+        At p poses.
+    """
     largest = np.zeros(system.poses)
     if system.placed.stiffening is not None:
         turn = 1.0 / characteristic_lengths(system.placed.placement)

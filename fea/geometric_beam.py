@@ -33,7 +33,7 @@ def beam_geometric_stiffness(length: Array, properties: Array, forces: Array) ->
     length : (...)
         m.
     properties : (6, ...)
-        As `Beam.properties`.
+        As `Beam.properties`: N, N·m² and m².
     forces : (..., POINTS, 6)
         Section forces N Vy Vz and moments Mx My Mz on the far face of a cut at the Gauss points,
         N and N·m; tension is positive.

@@ -37,7 +37,15 @@ def turning_stiffness(moment: Array) -> Array:
 
 
 def cluster_parts(system: System, moments: Array) -> Iterator[Part]:
-    """Rigid bodies: S of all forces on each cluster about its reference node, (p, v, 3, 3)."""
+    """Rigid bodies under forces off their reference nodes.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with v clusters.
+    moments : (p, v, 3, 3)
+        S of all forces on each cluster about its reference node, N·m.
+    """
     structure = system.placed.structure
     names = structure.mesh_nodes
     for v, node in enumerate(structure.reference_nodes):
@@ -80,6 +88,7 @@ def spring_parts(system: System, displacements: Array) -> Iterator[Part]:
     ----------
     system : System
     displacements : (p, n, 6)
+        Of the mesh nodes, m and rad.
     """
     structure = system.placed.structure
     for spring in structure.springs:
@@ -116,6 +125,7 @@ def element_parts(system: System, displacements: Array) -> Iterator[Part]:
     ----------
     system : System
     displacements : (p, n, 6)
+        Of the mesh nodes, m and rad.
     """
     placed, structure = system.placed, system.placed.structure
     for element in structure.elements:

@@ -42,7 +42,13 @@ class IdleMotion:
 
 
 def free_motions(placed: PlacedStructure) -> int:
-    """Number of rigid-body modes of one pose."""
+    """Number of rigid-body modes of one pose.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        At one pose.
+    """
     return int(free_unknowns(system_of(placed)).shape[-1])
 
 
@@ -50,6 +56,11 @@ def idle_motions(placed: PlacedStructure) -> tuple[IdleMotion, ...]:
     """Idle motions of one pose: a rod that spins between two balls, an unused slide.
 
     Without a tool, those that displace no node at all.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        At one pose.
 
     Raises
     ------
@@ -82,7 +93,12 @@ def idle_motions(placed: PlacedStructure) -> tuple[IdleMotion, ...]:
 
 
 def idle_line(motions: tuple[IdleMotion, ...]) -> str:
-    """One line that names idle motions; empty without any."""
+    """One line that names idle motions; empty without any.
+
+    Parameters
+    ----------
+    motions : tuple of IdleMotion
+    """
     if not motions:
         return ""
     spins = [" and ".join(motion.parts) for motion in motions if motion.spins]

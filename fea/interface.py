@@ -46,7 +46,7 @@ class Interface:
 
 @dataclass(frozen=True)
 class TiedPatch:
-    """An interface found on a mesh.
+    """An interface on a mesh.
 
     Parameters
     ----------
@@ -56,9 +56,10 @@ class TiedPatch:
     position : (3,)
         m.
     average : (6, 3 m)
-        Motion of the node from displacements of the patch; its transpose spreads forces.
+        Motion of the node from displacements of the patch, no unit and rad/m; its transpose spreads
+        forces.
     rigid : (3 m, 6)
-        Displacements of the patch that moves with the node.
+        Displacements of the patch that moves with the node, no unit and m/rad.
     """
 
     interface: Interface

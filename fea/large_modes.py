@@ -45,11 +45,11 @@ class LargeModes:
     frequencies : (m,)
         Hz, rising; rigid-body modes are zero.
     vectors : (n, m)
-        Mass-normalised.
+        Mass-normalised, 1/√kg.
     residuals : (m,)
-        ‖(K + shift M)⁻¹ M φ (ω² + shift) − φ‖ over ‖φ‖, in the energy of K + shift M.
+        ‖(K + shift M)⁻¹ M φ (ω² + shift) − φ‖ over ‖φ‖, in the energy of K + shift M; no unit.
     shift : float
-        (rad/s)².
+        Of ω², rad²/s².
     factor : Factor or None
         Of K + shift M, for more solutions; None where the work was done elsewhere.
     solver : str
@@ -88,7 +88,7 @@ def lowest_modes(
     Parameters
     ----------
     stiffness, mass : (n, n) sparse
-        Symmetric; the stiffness positive definite but for rigid-body modes.
+        N/m and kg, symmetric; the stiffness positive definite but for rigid-body modes.
     count : int
         Rigid-body modes included.
     floating : bool

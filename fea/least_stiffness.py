@@ -57,8 +57,8 @@ class LeastStiffness:
     frequency : float
         Where it is reached, Hz; the start of the band where it is infinite.
     static : float or None
-        1/|H(0)|; zero where a rigid-body mode takes part, None where a static load at the
-        input does not move the output.
+        1/|H(0)|, N/m and the like; zero where a rigid-body mode takes part, None where a static
+        load at the input does not move the output.
     certified : bool
         The proof that nothing in the band is lower, to 1e-6, was finished. False where the
         minimum is the least of direct solutions, refined about their highest peaks.

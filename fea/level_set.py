@@ -89,9 +89,23 @@ def level_crossings(model: ModalModel, port: int, level: float, pose: int = 0) -
 def exceeds(
     model: ModalModel, port: int, level: float, band: tuple[float, float], pose: int = 0
 ) -> bool:
-    """Whether the magnitude is above `level` anywhere in the band, Hz.
+    """Whether the magnitude is above a level anywhere in a band.
 
-    The crossings cut the band into pieces on which the magnitude stays on one side.
+    The crossings cut the band into pieces on which the magnitude stays on one side. Errors as
+    `level_crossings`.
+
+    Parameters
+    ----------
+    model : ModalModel
+        Without rigid-body modes.
+    port : int
+        Index into the model's ports.
+    level : float
+        m/N.
+    band : (float, float)
+        Hz.
+    pose : int
+        Index into the model's poses.
     """
     low, high = band
     cuts = level_crossings(model, port, level, pose)

@@ -117,6 +117,15 @@ def foreseen_memory(fill: int, entries: int, library: str, scalar: int = 8) -> f
 def require_memory(size: int, need: float, name: str) -> None:
     """Refuse a factorisation that will not fit.
 
+    Parameters
+    ----------
+    size : int
+        Degrees of freedom, for the message.
+    need : float
+        Bytes that it takes.
+    name : str
+        What will factorise it.
+
     Raises
     ------
     NumericalError

@@ -40,7 +40,7 @@ class ModalModel:
     square : (p, m)
         μ = 1/ω², s²; zero for motions without mass.
     rigid : (p, q, k)
-        g.
+        g, 1/√kg.
     damping : Damping
     """
 
@@ -74,10 +74,15 @@ class ModalModel:
         return np.where(np.abs(product) > STILL * size[:, :, None] * size[:, None, :], product, 0.0)
 
     def receptance(self, frequencies: Array) -> Array:
-        """Receptance (p, f, q, q) at frequencies in Hz; all modes take part.
+        """Receptance (p, f, q, q), m/N; all modes take part.
 
         Not finite where it has no value: at a resonance without damping, and at zero frequency
         where a rigid-body mode moves the ports.
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz.
         """
         omega = 2.0 * np.pi * np.asarray(frequencies, dtype=float)
         w = omega[None, :, None]
@@ -105,8 +110,13 @@ class ModalModel:
     def truncated(self, highest: float) -> tuple[ModalModel, Array]:
         """The modes that matter up to a frequency, and the static residual of the others.
 
-        Kept are all modes up to twice `highest`, Hz, and more of them by their share until they
-        carry `STATIC_SHARE` of the static compliance at every port.
+        Kept are all modes up to twice `highest`, and more of them by their share until they carry
+        `STATIC_SHARE` of the static compliance at every port.
+
+        Parameters
+        ----------
+        highest : float
+            Hz.
 
         Returns
         -------
@@ -156,7 +166,17 @@ def modal_model(placed: PlacedStructure, ports: Sequence[Port], damping: Damping
 def modal_model_of(
     reduced: Reduced, eigen: Eigen, ports: Sequence[Port], damping: Damping
 ) -> ModalModel:
-    """Modal model from an eigensolution at hand."""
+    """Modal model from an eigensolution at hand.
+
+    Parameters
+    ----------
+    reduced : Reduced
+        At p poses.
+    eigen : Eigen
+        All its modes.
+    ports : sequence of Port
+    damping : Damping
+    """
     if not ports:
         raise ModelError("ports", "are missing.", "Name at least one port.")
     at, rigid = port_motions(reduced, ports, eigen.rigid)

@@ -33,6 +33,12 @@ def damping_ratios(modes: Modes, damping: AnyDamping) -> Array:
     one where it is critical or beyond. Zero for rigid-body modes. Not a number where the residual
     of the pole does not verify it to `VERIFIED`.
 
+    Parameters
+    ----------
+    modes : Modes
+        At one pose, m of them.
+    damping : damping of any kind
+
     Raises
     ------
     ModelError

@@ -41,7 +41,8 @@ class Modes:
         Hz, ascending; zero for rigid-body modes. Where a pose has fewer modes than asked, the
         last are infinite and their shapes zero.
     shapes : (..., m, n, 6)
-        Displacement and rotation of every mesh node, mass-normalised: φᵀ M φ = 1; m/√kg.
+        Displacement and rotation of every mesh node, mass-normalised: φᵀ M φ = 1; 1/√kg and
+        rad/(√kg·m).
     effective_mass : (..., m, 6)
         Per direction x y z rx ry rz, rotations about the centre of mass; kg and kg·m².
     total_mass : (..., 6)
@@ -152,7 +153,19 @@ def searched_modes(
     preload: Array | None = None,
     method: Method | None = None,
 ) -> Modes:
-    """As `modes`, without a word on superelements: for those who show some of the modes only."""
+    """As `modes`, without a warning on superelements: for those who show some of the modes only.
+
+    Returns and errors as `modes`.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    count : int
+        Number of modes, rigid-body modes included.
+    preload : (..., s) or None
+        Axial force in every beam element, N, tension positive.
+    method : "dense" or "sparse", optional
+    """
     if count < 1:
         raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
     if method not in (None, "dense", "sparse"):
@@ -250,6 +263,11 @@ def lowest(eigen: Eigen, count: int) -> tuple[Array, Array]:
     """Frequencies, Hz, (p, count) and mass-normalised vectors (p, c, count), rigid ones first.
 
     Where a pose has fewer modes the frequency is infinite and the vector zero.
+
+    Parameters
+    ----------
+    eigen : Eigen
+    count : int
     """
     circular = np.where(eigen.finite, eigen.circular, 0.0)
     flexible = eigen.flexibility * circular[:, None, :]

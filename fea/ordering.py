@@ -42,8 +42,8 @@ class Ordering:
     fill : int
         Entries of the Cholesky factor, diagonal included.
     flops : float
-        Multiplications and additions of the Cholesky factorisation: the sum of the squares of
-        the columns' lengths.
+        Multiplications and additions of the Cholesky factorisation, no unit: the sum of the squares
+        of the columns' lengths.
     """
 
     order: NDArray[np.intp]
@@ -62,6 +62,11 @@ def nested_dissection(matrix: sp.csc_array) -> Ordering:
 
     Source: Karypis and Kumar (1998), METIS; fill by row subtrees of the elimination tree,
     Liu (1990), SIAM Journal on Matrix Analysis and Applications 11, 134.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Of symmetric pattern; its values do not matter: any unit.
     """
     pattern = sp.csr_array(matrix)
     group, members = _alike(pattern)

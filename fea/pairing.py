@@ -25,9 +25,9 @@ class ModeSet:
     frequencies : (m,)
         Hz, ascending.
     shapes : (m, k)
-        Real or complex.
+        Real or complex, any unit.
     damping_ratios : tuple of (float or None)
-        Empty where none is known.
+        ζ, no unit; empty where none is known.
 
     Raises
     ------
@@ -79,7 +79,7 @@ def pair_modes(
     window : float
         Largest difference of frequencies, as a share of the measured one.
     least : float
-        Pairs below this value are no pairs.
+        Pairs below this share, a MAC from 0 to 1, are no pairs.
     doublet : float
         Largest relative distance of neighbours in a group.
 
@@ -155,7 +155,15 @@ def _rest(modes: ModeSet, taken: set[int]) -> tuple[float, ...]:
 
 
 def groups_of(frequencies: ArrayLike, doublet: float) -> list[list[int]]:
-    """Neighbours of nearly equal frequency, in lists of positions."""
+    """Neighbours of nearly equal frequency, in lists of positions.
+
+    Parameters
+    ----------
+    frequencies : (m,)
+        Hz, ascending.
+    doublet : float
+        Largest distance of neighbours, as a share of the frequency.
+    """
     groups: list[list[int]] = []
     values = np.asarray(frequencies, dtype=float)
     for i, f in enumerate(values):

@@ -27,8 +27,9 @@ def effective_mass(
     ----------
     system : System
     unknowns : (p, n, m)
-        Mass-normalised shapes on the unknowns.
+        Mass-normalised shapes on the unknowns, 1/√kg and rad/(√kg·m).
     mass : (p, n, n), or sparse (n, n) for a batch of one
+        kg, kg·m, kg·m².
 
     Returns
     -------
@@ -57,7 +58,9 @@ def energy_shares(system: System, unknowns: Array, frequencies: Array) -> Array:
     ----------
     system : System
     unknowns : (p, n, m)
+        Shapes on the unknowns, of any size: m and rad.
     frequencies : (p, m)
+        Hz; zero marks rigid-body modes.
     """
     structure = system.placed.structure
     moved = system.expand(unknowns)

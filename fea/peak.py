@@ -150,16 +150,19 @@ def largest_magnitudes(products, square, viscous, eta, moving, alpha, low, high,
     Parameters
     ----------
     products : (p, d, m)
-        Static contributions of the modes at d pairs of ports.
+        Static contributions of the modes at d pairs of ports, m/N.
     square, viscous : (p, m)
+        μ = 1/ω², s², and the coefficient of iω, s.
     eta : float
+        Loss factor, no unit.
     moving : (p, d)
-        Contribution of the rigid-body modes.
+        Contribution of the rigid-body modes, 1/kg.
     alpha : float
+        Mass-proportional damping of the rigid-body modes, 1/s.
     low, high : float
         Band, rad/s.
     tolerance : float
-        Of the certificate.
+        Of the certificate, as a share of the magnitude.
 
     Returns
     -------

@@ -76,7 +76,17 @@ def petsc_python() -> str | None:
 def slepc_modes(
     stiffness: sp.csc_array, mass: sp.csc_array, count: int, shift: float, ranks: Ranks
 ) -> tuple[Array, Array, str]:
-    """Lowest ω², mass-normalised vectors and what ran.
+    """Lowest ω², (m,), rad²/s², mass-normalised vectors, (n, m), and what ran.
+
+    Parameters
+    ----------
+    stiffness, mass : (n, n) sparse
+        N/m and kg, symmetric.
+    count : int
+        Rigid-body modes included.
+    shift : float
+        rad²/s²; the modes nearest to ω² = −shift are taken.
+    ranks : Ranks
 
     Raises
     ------
@@ -101,7 +111,15 @@ def slepc_modes(
 
 
 def petsc_solve(stiffness: sp.csc_array, loads: Array, ranks: Ranks) -> tuple[Array, str]:
-    """Displacements (n, m) under loads (n, m), and what ran.
+    """Displacements (n, m), m, and what ran.
+
+    Parameters
+    ----------
+    stiffness : (n, n) sparse
+        N/m, symmetric.
+    loads : (n,) or (n, m)
+        N.
+    ranks : Ranks
 
     Raises
     ------
@@ -128,7 +146,7 @@ def _require_small(miss: Array, beside: Array, part: str) -> None:
 
 
 def petsc_environment() -> dict[str, str]:
-    """Variables under which another Python finds PETSc and works on one thread a rank."""
+    """Variables under which another Python finds PETSc and works on one thread per rank."""
     # ranks fill the cores; this Python's packages are none of the worker's
     kept = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
     # Debian's modules find themselves through a link that only its development packages make

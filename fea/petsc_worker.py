@@ -16,7 +16,17 @@ import numpy as np
 
 
 def matrix(petsc: Any, folder: Path, name: str) -> Any:
-    """A distributed matrix from arrays mapped from files, each rank its own rows."""
+    """A distributed matrix from arrays mapped from files, each rank its own rows.
+
+    Parameters
+    ----------
+    petsc : module
+        `petsc4py.PETSc`.
+    folder : Path
+        Where the arrays `NAME.indptr.npy` and so on are.
+    name : str
+        Of the matrix.
+    """
     indptr, indices, data = (
         np.load(folder / f"{name}.{part}.npy", mmap_mode="r")
         for part in ("indptr", "indices", "data")
@@ -37,7 +47,15 @@ def matrix(petsc: Any, folder: Path, name: str) -> Any:
 
 
 def direct(solver: Any, petsc: Any) -> None:
-    """Let a linear solver factorise with MUMPS."""
+    """Let a linear solver factorise with MUMPS.
+
+    Parameters
+    ----------
+    solver : KSP
+        Set up in place.
+    petsc : module
+        `petsc4py.PETSc`.
+    """
     solver.setType(petsc.KSP.Type.PREONLY)
     preconditioner = solver.getPC()
     preconditioner.setType(petsc.PC.Type.CHOLESKY)
@@ -45,14 +63,31 @@ def direct(solver: Any, petsc: Any) -> None:
 
 
 def whole(petsc: Any, vector: Any) -> Any:
-    """A distributed vector on the first rank."""
+    """A distributed vector on the first rank, (n,); empty on the others.
+
+    Parameters
+    ----------
+    petsc : module
+        `petsc4py.PETSc`.
+    vector : Vec
+    """
     scatter, target = petsc.Scatter.toZero(vector)
     scatter.scatter(vector, target)
     return np.real(target.getArray()).copy()
 
 
 def modes(petsc: Any, folder: Path, task: dict[str, Any]) -> dict[str, Any]:
-    """Lowest ω² and vectors by SLEPc's Krylov-Schur, shifted and inverted."""
+    """Lowest ω², (m,), rad²/s², and vectors, (m, n), by SLEPc's Krylov-Schur, shifted and inverted.
+
+    Parameters
+    ----------
+    petsc : module
+        `petsc4py.PETSc`.
+    folder : Path
+        Holds the stiffness and the mass.
+    task : dict
+        `count`, and `shift`, rad²/s².
+    """
     from slepc4py import SLEPc as slepc  # noqa: N813, PLC0415 - as the library writes it
 
     stiffness, mass = matrix(petsc, folder, "stiffness"), matrix(petsc, folder, "mass")
@@ -93,7 +128,17 @@ def modes(petsc: Any, folder: Path, task: dict[str, Any]) -> dict[str, Any]:
 
 
 def static(petsc: Any, folder: Path, _: dict[str, Any]) -> dict[str, Any]:
-    """Displacements under some loads."""
+    """Displacements under some loads, (m, n), m.
+
+    Parameters
+    ----------
+    petsc : module
+        `petsc4py.PETSc`.
+    folder : Path
+        Holds the stiffness, and the loads (n, m) in `loads.npy`, N.
+    _ : dict
+        Not used.
+    """
     stiffness = matrix(petsc, folder, "stiffness")
     loads = np.load(folder / "loads.npy", mmap_mode="r")
     solver = petsc.KSP().create()

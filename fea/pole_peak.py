@@ -25,7 +25,19 @@ BLOCK = 2_000_000
 
 @dataclass(frozen=True)
 class PoleSum:
-    """H(ω) = Σ r_k / (iω − s_k) + constant − moving / ω²."""
+    """H(ω) = Σ r_k / (iω − s_k) + constant − moving / ω².
+
+    Parameters
+    ----------
+    poles : (k,)
+        s_k, complex, rad/s.
+    residues : (k,)
+        r_k, complex, m/(N·s).
+    constant : complex
+        m/N.
+    moving : float
+        Of rigid-body modes that nothing drags, 1/kg.
+    """
 
     poles: Array
     residues: Array
@@ -33,7 +45,13 @@ class PoleSum:
     moving: float
 
     def derivatives(self, omega: Array) -> tuple[Array, Array, Array]:
-        """H and its first two derivatives by ω, each of the shape of `omega`."""
+        """H and its first two derivatives by ω, (w,) each.
+
+        Parameters
+        ----------
+        omega : (w,)
+            ω, rad/s.
+        """
         inverse = 1.0 / (1j * omega[:, None] - self.poles)
         term = self.residues * inverse
         h0 = term.sum(axis=1) + self.constant
@@ -46,7 +64,13 @@ class PoleSum:
         return h0, h1, h2
 
     def square(self, omega: Array) -> tuple[Array, Array, Array]:
-        """|H|² and its first two derivatives by ω."""
+        """|H|² and its first two derivatives by ω, (w,) each.
+
+        Parameters
+        ----------
+        omega : (w,)
+            ω, rad/s.
+        """
         h0, h1, h2 = self.derivatives(omega)
         return (
             np.abs(h0) ** 2,
@@ -55,7 +79,17 @@ class PoleSum:
         )
 
     def bounds(self, low: Array, high: Array, f0: Array, f1: Array) -> Array:
-        """Bound of |H|² over cells from the value and slope in their middles."""
+        """Bound of |H|² over cells from the value and slope in their middles, (w,).
+
+        Parameters
+        ----------
+        low, high : (w,)
+            Ends of the cells, rad/s.
+        f0 : (w,)
+            |H|² in the middle, m²/N².
+        f1 : (w,)
+            Its derivative by ω, m²/N² by rad/s.
+        """
         at, decay = self.poles.imag, self.poles.real
         gap = np.maximum(0.0, np.maximum(low[:, None] - at, at - high[:, None]))
         with np.errstate(divide="ignore", over="ignore"):
@@ -77,7 +111,16 @@ class PoleSum:
 def largest_on_band(
     total: PoleSum, low: float, high: float, tolerance: float = TOLERANCE
 ) -> tuple[float, float, bool]:
-    """Place, rad/s, and size of the largest |H| on [low, high]; whether the proof was finished."""
+    """Place, rad/s, and size of the largest |H| on a band; whether the proof was finished.
+
+    Parameters
+    ----------
+    total : PoleSum
+    low, high : float
+        Ends of the band, rad/s.
+    tolerance : float
+        Of the certificate, as a share of the size.
+    """
     inside = total.poles.imag[(total.poles.imag > low) & (total.poles.imag < high)]
     edges = np.unique(np.concatenate([[low, high], inside]))
     values, _, _ = total.square(edges)

@@ -32,6 +32,7 @@ class PoleModel:
     poles : (k,)
         s, rad/s.
     left, right : (q, k)
+        Motion at the ports of each pole's left and right shape; their products are in m/(N·s).
     constant : (q, q)
         R, of motions that neither mass nor dashpot delays, m/N.
     moving : (q, q)
@@ -49,7 +50,13 @@ class PoleModel:
         return f"<PoleModel: {len(self.ports)} ports, {len(self.poles)} poles>"
 
     def receptance(self, frequencies: ArrayLike) -> Array:
-        """H (f, q, q) at positive frequencies in Hz."""
+        """H, (f, q, q), complex, m/N.
+
+        Parameters
+        ----------
+        frequencies : (f,)
+            Hz, positive.
+        """
         omega = 2.0 * np.pi * np.asarray(frequencies, dtype=float)
         factor = 1.0 / (1j * omega[:, None] - self.poles)
         response = (self.left * factor[:, None, :]) @ self.right.T + self.constant

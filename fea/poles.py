@@ -37,16 +37,17 @@ class Poles:
     errors : (k,)
         Of s as a share of it, by the residual of the structure's own matrices.
     shapes : (c, k)
-        On the independent coordinates.
+        On the independent coordinates, m and rad of any size.
     shares : (k, m)
         Share of each undamped mode that has mass in the strain energy of a pole's shape; what
         motions without mass store is missing.
     left, right : (c, k)
-        The flexible receptance is Σ left rightᵀ / (s − values) + constant.
+        The flexible receptance is Σ left rightᵀ / (s − values) + constant: their products are in
+        m/(N·s).
     constant : (c, c)
         Of motions that neither mass nor dashpot delays, m/N.
     dragged, still : (c, d), (c, r)
-        Rigid-body modes that dashpots resist, and those that none does; mass-normalised.
+        Rigid-body modes that dashpots resist, and those that none does; mass-normalised, 1/√kg.
     drag : (d,)
         Dashpots on the dragged ones, 1/s.
     """
@@ -65,6 +66,14 @@ class Poles:
 
 def find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
     """All poles of (K + iD + sC + s²M) u = f but those of the rigid-body modes at zero.
+
+    Parameters
+    ----------
+    reduced : Reduced
+        At one pose.
+    eigen : Eigen
+        Its modes.
+    damping : damping of any kind
 
     Raises
     ------

@@ -27,7 +27,7 @@ class Port:
     ----------
     node : str
     direction : str or (6,) tuple
-        A direction name, or a vector of translation and rotation parts in global axes.
+        A direction name, or a vector of translation and rotation parts in global axes, no unit.
     against : str or None
         A second node: motion relative to it, and an equal and opposite load on it.
 
@@ -90,7 +90,7 @@ class Port:
 
     @property
     def vector(self) -> Array:
-        """Direction as a six-vector."""
+        """Direction as a six-vector, (6,)."""
         if isinstance(self.direction, str):
             return np.asarray(np.eye(6)[DIRECTIONS.index(self.direction)])
         return np.asarray(self.direction, dtype=float)
@@ -101,6 +101,11 @@ class Port:
 
     def on(self, reduced: Reduced) -> Array:
         """Motion at the port per unit coordinate, (p, c).
+
+        Parameters
+        ----------
+        reduced : Reduced
+            At p poses.
 
         Raises
         ------
@@ -129,6 +134,14 @@ def port_motions(reduced: Reduced, ports: Sequence[Port], rigid: Array) -> tuple
 
     A port that no rigid motion moves gets zeros without rounding: a strut that spins
     does not make the tool float.
+
+    Parameters
+    ----------
+    reduced : Reduced
+        At p poses.
+    ports : sequence of q Port
+    rigid : (p, c, k)
+        Rigid-body modes in coordinates, mass-normalised, 1/√kg.
     """
     at = np.stack([port.on(reduced) for port in ports], axis=1)
     if not rigid.shape[-1]:

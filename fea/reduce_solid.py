@@ -80,11 +80,17 @@ def reduce_solid(
     Parameters
     ----------
     solid : Solid
+        With densities.
     interfaces : sequence of Interface
-    cutoff, modes, method, solver
-        Of `superelement`.
+    cutoff : float, optional
+        Hz: modes with the interfaces held are retained beyond it.
+    modes : int
+        Without a cutoff, how many modes (Krylov: shapes), as `superelement`.
+    method : "craig_bampton" or "krylov"
     fixed : sequence of str
         Node sets or patches held in all directions.
+    solver : str, optional
+        Of `factorize`.
     folder : Path, optional
         Of the stored superelements; default `superelement_file.cache_folder`.
 

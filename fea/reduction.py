@@ -37,12 +37,13 @@ class Reduced:
     ----------
     system : System
     basis : (p, n, c)
-        Displacements of the clusters per unit coordinate, zero columns where a pose has fewer
-        coordinates than another.
+        Displacements of the clusters per unit coordinate, no unit, m/rad or rad/m; zero columns
+        where a pose has fewer coordinates than another.
     stiffness, mass : (p, c, c)
         N/m, kg and the like.
     rigid : (p, c, k)
-        Motions that cost no energy, in coordinates; zero columns where a pose has fewer.
+        Motions that cost no energy, in coordinates, m and rad of any size; zero columns where a
+        pose has fewer.
     """
 
     system: System
@@ -64,6 +65,11 @@ class Reduced:
     def at_node(self, node: str) -> Array:
         """Displacement of a mesh node per unit coordinate, (p, 6, c).
 
+        Parameters
+        ----------
+        node : str
+            A mesh node.
+
         Raises
         ------
         ModelError
@@ -80,7 +86,13 @@ class Reduced:
         return np.asarray(carried @ self.basis[:, 6 * vertex : 6 * vertex + 6])
 
     def project(self, matrix: Array) -> Array:
-        """A matrix on the unknowns (p, n, n) brought to the coordinates, (p, c, c)."""
+        """A matrix on the unknowns brought to the coordinates, (p, c, c).
+
+        Parameters
+        ----------
+        matrix : (p, n, n)
+            Symmetric: N/m, N·s/m or kg, and the like of rotations.
+        """
         return symmetric_product(self.basis, matrix)
 
 

@@ -23,7 +23,7 @@ def uncoupled(response: Array) -> NDArray[np.bool_]:
     Parameters
     ----------
     response : (..., f, q, q)
-        Between all ports, at lines.
+        Between all ports, at lines, complex, m/N.
 
     Returns
     -------

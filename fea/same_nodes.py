@@ -32,6 +32,10 @@ def same_nodes(
     one of the same name; else the one of the same name if no other is nearer. Nodes without a
     place in one of the files are the same by name, and so are all where no place agrees.
 
+    Parameters
+    ----------
+    computed, measured : UniversalFile
+
     Returns
     -------
     nodes : dict of str to str

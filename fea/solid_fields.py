@@ -49,7 +49,7 @@ class SurfaceField:
     triangles : (t, 3) int
         Counter-clockwise from outside.
     values : (k,)
-        What the colour shows.
+        What the colour shows, in the unit that `name` states: any unit.
     displacement : (k, 3)
         m, or of a mode in its own scale; zero where none was given.
     name : str
@@ -97,8 +97,9 @@ def surface_field(
     ----------
     matrices : SolidMatrices
     values : (n,) or None
-        At the nodes of the field; by default the size of the displacement.
+        At the nodes of the field, any unit; by default the size of the displacement, m.
     displacement : (3n,) or (n, 3) or None
+        m; of a mode in its own scale.
     name : str
         Of the values, with their unit.
     fine : bool
@@ -126,7 +127,14 @@ def surface_field(
 
 
 def static_fields(static: SolidStatic, case: int = 0) -> dict[str, Array]:
-    """Fields of a load case: displacement (n, 3), stress (n, 6) and von Mises stress (n,)."""
+    """Fields of a load case: displacement (n, 3), m, stress (n, 6), Pa, von Mises stress (n,), Pa.
+
+    Parameters
+    ----------
+    static : SolidStatic
+    case : int
+        Its place among the load cases.
+    """
     stress = nodal_stresses(static.matrices, static.displacements[:, case]).at_nodes()
     return {
         "displacement (m)": static.at_nodes(case),
@@ -136,7 +144,12 @@ def static_fields(static: SolidStatic, case: int = 0) -> dict[str, Array]:
 
 
 def mode_fields(modes: SolidModes) -> dict[str, Array]:
-    """Mode shapes (n, 3), named with number and frequency, the largest displacement 1."""
+    """Mode shapes (n, 3), named with number and frequency, the largest displacement 1.
+
+    Parameters
+    ----------
+    modes : SolidModes
+    """
     fields = {}
     for i, frequency in enumerate(modes.frequencies):
         shape = modes.shape(i)

@@ -146,7 +146,16 @@ def pressure_load(matrices: SolidMatrices, patch: str, pressure: ArrayLike) -> A
 def load_resultant(
     matrices: SolidMatrices, loads: Array, about: ArrayLike = (0.0, 0.0, 0.0)
 ) -> Array:
-    """Force and moment about a point of each load case, N and N m, (6, m)."""
+    """Force and moment about a point of each load case, N and N m, (6, m).
+
+    Parameters
+    ----------
+    matrices : SolidMatrices
+    loads : (3n, m)
+        N.
+    about : (3,)
+        m.
+    """
     return np.asarray(matrices.rigid_modes(np.asarray(about, dtype=float)).T @ loads)
 
 

@@ -85,6 +85,10 @@ class SolidMatrices:
     def patch(self, name: str) -> tuple[Ints, Array]:
         """Nodes of a patch and the area that belongs to each.
 
+        Parameters
+        ----------
+        name : str
+
         Returns
         -------
         nodes : (m,) int
@@ -101,7 +105,12 @@ class SolidMatrices:
         return nodal_areas(self.mesh, self.mesh.patch(name))
 
     def nodes_of_set(self, name: str) -> Ints:
-        """Nodes of a node set or, when there is none of that name, of a patch; ascending."""
+        """Nodes of a node set or, when there is none of that name, of a patch; ascending, (k,).
+
+        Parameters
+        ----------
+        name : str
+        """
         if name not in self.mesh.node_sets and name in self.mesh.patches:
             return self.mesh.patches[name].nodes
         return self.mesh.node_set(name)
@@ -133,7 +142,7 @@ class SolidMatrices:
         return np.asarray(shares @ self.points / shares.sum())
 
     def structural_damping(self) -> sp.csc_array:
-        """Imaginary part of the stiffness: loss factor times stiffness, region by region, N/m.
+        """Imaginary part of the stiffness: loss factor times stiffness by regions, (n, n), N/m.
 
         A material without a loss factor has none.
         """

@@ -34,7 +34,8 @@ class SolidModes:
         Share of each mode in rigid motion along x, y, z and about the centre of mass, kg and
         kg m².
     residual : float
-        Largest of the flexible modes, as `strutwork.fea.large_modes.LargeModes` defines it.
+        Largest of the flexible modes, as `strutwork.fea.large_modes.LargeModes` defines it, no
+        unit.
     solver : str
         Which ran.
     """
@@ -57,7 +58,13 @@ class SolidModes:
         )
 
     def shape(self, mode: int) -> Array:
-        """Displacement of each node in a mode, (n, 3)."""
+        """Displacement of each node in a mode, (n, 3), 1/√kg.
+
+        Parameters
+        ----------
+        mode : int
+            Counted from zero.
+        """
         return np.asarray(self.shapes[:, mode].reshape(-1, 3))
 
     def to_dict(self) -> dict[str, Any]:

@@ -29,9 +29,9 @@ def picture(
     size : (width, height)
         Pixels.
     scale : float or None
-        Factor on the displacement; by default the largest is drawn at 8 % of the diagonal.
+        Factor on the displacement, no unit; by default the largest is drawn at 8 % of the diagonal.
     view : (3,)
-        Direction from the solid to the eye; z points up.
+        Direction from the solid to the eye, no unit; z points up.
     edges : bool
         Draw the edges of the triangles.
 
@@ -72,7 +72,15 @@ def picture(
 
 
 def write_picture(field: SurfaceField, path: Path | str, **options: Any) -> Path:
-    """Write a picture to a .png file, whole or not at all; options as for `picture`."""
+    """Write a picture to a .png file, whole or not at all.
+
+    Parameters
+    ----------
+    field : SurfaceField
+    path : Path or str
+    **options : keyword arguments
+        `size`, `scale`, `view` and `edges` of `picture`.
+    """
     content = picture(field, **options)
     return write_whole(Path(path), lambda temporary: temporary.write_bytes(content))
 

@@ -57,11 +57,22 @@ class SolidStatic:
         )
 
     def at_nodes(self, case: int = 0) -> Array:
-        """Displacement of each node in a load case, m, (n, 3)."""
+        """Displacement of each node in a load case, m, (n, 3).
+
+        Parameters
+        ----------
+        case : int
+            Its place among the load cases.
+        """
         return np.asarray(self.displacements[:, case].reshape(-1, 3))
 
     def mean_over(self, patch: str) -> Array:
-        """Mean displacement of a patch, weighted by area, m, (3, m)."""
+        """Mean displacement of a patch, weighted by area, m, (3, m).
+
+        Parameters
+        ----------
+        patch : str
+        """
         nodes, areas = self.matrices.patch(patch)
         there = self.displacements.reshape(len(self.matrices.points), 3, -1)[nodes]
         return np.asarray(np.einsum("n,ncm->cm", areas / areas.sum(), there))
@@ -91,7 +102,8 @@ def solve_solid(
     loads : (3n,) or (3n, m)
         N.
     held : Supports or mapping
-        As for `strutwork.fea.solid_supports.supports`. Displaced supports act in every load case.
+        As for `strutwork.fea.solid_supports.supports`: directions, or displacements in m, one
+        number or (k,) for k nodes. Displaced supports act in every load case.
     solver : str or None
         Which factorisation (`strutwork.fea.factorize`); by default the best installed.
 

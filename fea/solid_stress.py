@@ -83,7 +83,14 @@ def cell_strains(matrices: SolidMatrices, displacements: Array) -> Array:
 
 
 def cell_stresses(matrices: SolidMatrices, displacements: Array) -> Array:
-    """Stress at the centre of each cell, Pa; arguments, shape and errors as `cell_strains`."""
+    """Stress at the centre of each cell, Pa, in the shape of the strains of `cell_strains`.
+
+    Parameters
+    ----------
+    matrices : SolidMatrices
+    displacements : (3n,) or (3n, m)
+        m.
+    """
     strains = cell_strains(matrices, displacements)
     return np.asarray(np.einsum("cij,...cj->...ci", _laws(matrices), strains))
 
@@ -138,14 +145,26 @@ def nodal_stresses(matrices: SolidMatrices, displacements: Array) -> NodalStress
 
 
 def von_mises(stress: Array) -> Array:
-    """Equivalent stress of von Mises, (...), from stresses (..., 6)."""
+    """Equivalent stress of von Mises, (...), Pa.
+
+    Parameters
+    ----------
+    stress : (..., 6)
+        Components xx, yy, zz, xy, xz, yz, Pa.
+    """
     xx, yy, zz, xy, xz, yz = np.moveaxis(np.asarray(stress), -1, 0)
     normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2
     return np.asarray(np.sqrt(normal / 2.0 + 3.0 * (xy**2 + xz**2 + yz**2)))
 
 
 def principal_stresses(stress: Array) -> Array:
-    """Principal stresses, largest first, (..., 3), from stresses (..., 6)."""
+    """Principal stresses, largest first, (..., 3), Pa.
+
+    Parameters
+    ----------
+    stress : (..., 6)
+        Components xx, yy, zz, xy, xz, yz, Pa.
+    """
     tensor = np.asarray(stress)[..., [[0, 3, 4], [3, 1, 5], [4, 5, 2]]]
     return np.asarray(np.linalg.eigvalsh(tensor)[..., ::-1])
 

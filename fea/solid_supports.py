@@ -45,8 +45,8 @@ def supports(
     ----------
     matrices : SolidMatrices
     held : mapping
-        From a node set or patch to the directions held, as `"xyz"` or `"z"`, or to the
-        displacement of each, as `{"x": 0.0, "z": -1e-3}`, m; one number, or one for each node.
+        From a node set or patch to the directions held, as `"xyz"` or `"z"`, or to the displacement
+        of each, as `{"x": 0.0, "z": -1e-3}`, m; one number, or (k,) for its k nodes.
 
     Returns
     -------
@@ -101,6 +101,12 @@ def free_rigid_motions(matrices: SolidMatrices, dofs: NDArray[np.int64]) -> Arra
 
     An orthonormal basis when rotations are measured by the displacement at the distance of
     the solid's size from its middle.
+
+    Parameters
+    ----------
+    matrices : SolidMatrices
+    dofs : (k,)
+        Degrees of freedom held, 3 i + c.
     """
     centre = matrices.points.mean(axis=0)
     size = float(np.linalg.norm(matrices.mesh.extent)) / 2.0
@@ -117,6 +123,12 @@ def free_rigid_motions(matrices: SolidMatrices, dofs: NDArray[np.int64]) -> Arra
 
 def require_held(matrices: SolidMatrices, dofs: NDArray[np.int64]) -> None:
     """Refuse supports that let the solid move.
+
+    Parameters
+    ----------
+    matrices : SolidMatrices
+    dofs : (k,)
+        Degrees of freedom held, 3 i + c.
 
     Raises
     ------

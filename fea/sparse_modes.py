@@ -44,7 +44,7 @@ class LowestModes:
     frequencies : (m,)
         Hz, rigid-body modes first with zero.
     vectors : (c, m)
-        Mass-normalised.
+        Mass-normalised, 1/√kg.
     solver : str
     """
 
@@ -54,7 +54,14 @@ class LowestModes:
 
 
 def lanczos_suits(reduced: SparseReduced, count: int) -> bool:
-    """Whether the modes asked for are few enough for Lanczos."""
+    """Whether the modes asked for are few enough for Lanczos.
+
+    Parameters
+    ----------
+    reduced : SparseReduced
+    count : int
+        Modes, rigid-body modes included.
+    """
     massive = int(np.count_nonzero(reduced.mass.diagonal() > 0))
     return 3 * count <= min(massive, reduced.size)
 

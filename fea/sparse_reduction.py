@@ -38,12 +38,13 @@ class SparseReduced:
     ----------
     system : System
     basis : (n, c) sparse
-        Displacements of the clusters per unit coordinate.
+        Displacements of the clusters per unit coordinate, no unit, m/rad or rad/m.
     stiffness, mass : (c, c) sparse
+        N/m, kg and the like of rotations.
     rigid : (c, k)
         Rigid-body modes, orthonormal in the mass.
     geometric : (c, c) sparse or None
-        What a preload adds; the stiffness holds it.
+        What a preload adds, N/m and the like; the stiffness holds it.
     free : int
         Under a preload, how many of the last coordinates are motions without elastic work.
     """

@@ -30,11 +30,12 @@ def motions_left_free(free: Array, push: Array, size: Array) -> Array:
     Parameters
     ----------
     free : (p, c, k)
-        Motions that cost no elastic energy, of unit size; zero columns where a pose has fewer.
+        Motions that cost no elastic energy, as unit coordinates, no unit; zero columns where a pose
+        has fewer.
     push : (p, n, k)
-        Generalised forces of the preload in them, of unit coordinates.
+        Generalised forces of the preload in them, per unit coordinate, N/m.
     size : (p,)
-        Largest entry of the geometric stiffness of any part.
+        Largest entry of the geometric stiffness of any part, N/m.
     """
     k = free.shape[-1]
     if k == 0:
@@ -49,9 +50,17 @@ def motions_left_free(free: Array, push: Array, size: Array) -> Array:
 
 
 def without_elastic_work(stiffness: Array, free: Array) -> Array:
-    """Elastic stiffness with exactly none in free motions, which rounding gives a little.
+    """Elastic stiffness (p, c, c) with exactly none in free motions, where rounding leaves some.
 
     Beside the stiffness of a machine the weight of what swings is small.
+
+    Parameters
+    ----------
+    stiffness : (p, c, c)
+        N/m, N, N·m/rad.
+    free : (p, c, k)
+        Motions that cost no elastic energy, in coordinates of any unit; zero columns where a pose
+        has fewer.
     """
     back = np.linalg.pinv(free)
     rest = stiffness @ free
@@ -74,10 +83,11 @@ def check_stable(
     ----------
     system : System
     elastic, geometric : (p, c, c)
+        N/m, N, N·m/rad.
     free : (p, c, k)
-        Motions that cost no elastic energy.
+        Motions that cost no elastic energy, in coordinates of any unit.
     rigid : (p, c, k)
-        Those among them that stay free.
+        Those among them that stay free, in the same unit.
     absent : (p, c)
         Coordinates that a pose does not have.
 
@@ -108,6 +118,15 @@ def critical_factor(elastic: Array, geometric: Array, free: Array, rigid: Array)
 
     With the free motions that the preload itself holds condensed, the least α of
     (K + α G) x = 0.
+
+    Parameters
+    ----------
+    elastic, geometric : (c, c)
+        K and G of one pose, N/m, N, N·m/rad.
+    free : (c, k)
+        Motions that cost no elastic energy, in coordinates of any unit.
+    rigid : (c, k)
+        Those among them that stay free, in the same unit; zero columns for others.
     """
     # without coordinates that the pose does not have
     here = np.any(elastic, axis=0) | np.any(geometric, axis=0)
@@ -143,7 +162,15 @@ def _span(columns: Array) -> Array:
 
 
 def critical_factor_sparse(elastic: sp.csc_array, geometric: sp.csc_array, free: int) -> float:
-    """The same for a large structure whose last `free` coordinates are its free motions."""
+    """As `critical_factor`, for a large structure whose last coordinates are its free motions.
+
+    Parameters
+    ----------
+    elastic, geometric : (c, c) sparse
+        K and G, N/m, N, N·m/rad.
+    free : int
+        Number of those coordinates.
+    """
     n = elastic.shape[0] - free
     cross, own = geometric[:n, n:].toarray(), geometric[n:, n:].toarray()
     values, turn = la.eigh((own + own.T) / 2) if free else (np.zeros(0), np.zeros((0, 0)))
@@ -176,7 +203,16 @@ def critical_factor_sparse(elastic: sp.csc_array, geometric: sp.csc_array, free:
 
 
 def unstable(system: System, factor: float, pose: int) -> NumericalError:
-    """The error for a structure that does not stand under its preload."""
+    """The error for a structure that does not stand under its preload.
+
+    Parameters
+    ----------
+    system : System
+    factor : float
+        Share of the preload at which it buckles; zero where it falls.
+    pose : int
+        Its place in the batch.
+    """
     stiffening = system.placed.stiffening
     case = "" if stiffening is None else stiffening.case
     where = f" at pose {pose}" if system.poses > 1 else ""

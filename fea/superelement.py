@@ -54,7 +54,7 @@ class Superelement:
     local_stiffness, local_mass : (6 k, 6 k)
         In the mesh's frame.
     shapes : (3 n, 6 k)
-        Displacements of the field nodes per unit motion of the nodes.
+        Displacements of the field nodes per unit motion of the nodes, no unit and m/rad.
     fixed_frequencies : (m,)
         Hz, of the retained modes with the interfaces held; empty for a Krylov basis.
     solver : str
@@ -86,6 +86,11 @@ class Superelement:
 
         Forces per displacement grow with the factor, masses with its cube, and lengths that turn
         rotations into displacements with the factor itself.
+
+        Parameters
+        ----------
+        factor : float
+            No unit, positive.
         """
         lengths = np.tile(np.repeat([1.0, factor], 3), len(self.nodes))
         pairs = np.outer(lengths, lengths)
@@ -100,6 +105,11 @@ class Superelement:
 
     def turn(self, at: PlacedStructure) -> Array:
         """Rotation of the mesh's frame at every pose, (..., 3, 3).
+
+        Parameters
+        ----------
+        at : PlacedStructure
+            The structure in which it stands.
 
         Raises
         ------
@@ -124,11 +134,23 @@ class Superelement:
         return np.asarray(rotation)
 
     def stiffness(self, at: PlacedStructure) -> Array:
-        """Stiffness in global axes, (..., 6 k, 6 k)."""
+        """Stiffness in global axes, (..., 6k, 6k), N/m, N, N·m/rad.
+
+        Parameters
+        ----------
+        at : PlacedStructure
+            The structure in which it stands.
+        """
         return self._turned(self.local_stiffness, at)
 
     def mass(self, at: PlacedStructure) -> Array:
-        """Mass in global axes, (..., 6 k, 6 k)."""
+        """Mass in global axes, (..., 6k, 6k), kg, kg·m, kg·m².
+
+        Parameters
+        ----------
+        at : PlacedStructure
+            The structure in which it stands.
+        """
         return self._turned(self.local_mass, at)
 
     def _turned(self, matrix: Array, at: PlacedStructure) -> Array:
@@ -154,8 +176,8 @@ def superelement(
     Parameters
     ----------
     solid : TiedSolid
-    cells : (m, 8) or the like
-        Corner nodes of the solid's cells, among which monitors are chosen.
+    cells : (m, k)
+        Nodes of the solid's cells, k each, among which monitors are chosen.
     cutoff : float, optional
         Hz: modes with the interfaces held are retained beyond it. Answers below half of it are
         good to 1e-4.

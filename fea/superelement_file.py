@@ -42,6 +42,11 @@ def fingerprint(parts: Iterable[Any]) -> str:
     """Name of a content, and of the code that makes something of it.
 
     Arrays count by type, shape and bytes, everything else by its `repr`.
+
+    Parameters
+    ----------
+    parts : iterable
+        Arrays and whatever has a `repr` that says all of it.
     """
     digest = hashlib.sha256(source_digest(*_OWN).encode())
     digest.update(repr([version(name) for name in _OTHERS]).encode())
@@ -59,6 +64,11 @@ def write_superelement(element: Superelement, path: Path) -> None:
     """Write a superelement, whole or not at all.
 
     A mark, the SHA-256 of the rest, and a NumPy archive.
+
+    Parameters
+    ----------
+    element : Superelement
+    path : Path
 
     Raises
     ------
@@ -80,6 +90,10 @@ def write_superelement(element: Superelement, path: Path) -> None:
 
 def read_superelement(path: Path) -> Superelement:
     """Read a superelement and verify it.
+
+    Parameters
+    ----------
+    path : Path
 
     Raises
     ------

@@ -36,11 +36,12 @@ class TiedSolid:
     recovery : (3 n, c) sparse
         Displacements of the field nodes from the coordinates.
     stiffness, mass : (c, c) sparse
+        N/m and kg.
     ports : (c, 6 k) sparse
-        B: motions of the interface nodes are Bᵀ times the coordinates, and B spreads forces on
-        them.
+        B, no unit and rad/m: motions of the interface nodes are Bᵀ times the coordinates, and B
+        spreads forces on them.
     rigid : (c, r)
-        Rigid motions that nothing holds.
+        Rigid motions that nothing holds, m and rad of any size.
     """
 
     name: str
@@ -75,7 +76,7 @@ def tied_solid(
     points : (n, 3)
         m.
     stiffness, mass : (3 n, 3 n) sparse
-        Degree of freedom 3 node + component.
+        N/m and kg, of degree of freedom 3 node + component.
     patches : sequence of TiedPatch
     fixed : (f,), optional
         Degrees of freedom held at zero.
@@ -192,8 +193,9 @@ class StaticSolver:
         Parameters
         ----------
         forces : (c, m)
+            f, N.
         motions : (6 k, m), optional
-            q; default zero.
+            q, m and rad; default zero.
         """
         solid = self.solid
         k, r = solid.ports.shape[1], solid.rigid.shape[1]

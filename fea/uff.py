@@ -40,7 +40,7 @@ class FrfRecord:
     frequencies : (f,)
         Hz, ascending.
     values : (f,)
-        Complex motion per force, SI.
+        Complex motion per force, m/N, m/(N·s), m/(N·s²) and the like of rotations.
     motion : "displacement", "velocity" or "acceleration"
     run : str
         Tells functions between the same ends apart, as in `#2`.
@@ -94,6 +94,10 @@ class FrfRecord:
     def as_motion(self, motion: Motion) -> Array:
         """Values brought to another motion, (f,).
 
+        Parameters
+        ----------
+        motion : "displacement", "velocity" or "acceleration"
+
         Raises
         ------
         ModelError
@@ -129,10 +133,10 @@ class ModeRecord:
     frequency : float
         Hz.
     damping_ratio : float or None
-        Viscous ζ; None where the source has none.
+        Viscous ζ, no unit; None where the source has none.
     nodes : tuple of str
     shape : (n, 6)
-        Real or complex; directions that the source does not have are zero.
+        Real or complex, of any unit; directions that the source does not have are zero.
 
     Raises
     ------
@@ -209,7 +213,12 @@ class UniversalFile:
 
 
 def response_records(response: FrequencyResponse) -> tuple[FrfRecord, ...]:
-    """Receptances of a computed response of one pose, one record a pair of ports.
+    """Receptances of a computed response of one pose, one record per pair of ports.
+
+    Parameters
+    ----------
+    response : FrequencyResponse
+        At one pose.
 
     Raises
     ------
@@ -240,6 +249,13 @@ def _degree(port: Port) -> tuple[str, str]:
 def mode_file(modes: Modes, damping_ratios: Sequence[float | None] | None = None) -> UniversalFile:
     """Content of a universal file from computed modes of one pose, with the mesh for drawing.
 
+    Parameters
+    ----------
+    modes : Modes
+        At one pose, m of them.
+    damping_ratios : sequence of m float or None, optional
+        ζ, no unit; None where it is not known.
+
     Raises
     ------
     ModelError
@@ -261,5 +277,12 @@ def mode_file(modes: Modes, damping_ratios: Sequence[float | None] | None = None
 
 
 def node_positions(names: Iterable[str], positions: ArrayLike) -> Mapping[str, Array]:
-    """Positions (n, 3) by node name."""
+    """Positions by node name, (3,) each, m.
+
+    Parameters
+    ----------
+    names : iterable of n str
+    positions : (n, 3)
+        m.
+    """
     return dict(zip(names, np.asarray(positions, dtype=float).reshape(-1, 3), strict=True))

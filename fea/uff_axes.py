@@ -32,7 +32,7 @@ class Axes:
     kind : int
         0 Cartesian, 1 cylindrical (radius, angle, z), 2 spherical.
     rows : (3, 3)
-        Its axes in global directions, a row an axis.
+        Its axes in global directions, one row per axis: unit vectors.
     origin : (3,)
         m.
     """
@@ -42,7 +42,14 @@ class Axes:
     origin: Array
 
     def at(self, place: Array | None, part: str) -> Array:
-        """Directions of this system at a place, (3, 3), a row a direction.
+        """Directions of this system at a place, (3, 3), one row per direction.
+
+        Parameters
+        ----------
+        place : (3,) or None
+            Global, m; None where it is not known.
+        part : str
+            For messages.
 
         Raises
         ------
@@ -71,7 +78,14 @@ class Axes:
 
 
 def systems_2420(source: DataSet, length: float) -> dict[int, Axes]:
-    """Systems of data set 2420 by number; `length` is the file's unit in a metre."""
+    """Systems of data set 2420 by number.
+
+    Parameters
+    ----------
+    source : DataSet
+    length : float
+        The file's units of length in one metre, no unit.
+    """
     records = Records(source)
     records.skip(2)
     found: dict[int, Axes] = {}
@@ -84,7 +98,14 @@ def systems_2420(source: DataSet, length: float) -> dict[int, Axes]:
 
 
 def systems_18(source: DataSet, length: float) -> dict[int, Axes]:
-    """Systems of data set 18 by number: an origin, a point on x, a point in the xz plane."""
+    """Systems of data set 18 by number: an origin, a point on x, a point in the xz plane.
+
+    Parameters
+    ----------
+    source : DataSet
+    length : float
+        The file's units of length in one metre, no unit.
+    """
     records = Records(source)
     found: dict[int, Axes] = {}
     while records:
@@ -141,6 +162,14 @@ def _not_square(part: str) -> ModelError:
 
 def axes_of(number: int, systems: Mapping[int, Axes], part: str) -> Axes | None:
     """The system of a number; None for the global one.
+
+    Parameters
+    ----------
+    number : int
+    systems : mapping of int to Axes
+        Those that the file holds.
+    part : str
+        For messages.
 
     Raises
     ------

@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.uff import FrfRecord, Motion
+from strutwork.fea.uff_columns import Columns, number
 from strutwork.fea.uff_geometry import Geometry
-from strutwork.fea.uff_sets import Columns, DataSet, head_and_body, number, numbers_of
+from strutwork.fea.uff_sets import DataSet, head_and_body, numbers_of
 from strutwork.fea.uff_units import FileUnits, frequency_scale, motion_of, named, response_scale
 from strutwork.kinematics import DIRECTIONS
 
@@ -84,7 +85,20 @@ class End:
 
 @dataclass(frozen=True)
 class RawFunction:
-    """A response as it stands in the file, in SI units."""
+    """A response as it stands in the file, in SI units.
+
+    Parameters
+    ----------
+    part : str
+        For messages.
+    output, given : End
+        Where the motion and the force are.
+    frequencies : (f,)
+        Hz.
+    values : (f,)
+        Complex motion per force: m/N, m/(N·s), m/(N·s²) and the like of rotations.
+    motion : "displacement", "velocity" or "acceleration"
+    """
 
     part: str
     output: End
@@ -233,6 +247,11 @@ def named_functions(
 
     A node number that occurs in several components bears their names; functions between the
     same ends are numbered.
+
+    Parameters
+    ----------
+    found : list of RawFunction
+    geometry : Geometry
     """
     entities: dict[int, set[str]] = {}
     for one in found:

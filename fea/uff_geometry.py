@@ -28,7 +28,21 @@ _SAME = 1e-6
 
 @dataclass
 class Geometry:
-    """Geometry of a file while it is read, by node numbers."""
+    """Geometry of a file while it is read, by node numbers.
+
+    Parameters
+    ----------
+    places : dict of int to (3,)
+        Global, m.
+    systems : dict of int to Axes
+    motion_in : dict of int to int
+        Number of the system in which a node's motion is written.
+    lines : list of (int, int)
+        For drawing.
+    names : dict of int to str
+    notes : list of str
+        What was assumed or changed, in words.
+    """
 
     places: dict[int, Array] = field(default_factory=dict)
     systems: dict[int, Axes] = field(default_factory=dict)
@@ -38,12 +52,26 @@ class Geometry:
     notes: list[str] = field(default_factory=list)
 
     def add_systems(self, source: DataSet, length: float) -> None:
-        """Coordinate systems of 2420 or 18."""
+        """Coordinate systems of 2420 or 18.
+
+        Parameters
+        ----------
+        source : DataSet
+        length : float
+            The file's units of length in one metre, no unit.
+        """
         read = systems_18 if source.kind == 18 else systems_2420
         self.systems |= read(source, length)
 
     def add_nodes(self, source: DataSet, length: float) -> None:
-        """Nodes of 2411, whose places are global, or of 15, whose places are in their system."""
+        """Nodes of 2411, whose places are global, or of 15, whose places are in their system.
+
+        Parameters
+        ----------
+        source : DataSet
+        length : float
+            The file's units of length in one metre, no unit.
+        """
         records = Records(source)
         while records:
             if source.kind == 15:
@@ -102,6 +130,13 @@ class Geometry:
     def turned(self, number: int, part: str) -> Array | None:
         """Directions in which the motion of a node is written, (3, 3); None for global ones.
 
+        Parameters
+        ----------
+        number : int
+            Of the node.
+        part : str
+            For messages.
+
         Raises
         ------
         ModelError
@@ -118,7 +153,12 @@ class Geometry:
         return None if np.allclose(found, np.eye(3), atol=1e-12) else found
 
     def add_elements(self, source: DataSet) -> None:
-        """Elements of 2412 as lines between their nodes, closed from three nodes on."""
+        """Elements of 2412 as lines between their nodes, closed from three nodes on.
+
+        Parameters
+        ----------
+        source : DataSet
+        """
         records = Records(source)
         while records:
             head = records.next().whole([10] * 6, 6)
@@ -132,7 +172,12 @@ class Geometry:
                 self.lines.append((nodes[-1], nodes[0]))
 
     def add_trace(self, source: DataSet) -> None:
-        """A trace line of data set 82: zero lifts the pen."""
+        """A trace line of data set 82: zero lifts the pen.
+
+        Parameters
+        ----------
+        source : DataSet
+        """
         records = Records(source)
         count = records.next().whole([10] * 3, 2)[1]
         records.skip(1)
@@ -151,7 +196,13 @@ class Geometry:
         self.lines += [(a, b) for a, b in pairwise(nodes) if a != b]
 
     def add_groups(self, source: DataSet) -> None:
-        """Groups of one node each are names."""
+        """Groups of one node each are names.
+
+        Parameters
+        ----------
+        source : DataSet
+            Data set 2467.
+        """
         records = Records(source)
         while records:
             count = records.next().whole([10] * 8, 8)[7]
@@ -166,5 +217,10 @@ class Geometry:
             self.names.clear()
 
     def name(self, number: int) -> str:
-        """Name of a node: that of its group, else its number."""
+        """Name of a node: that of its group, else its number.
+
+        Parameters
+        ----------
+        number : int
+        """
         return self.names.get(number, str(number))

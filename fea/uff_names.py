@@ -17,7 +17,12 @@ DIGITS = 8
 
 
 def fits(name: str) -> bool:
-    """Whether a name can be written as it is, and read back."""
+    """Whether a name can be written as it is, and read back.
+
+    Parameters
+    ----------
+    name : str
+    """
     # -1 parts data sets
     return (
         0 < len(name) <= LONGEST_NAME
@@ -56,7 +61,12 @@ def fitted_names(names: Iterable[str]) -> dict[str, str]:
 
 
 def with_fitted_names(content: UniversalFile) -> UniversalFile:
-    """The same content with the names that a file can hold."""
+    """The same content with the names that a file can hold.
+
+    Parameters
+    ----------
+    content : UniversalFile
+    """
     to = fitted_names(content.nodes)
     if all(name == written for name, written in to.items()):
         return content

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.fea.uff_columns import MOST, Columns
 
 Array = NDArray[Any]
 
@@ -24,15 +25,9 @@ _TYPE = re.compile(rb"[ \t]*(\d{1,6})[ \t]*([bB]?)([^\r\n]*)(?:\r\n|\r|\n|\Z)")
 
 _LINE_END = re.compile(rb"\r\n|\r|\n")
 
-#: Fortran leaves the E out of an exponent of three digits.
-_BARE_EXPONENT = re.compile(r"(?<=[\d.])(?=[+-]\d{2,3}\Z)")
-
 #: Lines of a binary function before its numbers, and numbers a line of it by ordinate type.
 HEADER_LINES = 11
 _WIDTH = {2: (4, 1), 4: (8, 1), 5: (4, 2), 6: (8, 2)}
-
-#: Whole numbers beyond this are none of a universal file.
-_MOST = 10**12
 
 
 @dataclass(frozen=True)
@@ -153,7 +148,7 @@ def _binary_end(data: bytes, head: re.Match[bytes], part: str) -> tuple[int, int
         start = ending.end()
     form = Columns(part, _text(lines[6]), 0).numbers([10, 10, 10])
     sizes = []
-    if len(form) == 3 and int(form[0]) in _WIDTH and 0 <= form[1] < _MOST:
+    if len(form) == 3 and int(form[0]) in _WIDTH and 0 <= form[1] < MOST:
         width, values = _WIDTH[int(form[0])]
         lines_of = int(form[1])
         if form[2] == 0:
@@ -183,86 +178,13 @@ def _text(raw: bytes) -> str:
         return raw.decode("latin-1")
 
 
-@dataclass(frozen=True)
-class Columns:
-    """One record: a line of fixed columns.
+class Records:
+    """The lines of a data set, one after the other.
 
     Parameters
     ----------
-    part : str
-    text : str
-    line : int
-        Its number in the file.
+    source : DataSet
     """
-
-    part: str
-    text: str
-    line: int
-
-    def numbers(self, widths: Sequence[int]) -> list[float]:
-        """Numbers of the leading columns; empty ones are zero, missing ones are left out.
-
-        Columns that no number crosses are read as columns; else the line is taken as numbers
-        between blanks, which is how some programs write.
-        """
-        return [number(t, self.part, self.line) if t else 0.0 for t in self._cut(widths)]
-
-    def whole(self, widths: Sequence[int], least: int = 1) -> list[int]:
-        """As `numbers`, whole numbers only.
-
-        Raises
-        ------
-        ModelError
-            Fewer than `least`, or one that is not whole.
-        """
-        found = self.numbers(widths)
-        if len(found) < least or not all(abs(v) < _MOST and v == int(v) for v in found):
-            raise ModelError(
-                self.part,
-                f"cannot be read: line {self.line} should hold {least} whole numbers, and is "
-                f'"{self.text.strip()[:60]}".',
-                "Export the file again.",
-            )
-        return [int(v) for v in found]
-
-    def _cut(self, widths: Sequence[int]) -> list[str]:
-        text = self.text.rstrip()
-        ends = np.cumsum(widths).tolist()
-        pieces = [text[e - w : e] for w, e in zip(widths, ends, strict=True) if e - w < len(text)]
-        tokens = text.split()
-        crossed = any(
-            e < len(text) and not text[e - 1].isspace() and not text[e].isspace() for e in ends
-        )
-        several = any(len(piece.split()) > 1 for piece in pieces)
-        if not (crossed or several) or any(len(t) > max(widths) for t in tokens):
-            return [piece.strip() for piece in pieces]
-        return tokens[: len(widths)]
-
-
-def number(text: str, part: str, line: int) -> float:
-    """A number as Fortran writes it, with E, D or no letter before its exponent.
-
-    Raises
-    ------
-    ModelError
-        No number.
-    """
-    plain = text.strip().upper().replace("D", "E")
-    if "E" not in plain:
-        plain = _BARE_EXPONENT.sub("E", plain)
-    try:
-        # Python reads 1_0 as ten
-        return float(plain.replace("_", "x"))
-    except ValueError:
-        raise ModelError(
-            part,
-            f'cannot be read: "{text.strip()[:40]}" in line {line} is no number.',
-            "Export the file again.",
-        ) from None
-
-
-class Records:
-    """The lines of a data set, one after the other."""
 
     def __init__(self, source: DataSet) -> None:
         self.part = source.part
@@ -293,12 +215,25 @@ class Records:
         return Columns(self.part, self._lines[self._at - 1], self._first + self._at - 1)
 
     def skip(self, count: int) -> None:
-        """Pass over lines that are not needed."""
+        """Pass over lines that are not needed.
+
+        Parameters
+        ----------
+        count : int
+        """
         for _ in range(count):
             self.next()
 
     def numbers(self, count: int, width: int) -> list[float]:
-        """So many numbers from as many lines as they fill, 80 characters a line at most."""
+        """So many numbers from as many lines of 80 characters at most as they fill.
+
+        Parameters
+        ----------
+        count : int
+            How many numbers.
+        width : int
+            Characters of each.
+        """
         found: list[float] = []
         widths = [width] * (80 // width)
         while len(found) < count:
@@ -323,6 +258,12 @@ class Records:
 
 def head_and_body(source: DataSet, count: int) -> tuple[list[Columns], bytes]:
     """The first lines of a data set, and what follows them as it is.
+
+    Parameters
+    ----------
+    source : DataSet
+    count : int
+        How many first lines.
 
     Raises
     ------

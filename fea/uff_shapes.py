@@ -76,7 +76,24 @@ class _Header:
 
 @dataclass(frozen=True)
 class RawMode:
-    """A mode as it stands in the file."""
+    """A mode as it stands in the file.
+
+    Parameters
+    ----------
+    part : str
+        For messages.
+    source : (int, int)
+        Data set, and the kind of result that it names.
+    said : bool
+        Whether that kind is a motion.
+    frequency : float
+        Hz.
+    damping_ratio : float or None
+        ζ, no unit; None where the file has none.
+    nodes : tuple of int
+    values : (n, 3) or (n, 6)
+        Real or complex, in the file's unit, in the directions of the nodes.
+    """
 
     part: str
     source: tuple[int, int]
@@ -88,7 +105,12 @@ class RawMode:
 
 
 def raw_mode(source: DataSet) -> RawMode | str:
-    """Read a mode of 55 or 2414; a text says why the set is left out."""
+    """Read a mode of 55 or 2414; a text says why the set is left out.
+
+    Parameters
+    ----------
+    source : DataSet
+    """
     records = Records(source)
     if source.kind == 2414:
         records.skip(2)
@@ -159,6 +181,11 @@ def global_modes(found: list[RawMode], geometry: Geometry) -> tuple[list[ModeRec
 
     A mode that the file holds twice, as displacement and as velocity or in both data sets, is
     taken once.
+
+    Parameters
+    ----------
+    found : list of RawMode
+    geometry : Geometry
     """
     made: list[ModeRecord] = []
     taken: list[RawMode] = []

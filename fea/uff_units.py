@@ -99,6 +99,10 @@ class FileUnits:
 def file_units(source: DataSet) -> tuple[FileUnits, str]:
     """Read data set 164.
 
+    Parameters
+    ----------
+    source : DataSet
+
     Returns
     -------
     units : FileUnits
@@ -136,7 +140,13 @@ def _rest(source: DataSet) -> list[bytes]:
 
 
 def named(label: str) -> bool:
-    """Whether a label says anything."""
+    """Whether a label says anything.
+
+    Parameters
+    ----------
+    label : str
+        Unit of an axis.
+    """
     return label.strip().casefold() not in ("", "none")
 
 
@@ -145,6 +155,11 @@ def readings(label: str) -> dict[Powers, set[float]]:
 
     Products and quotients with powers, as in `mm/s^2`, `M/SEC2`, `N-m`, `(m/s²)/N`. Capitals
     count where both ways exist (mN, MN) and not elsewhere.
+
+    Parameters
+    ----------
+    label : str
+        Unit of an axis.
     """
     text = label.strip().replace("²", "^2").replace("·", "*").replace("⋅", "*")
     if text[:1] + text[-1:] in ("[]", "()") and not re.search(r"[()\[\]]", text[1:-1]):
@@ -205,7 +220,13 @@ def _factors(text: str) -> list[tuple[str, int]]:
 
 
 def motion_of(label: str) -> Motion | None:
-    """The motion whose unit a label is, also where it is given per force."""
+    """The motion whose unit a label is, also where it is given per force.
+
+    Parameters
+    ----------
+    label : str
+        Unit of an axis.
+    """
     found = readings(label)
     for motion, s in _MOTION_POWERS.items():
         if {(1, 0, s), (0, -1, s + 2)} & set(found):
@@ -267,6 +288,15 @@ def response_scale(
 
 def frequency_scale(label: str, part: str, given: Mapping[str, str]) -> float:
     """Hz of one of the abscissa's numbers.
+
+    Parameters
+    ----------
+    label : str
+        Unit of the axis.
+    part : str
+        For messages.
+    given : mapping of str to str
+        Units that the reader of the file names for labels.
 
     Raises
     ------

@@ -84,7 +84,12 @@ def write_universal(
 
 
 def node_numbers(content: UniversalFile) -> dict[str, int]:
-    """Number of every node: its name where all names are numbers, else counted from one."""
+    """Number of every node: its name where all names are numbers, else counted from one.
+
+    Parameters
+    ----------
+    content : UniversalFile
+    """
     names = content.nodes
     if all(re.fullmatch(r"[1-9][0-9]{0,8}", name) for name in names):
         return {name: int(name) for name in names}

@@ -13,6 +13,10 @@ def limits(placed: PlacedStructure) -> dict[str, float]:
 
     Half of the highest frequency retained with the interfaces held (`Superelement.cutoff`). A
     Krylov basis has none.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
     """
     found = {}
     for element in placed.structure.elements:
@@ -48,6 +52,12 @@ def beyond(placed: PlacedStructure, highest: float) -> str:
 
 def warn_beyond(placed: PlacedStructure, highest: float) -> None:
     """Warn of what `beyond` says.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    highest : float
+        Hz.
 
     Warns
     -----

@@ -36,10 +36,10 @@ class AssemblyModes:
     real : (...) of int
         How many are poses.
     count : (...) of int
-        How many there are, 16 in general; fewer where ways coincide. −1 where they were not all
-        found.
+        How many there are, 16 in general; fewer where ways coincide. −1 where some may
+        be missing.
     home : (...) of int
-        Which of the real ones the machine stands in; −1 where that was not found.
+        Which of the real ones the machine stands in; −1 where that is unknown.
     position, rotation : (..., 16, 3) and (..., 16, 3, 3)
         Of the tool in the real ones, m; not a number past the last of them.
     """
@@ -80,7 +80,13 @@ class AssemblyModes:
         return np.asarray(np.where(out, np.inf, turns).min(axis=-1))
 
     def poses(self, index: int | tuple[int, ...] = ()) -> Poses:
-        """The tool in all modes of one pose of the batch, (m)."""
+        """The tool in all modes of one pose of the batch, (m).
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of a pose in the batch; () for a single one.
+        """
         count = int(self.real[index])
         return Poses(self.position[index][:count], self.rotation[index][:count])
 
@@ -90,7 +96,7 @@ class AssemblyModes:
         Parameters
         ----------
         tool : Poses
-            (...); as forward kinematics has found it at the same drives.
+            (...); as forward kinematics gives it at the same drives.
 
         Returns
         -------
@@ -121,7 +127,7 @@ def assembly_modes(
     placement : Placement
         Reachable poses, any batch axes.
     rotation : (..., 3, 3), optional
-        Of the tool there; default none.
+        Rotation matrices of the tool at these poses; default none, the tool as at home.
 
     Returns
     -------

@@ -62,7 +62,7 @@ class BodyMotion:
 
     @cached_property
     def plan(self) -> tuple[NDArray[np.intp], tuple[tuple[int, Array], ...]]:
-        """Held rows that are independent, and bodies that spin freely with their lines at home.
+        """Held rows that are independent, (r,), and bodies that spin freely, lines at home (3,).
 
         A spin is what no coordinate moves, as that of a strut between two ball joints: such
         bodies are taken not to turn about their lines.
@@ -108,6 +108,11 @@ class BodyMotion:
 
     def at(self, moved: Moved) -> PlacedMotion:
         """The motion at reached poses; batch axes are made one.
+
+        Parameters
+        ----------
+        moved : Moved
+            Poses that the motion has reached, any batch axes.
 
         Raises
         ------

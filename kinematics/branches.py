@@ -76,7 +76,7 @@ def branches(
     """Look for ways to put a linkage together: assembly modes, or working modes.
 
     The bodies are thrown about home, half of them in planes through it, and closed by damped
-    Newton corrections of all joints at once. What is found are ways; that there are no others
+    Newton corrections of all joints at once. The results are ways; that there are no others
     is not shown.
 
     Parameters
@@ -84,11 +84,11 @@ def branches(
     motion : Motion
     tool : Poses, optional
         One pose: its working modes are looked for.
-    task : mapping of direction to float, optional
-        Some coordinates of the tool instead.
-    joints : mapping of (joint, direction) to float, optional
-        Coordinates: with all drives given, assembly modes. Turns count within half a turn of
-        home.
+    task : mapping of direction to (), optional
+        Some coordinates of the tool instead, m or rad; one value each.
+    joints : mapping of (joint, direction) to (), optional
+        Joint coordinates, m or rad, one value each: with all drives given, assembly modes. Turns
+        count within half a turn of home.
     starts : int
         Beside home itself.
     seed : int

@@ -40,7 +40,14 @@ class Zonotope:
         return f"<Zonotope: {a} generators in {d} dimensions, batch {tuple(batch)}>"
 
     def support(self, direction: ArrayLike) -> Array:
-        """Largest component along a direction, (...): Σ |gᵢ · n| (a unit vector's is a length)."""
+        """Largest component along a direction, (...): Σ |gᵢ · n| (a unit vector's is a length).
+
+        Parameters
+        ----------
+        direction : (d,) or (..., d)
+            n, in the units in which the generators are compared; of a unit vector the result is a
+            distance.
+        """
         n = np.asarray(direction, dtype=float)
         return np.asarray(np.abs(np.einsum("...da,...d->...a", self.generators, n)).sum(axis=-1))
 
@@ -126,7 +133,8 @@ def velocity_zonotope(forward: ArrayLike, limits: ArrayLike) -> Zonotope:
     Parameters
     ----------
     forward : (..., k, a)
-        Rows of the Jacobian of a machine with as many drives as freedoms.
+        Rows of the Jacobian of a machine with as many drives as freedoms: tool velocity per drive
+        rate, units of the tool's over those of `limits`.
     limits : (a,)
         Greatest rates, m/s or rad/s, or errors, m or rad, of the drives.
 

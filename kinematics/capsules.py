@@ -149,7 +149,13 @@ class Interference:
         return np.asarray(radius[self.pairs].sum(axis=-1))
 
     def words(self, pair: int) -> str:
-        """The two parts of a pair."""
+        """The two parts of a pair.
+
+        Parameters
+        ----------
+        pair : int
+            Row of `pairs`.
+        """
         first, second = (self._parts[i].name for i in self.pairs[pair])
         return f"{first} and {second}"
 
@@ -164,7 +170,7 @@ class Interference:
         ----------
         placement : Placement
         within : float, optional
-            Of a mesh: gaps from this on, m, are only told to be as large at least. Default:
+            Of a mesh: gaps from this on, m, are only known to be at least that large. Default:
             those that exceed the pair's `reach`.
 
         Raises

@@ -33,9 +33,10 @@ class PathReversals:
     ----------
     drives : (r,) of str
     places : (r, 2)
-        Parameters.
+        Parameters, m or rad.
     along : (r,)
-        Which piece of the path, from 0, and how far in it: 2.25 is a quarter along the third.
+        Which piece of the path, from 0, and how far in it, no unit: 2.25 is a quarter along the
+        third.
     signs : (s, n) of int
         Of the drives' speeds at the start of each piece, 0 for one that does not move on it.
     """
@@ -53,7 +54,7 @@ class ClearPath:
     Parameters
     ----------
     start, end : (2,)
-        Parameters.
+        Parameters, m or rad.
     length : float
         Of the tool centre point, m; of the rotation vector, rad, where the path only turns.
     """
@@ -70,6 +71,7 @@ def path_reversals(field: DriveField, points: ArrayLike, samples: int = SAMPLES)
     ----------
     field : DriveField
     points : (s + 1, 2)
+        Corners of the path, m or rad as the field's parameters are.
     samples : int
         Of every piece: two reversals of one drive between two of them are not seen.
 
@@ -119,7 +121,7 @@ def longest_clear_path(
     field : DriveField
     patch : Patch
     ways : (w, 2)
-        Directions of the parameters that are tried.
+        Directions of the parameters that are tried, of any length, m or rad as these are.
     moving : (a,) of int
         Drives that move on the patch; the others turn back nowhere.
     lines : int

@@ -110,7 +110,13 @@ def _with(coordinates: Coordinates, name: Name) -> Coordinates:
 
 
 def freedoms(motion: Motion) -> int:
-    """Freedoms of the bodies at home, those of bodies that only spin counted."""
+    """Freedoms of the bodies at home, those of bodies that only spin counted.
+
+    Parameters
+    ----------
+    motion : Motion
+        Counted with its drives free.
+    """
     held, _ = home_rows(motion, Coordinates())
     return int(held.shape[1]) - len(independent_rows(held, len(held))[0])
 
@@ -126,6 +132,13 @@ def _require_known(motion: Motion, coordinates: Coordinates) -> None:
 
 def require_independent(motion: Motion, coordinates: Coordinates) -> None:
     """Refuse coordinates of which one follows from the others.
+
+    Parameters
+    ----------
+    motion : Motion
+        At its home.
+    coordinates : Coordinates
+        Of its tool and joints, in the order in which they may follow from each other.
 
     Raises
     ------
@@ -148,7 +161,15 @@ def require_independent(motion: Motion, coordinates: Coordinates) -> None:
 
 
 def dependent(motion: Motion, coordinates: Coordinates) -> list[str]:
-    """Labels of coordinates that follow from those before them at home."""
+    """Labels of coordinates that follow from those before them at home.
+
+    Parameters
+    ----------
+    motion : Motion
+        At its home.
+    coordinates : Coordinates
+        Of its tool and joints.
+    """
     held, asked = home_rows(motion, coordinates)
     matrix = np.concatenate([held, asked])
     kept, _ = independent_rows(matrix, len(held))
@@ -160,9 +181,17 @@ def dependent(motion: Motion, coordinates: Coordinates) -> list[str]:
 
 
 def home_rows(motion: Motion, coordinates: Coordinates) -> tuple[Array, Array]:
-    """Rows of held joint directions and of coordinates at home, about the bodies' references.
+    """Rows of held joint directions (r, 6 b) and of coordinates (t, 6 b) at home.
 
-    In one unit: lengths over the machine's size L, on (v / L, ω) of the bodies.
+    About the bodies' references and in one unit: lengths over the machine's size L, on
+    (v / L, ω) of the bodies.
+
+    Parameters
+    ----------
+    motion : Motion
+        With b moving bodies; gives rows of 6 b columns.
+    coordinates : Coordinates
+        One row each, in their order.
     """
     joints, linkage = motion.joints, motion.linkage
     length = motion.length

@@ -74,6 +74,7 @@ class Tie:
     other_joint, other_direction : int
         The coordinate that it follows.
     ratio : float
+        m/m, m/rad, rad/m or rad/rad.
     """
 
     name: str
@@ -91,6 +92,15 @@ def ties_of(
 
     Of a coupling the second coordinate follows the first, unless it is driven or follows another
     already: then the first follows the second.
+
+    Parameters
+    ----------
+    joints : sequence of Joint
+        Of a linkage, in its order.
+    index : mapping of str to int
+        Number of each joint by its name.
+    couplings : sequence of Coupling
+        Between two of these joints each.
 
     Raises
     ------

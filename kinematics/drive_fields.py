@@ -39,10 +39,23 @@ class DriveField(Protocol):
         """Derivatives of the drives' coordinates at (m, 2), (m, n, 2).
 
         NaN at a point that the machine cannot take.
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the two parameters, m or rad.
         """
 
     def speed(self, points: Array, way: Array) -> Array:
-        """Length of path that the tool makes per unit of a way (2,) of the parameters, (m,)."""
+        """Length of path that the tool makes per unit of a way (2,) of the parameters, (m,).
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the two parameters, m or rad.
+        way : (2,)
+            Change of the parameters, m or rad.
+        """
 
 
 @dataclass(frozen=True)
@@ -60,12 +73,26 @@ class FormulaField:
     formula: Callable[[Array], ArrayLike]
 
     def gradient(self, points: Array) -> Array:
-        """Derivatives at (m, 2), (m, n, 2)."""
+        """Derivatives at (m, 2), (m, n, 2).
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the two parameters, in the units of the formula.
+        """
         return np.asarray(self.formula(points), dtype=float)
 
     @staticmethod
     def speed(points: Array, way: Array) -> Array:
-        """Length in the parameters themselves."""
+        """Length in the parameters themselves, (m,), in their units.
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Only counted; values of the parameters in their units.
+        way : (2,)
+            Change of the parameters, in their units.
+        """
         return np.full(len(points), np.linalg.norm(way))
 
 
@@ -115,6 +142,11 @@ class MotionField:
     def placements(self, points: Array) -> tuple[Placement, Array, Array]:
         """Where the linkage stands at points (m, 2).
 
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the surface's parameters, m or rad.
+
         Returns
         -------
         placement : Placement
@@ -148,6 +180,11 @@ class MotionField:
         """Derivatives of the drives' coordinates at (m, 2), (m, n, 2), m or rad per unit.
 
         NaN where the machine cannot stand, or the tool's rates do not settle the drives'.
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the surface's parameters, m or rad.
         """
         pieces = [
             self._some(points[first : first + PIECE]) for first in range(0, len(points), PIECE)
@@ -185,6 +222,13 @@ class MotionField:
         """Path of the tool centre point per unit of a way (2,) of the parameters, (m,), m.
 
         Where the way turns the tool only, rad of its rotation vector.
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the surface's parameters, m or rad.
+        way : (2,)
+            Change of the parameters, all m or all rad.
 
         Raises
         ------

@@ -30,13 +30,13 @@ class Forces:
     ----------
     at : PlacedDynamics
     rates : (p, t)
-        Of the coordinates.
+        Of the coordinates, m/s or rad/s.
     twists, accelerations : (p, 6 b)
-        Of the bodies at their centres of mass.
+        Of the bodies at their centres of mass, m/s and rad/s, m/s² and rad/s².
     needed : (p, 6 b)
         What joints and drives must do to the bodies there, N and N·m.
     wrench : (p, 6)
-        That acts on the tool.
+        That acts on the tool at its centre point, N and N·m.
     """
 
     at: PlacedDynamics
@@ -135,7 +135,7 @@ class Forces:
 
     @property
     def determined(self) -> bool:
-        """Whether rigid bodies tell what the joints bear: none of them is held twice."""
+        """Whether rigid bodies determine what the joints bear: none of them is held twice."""
         placed = self.at.placed
         square = self.at.drive_map.shape[-1] == self.at.drive_map.shape[-2]
         return square and len(placed.of.plan[0]) == len(placed.held)
@@ -149,7 +149,8 @@ class Forces:
         Raises
         ------
         ModelError
-            An over-constrained or redundantly driven linkage, whose rigid bodies do not tell.
+            An over-constrained or redundantly driven linkage, of which rigid bodies do not
+            determine them.
         """
         if not self.determined:
             raise ModelError(
@@ -177,10 +178,10 @@ def inverse_dynamics(
     ----------
     at : PlacedDynamics
         At p poses.
-    rates, changes : (p, t)
-        First and second derivatives of the coordinates.
-    wrench : (p, 6) or (6,)
-        That acts on the tool at its centre point, N and N·m, global axes.
+    rates, changes : (p, t) or (t,)
+        First and second derivatives of the coordinates, m/s or rad/s, m/s² or rad/s².
+    wrench : (p, 6), (6,) or ()
+        That acts on the tool at its centre point, N and N·m, global axes; 0 for none.
     """
     first, second = at.full(rates), at.full(changes)
     twists = at.placed.twists(first)

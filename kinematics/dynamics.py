@@ -82,12 +82,17 @@ class Dynamics:
     def at(self, moved: Moved) -> PlacedDynamics:
         """The dynamics at reached poses; batch axes are made one.
 
+        Parameters
+        ----------
+        moved : Moved
+            Poses that the motion has reached, any batch axes.
+
         Raises
         ------
         UnreachableError
             A pose that was not reached.
         SingularPoseError
-            A pose at which the coordinates do not tell how the bodies move.
+            A pose at which the coordinates do not determine how the bodies move.
         ModelError
             A body that spins freely and is not balanced about its line: how it moves depends on
             more than the coordinates.
@@ -112,6 +117,13 @@ class PlacedDynamics:
     """Dynamics at p poses; made by `Dynamics.at`.
 
     Forces go with the coordinates or drives: N along a shift, N·m about a turn.
+
+    Parameters
+    ----------
+    of : Dynamics
+        The linkage with its masses and coordinates.
+    placed : PlacedMotion
+        How its bodies move at the p poses.
     """
 
     of: Dynamics
@@ -132,7 +144,14 @@ class PlacedDynamics:
         return np.asarray(turn @ self.of.masses.inertia @ np.swapaxes(turn, -1, -2))
 
     def weighted(self, twists: Array) -> Array:
-        """M_b times twists or their time derivatives, (p, 6 b, k)."""
+        """M_b times twists or their time derivatives, (p, 6 b, k).
+
+        Parameters
+        ----------
+        twists : (p, 6 b, k)
+            Of the bodies at their centres of mass, m/s and rad/s; or accelerations, m/s² and
+            rad/s².
+        """
         parts = twists.reshape(self.poses, -1, 6, twists.shape[-1])
         result = np.empty_like(parts)
         result[:, :, :3] = self.of.masses.mass[:, None, None] * parts[:, :, :3]
@@ -193,7 +212,13 @@ class PlacedDynamics:
             )
 
     def coriolis(self, rates: ArrayLike) -> Array:
-        """C at rates (p, t) of the coordinates, (p, t, t); Ṁ − 2 C is skew."""
+        """C at rates (p, t) of the coordinates, (p, t, t); Ṁ − 2 C is skew.
+
+        Parameters
+        ----------
+        rates : (p, t) or (t,)
+            Of the coordinates, m/s or rad/s.
+        """
         given = self.full(rates)
         spin = self.placed.twists(given).reshape(self.poses, -1, 6)[..., 3:]
         whole = self.weighted(self.placed.map_rate(given))
@@ -208,7 +233,13 @@ class PlacedDynamics:
         return np.asarray(-np.einsum("pnt,pn->pt", self.placed.map, self.weights))
 
     def kinetic(self, rates: ArrayLike) -> Array:
-        """Kinetic energy at rates (p, t), (p,), J."""
+        """Kinetic energy at rates (p, t), (p,), J.
+
+        Parameters
+        ----------
+        rates : (p, t) or (t,)
+            Of the coordinates, m/s or rad/s.
+        """
         twists = self.placed.twists(self.full(rates))
         momenta = self.weighted(twists[..., None])[..., 0]
         return np.asarray(np.sum(twists * momenta, axis=-1) / 2.0)
@@ -220,7 +251,13 @@ class PlacedDynamics:
         return np.asarray(-np.einsum("b,pbi,i->p", self.of.masses.mass, self.placed.points, pull))
 
     def full(self, rates: ArrayLike) -> Array:
-        """Numbers for the coordinates, broadcast to all poses, (p, t)."""
+        """Numbers for the coordinates, broadcast to all poses, (p, t).
+
+        Parameters
+        ----------
+        rates : (p, t), (t,) or ()
+            One number for a coordinate, in any unit.
+        """
         shape = (self.poses, len(self.of.coordinates))
         return np.broadcast_to(np.asarray(rates, dtype=float), shape)
 

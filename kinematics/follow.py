@@ -43,10 +43,11 @@ class Follower:
     directions : sequence of str
         Task coordinates that vary; the others of `fixed` stay.
     fixed : mapping of direction to float
+        m and rad.
     step : (d,)
         How far a next pose may lie, m and rad.
     told : callable, optional
-        How many poses of how many have been walked to.
+        Called with how many poses have been walked to, and of how many.
     """
 
     motion: Motion

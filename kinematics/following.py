@@ -49,22 +49,23 @@ class Followed:
     values : (n, t)
         Of the coordinates, m and rad.
     drives, speeds, accelerations, forces, powers : (n, a)
-        Coordinates of the drives, their derivatives, forces and powers, in SI.
+        Coordinates of the drives, m or rad, their derivatives by s, forces, N or N·m, and powers,
+        W.
     held : (n,)
-        How well the drives hold the coordinates, as `PlacedDynamics.held`.
+        How well the drives hold the coordinates, as `PlacedDynamics.held`: no unit.
     kinetic, potential : (n,)
         Energies, J.
     given_power : (n,)
         Power of the wrench that acts on the tool, W.
     spins : (n, k)
-        As `Forces.spins`.
+        As `Forces.spins`, N·m.
     reactions : (n, r) or None
-        As `Forces.reactions`, where they were asked for.
+        As `Forces.reactions`, N and N·m, where they were asked for.
     reaction_labels : tuple of str
     paces : (n, b)
         Largest component of each body's twist, m/s or rad/s.
     joint_values : (n, c)
-        Coordinates of all joints, in the order of `Motion.joints.names`.
+        Coordinates of all joints, in the order of `Motion.joints.names`, m and rad.
     """
 
     dynamics: Dynamics
@@ -144,12 +145,12 @@ def follow(
     dynamics : Dynamics
         Of the trajectory's coordinates.
     trajectory : Trajectory
-    wrench : (6,)
-        That acts on the tool at its centre point, N and N·m, global axes.
+    wrench : (6,) or ()
+        That acts on the tool at its centre point, N and N·m, global axes; 0 for none.
     reactions : bool
         Whether joint reactions are wanted.
     progress : callable, optional
-        Told how many poses of how many are done.
+        Called with the number of poses done and that of all.
 
     Raises
     ------
@@ -219,7 +220,7 @@ def fastest(followed: Followed, limits: ArrayLike) -> float:
     Raises
     ------
     ModelError
-        A limit that is not positive, or one a drive too few.
+        A limit that is not positive, or fewer than one per drive.
     """
     allowed = np.asarray(limits, dtype=float)
     if allowed.shape != followed.speeds.shape[1:] or not np.all(allowed > 0):

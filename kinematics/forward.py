@@ -47,12 +47,12 @@ START_SINGULAR = "the start is a singular pose, from which no branch can be foll
 
 @dataclass(frozen=True)
 class FoundPoses(Poses):
-    """Poses found by forward kinematics, and why some were not.
+    """Poses of forward kinematics, and why some have none.
 
     Parameters
     ----------
     position, rotation : (..., 3), (..., 3, 3)
-        As in `Poses`; not a number where no pose was found.
+        As in `Poses`; not a number where there is none.
     status : (...) of int
         0 where the pose was found, else 1 + index into `reasons`.
     reasons : tuple of str
@@ -81,7 +81,13 @@ class FoundPoses(Poses):
         return np.asarray(self.status == 0)
 
     def reason(self, index: int | tuple[int, ...]) -> str:
-        """Why no pose was found at `index`, and how far the branch went; empty where it was."""
+        """Why no pose was found at `index`, and how far the branch went; empty where it was.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of a pose in the batch; () for a single one.
+        """
         code = int(self.status[index])
         if not code:
             return ""

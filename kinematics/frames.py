@@ -17,7 +17,13 @@ FEW = 1000
 
 
 def cross_matrix(vector: ArrayLike) -> Array:
-    """Matrix [v]× with [v]× w = v × w, (..., 3) to (..., 3, 3)."""
+    """Matrix [v]× with [v]× w = v × w, (..., 3) to (..., 3, 3).
+
+    Parameters
+    ----------
+    vector : (..., 3)
+        v, in any unit, real or complex; the matrix has the same.
+    """
     v = np.asarray(vector)
     matrix = np.zeros((*v.shape, 3), dtype=v.dtype if v.dtype.kind in "fc" else float)
     matrix[..., 0, 1], matrix[..., 0, 2] = -v[..., 2], v[..., 1]
@@ -31,6 +37,11 @@ def vector(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
 
     Each coordinate lies together in memory, as in all that is computed from such vectors:
     operations run along the batch and not in threes.
+
+    Parameters
+    ----------
+    x, y, z : (...)
+        Coordinates in one unit, real or complex.
     """
     parts = np.broadcast_arrays(x, y, z)
     result = np.empty((*parts[0].shape, 3), np.result_type(float, *parts), order="F")
@@ -40,7 +51,13 @@ def vector(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Array:
 
 
 def frame(x: Array, y: Array, z: Array) -> Array:
-    """Three vectors as columns, (..., 3) to (..., 3, 3); memory as in `vector`."""
+    """Three vectors as columns, (..., 3) to (..., 3, 3); memory as in `vector`.
+
+    Parameters
+    ----------
+    x, y, z : (..., 3)
+        The columns, in one unit; unit vectors for a rotation.
+    """
     parts = np.broadcast_arrays(x, y, z)
     result = np.empty((*parts[0].shape, 3), np.result_type(float, *parts), order="F")
     for k, part in enumerate(parts):
@@ -50,12 +67,24 @@ def frame(x: Array, y: Array, z: Array) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Scalar products of vectors, (..., 3) to (...)."""
+    """Scalar products of vectors, (..., 3) to (...).
+
+    Parameters
+    ----------
+    a, b : (..., 3)
+        In any unit, complex ones not conjugated.
+    """
     return np.asarray(a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2])
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Vector products, (..., 3); memory as in `vector`."""
+    """Vector products, (..., 3); memory as in `vector`.
+
+    Parameters
+    ----------
+    a, b : (..., 3)
+        In any unit, real or complex.
+    """
     return vector(
         a[..., 1] * b[..., 2] - a[..., 2] * b[..., 1],
         a[..., 2] * b[..., 0] - a[..., 0] * b[..., 2],
@@ -67,6 +96,13 @@ def turned(rotation: Array, points: Array) -> Array:
     """Points of a body, (k, 3), turned by its rotations (..., 3, 3), (..., k, 3).
 
     Memory as in `vector`.
+
+    Parameters
+    ----------
+    rotation : (..., 3, 3)
+        Rotation matrices.
+    points : (k, 3)
+        In any unit, counted from the point about which the body turns.
     """
     batch = rotation.shape[:-2]
     r = np.ascontiguousarray(np.moveaxis(rotation.reshape(-1, 3, 3), 0, -1))[:, None]
@@ -77,9 +113,16 @@ def turned(rotation: Array, points: Array) -> Array:
 
 
 def gathered(parts: Sequence[Array], item: int) -> Array:
-    """`parts`, whose last `item` axes are one item, side by side before those axes.
+    """`parts`, whose last `item` axes are one item, side by side before these, (..., k, item).
 
     As numpy.stack, which copies items of three numbers one by one: this copies along the batch.
+
+    Parameters
+    ----------
+    parts : sequence of (..., item)
+        Arrays that broadcast against each other, in any unit.
+    item : int
+        How many of the last axes are one item: 1 for vectors, 2 for matrices.
     """
     shape = np.broadcast_shapes(*(part.shape for part in parts))
     batch, tail = shape[: len(shape) - item], shape[len(shape) - item :]
@@ -98,6 +141,11 @@ def angle(y: ArrayLike, x: ArrayLike) -> Array:
 
     The imaginary part carries first derivatives, so that a complex step through inverse
     kinematics is exact (Squire and Trapp 1998).
+
+    Parameters
+    ----------
+    y, x : (...)
+        Coordinates in one unit, real or complex.
     """
     y, x = np.broadcast_arrays(y, x)
     real = np.arctan2(y.real, x.real)
@@ -108,7 +156,13 @@ def angle(y: ArrayLike, x: ArrayLike) -> Array:
 
 
 def rotation_z(turn: ArrayLike) -> Array:
-    """Rotation about z by `turn`, rad, (...) to (..., 3, 3)."""
+    """Rotation about z by `turn`, rad, (...) to (..., 3, 3).
+
+    Parameters
+    ----------
+    turn : (...)
+        rad, real or complex.
+    """
     t = np.asarray(turn)
     zero, one = np.zeros_like(t), np.ones_like(t)
     c, s = np.cos(t), np.sin(t)
@@ -123,7 +177,13 @@ def rotation_z(turn: ArrayLike) -> Array:
 
 
 def rotation_y(turn: ArrayLike) -> Array:
-    """Rotation about y by `turn`, rad, (...) to (..., 3, 3)."""
+    """Rotation about y by `turn`, rad, (...) to (..., 3, 3).
+
+    Parameters
+    ----------
+    turn : (...)
+        rad, real or complex.
+    """
     t = np.asarray(turn)
     zero, one = np.zeros_like(t), np.ones_like(t)
     c, s = np.cos(t), np.sin(t)
@@ -138,7 +198,13 @@ def rotation_y(turn: ArrayLike) -> Array:
 
 
 def rotation_x(turn: ArrayLike) -> Array:
-    """Rotation about x by `turn`, rad, (...) to (..., 3, 3)."""
+    """Rotation about x by `turn`, rad, (...) to (..., 3, 3).
+
+    Parameters
+    ----------
+    turn : (...)
+        rad, real or complex.
+    """
     t = np.asarray(turn)
     zero, one = np.zeros_like(t), np.ones_like(t)
     c, s = np.cos(t), np.sin(t)
@@ -161,8 +227,9 @@ def axes_frame(axis: ArrayLike, second_axis: ArrayLike | None = None, part: str 
     Parameters
     ----------
     axis : (..., 3)
-        Any length but zero.
+        Any length but zero, any unit.
     second_axis : (..., 3), optional
+        Not along `axis`; any unit.
     part : str
         Named in an error.
 

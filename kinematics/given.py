@@ -58,7 +58,15 @@ class Given:
         return len(self.values)
 
     def pose(self, index: NDArray[np.intp], share: Array) -> tuple[Array, Array]:
-        """Position and rotation of the tool at a share of the way, (k, 3) and (k, 3, 3)."""
+        """Position and rotation of the tool at a share of the way, (k, 3) and (k, 3, 3).
+
+        Parameters
+        ----------
+        index : (k,) of int
+            Which targets.
+        share : (k,)
+            Of each one's way from `start`, 0 to 1, no unit.
+        """
         assert self.tool is not None  # noqa: S101 - asked for only where it is given
         assert self.start is not None  # noqa: S101
         start, part = self.start, share[:, None]
@@ -81,6 +89,21 @@ def given(
     wanted: Mapping[tuple[str, str], ArrayLike] | None,
 ) -> Given:
     """Check and broadcast what a motion is given.
+
+    Parameters
+    ----------
+    joints : JointMotion
+        Says which coordinates there are.
+    start : Poses or None
+        The tool at home, one pose.
+    home_values : (c,)
+        Coordinates at home, m or rad, in the order of `JointMotion.names`.
+    tool : Poses or None
+        (...); targets of the tool.
+    task : mapping of direction to (...), or None
+        Some coordinates of the tool instead, m and rad.
+    wanted : mapping of (joint, direction) to (...), or None
+        Joint coordinates, m and rad; all batches broadcast.
 
     Raises
     ------

@@ -20,14 +20,26 @@ Indices = NDArray[np.intp]
 
 
 def grid_edges(shape: tuple[int, int]) -> Indices:
-    """Pairs of neighbours on a grid whose poses are counted row by row, (e, 2)."""
+    """Pairs of neighbours on a grid whose poses are counted row by row, (e, 2).
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Poses along both axes of the grid.
+    """
     number = np.arange(shape[0] * shape[1]).reshape(shape)
     pairs = ((number[:-1], number[1:]), (number[:, :-1], number[:, 1:]))
     return np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in pairs])
 
 
 def sign_lines(field: Array) -> list[tuple[Indices, Indices]]:
-    """Edges of a grid that the lines between signs cross, in their order, (v, 2) each."""
+    """Edges of a grid that the lines between signs cross, in their order, (v, 2) each.
+
+    Parameters
+    ----------
+    field : (m, n)
+        In any unit, of which the signs alone count; not finite where nothing is known.
+    """
     known = np.isfinite(field)
     # by its signs alone, so that every vertex is the middle of its edge and tells which it is
     signs = np.where(np.where(known, field, 1.0) >= 0.0, 1.0, -1.0)
@@ -41,20 +53,44 @@ def sign_lines(field: Array) -> list[tuple[Indices, Indices]]:
 
 
 def grid_places(axes: tuple[Array, Array], index: Indices) -> Array:
-    """Coordinates of grid points (v, 2), m and rad."""
+    """Coordinates of grid points (v, 2), m and rad.
+
+    Parameters
+    ----------
+    axes : two of (n,)
+        Values along each, m or rad.
+    index : (v, 2) of int
+        Of grid points along both.
+    """
     return np.stack([axes[0][index[:, 0]], axes[1][index[:, 1]]], axis=1)
 
 
 def runs(names: list[str | None]) -> list[Indices]:
-    """Neighbours of one name, those without left out."""
+    """Indices of neighbours of one name, (k,) each, those without a name left out.
+
+    Parameters
+    ----------
+    names : list of str or None
+        What each point of a line is called; None for nothing.
+    """
     cuts = [0, *(k for k in range(1, len(names)) if names[k] != names[k - 1]), len(names)]
     return [np.arange(a, b) for a, b in pairwise(cuts) if b > a and names[a] is not None]
 
 
 def one_sense(count: int, edges: Indices, senses: Array) -> tuple[Array, int]:
-    """Sense of every pose's basis against the first of its region, ±1, and edges that disagree.
+    """Sense of every pose's basis against the first of its region, ±1, (p,).
 
-    It is handed on between poses whose spaces are nearest to each other.
+    It is handed on between poses whose spaces are nearest to each other. Also returned: the number
+    of edges whose ends then disagree.
+
+    Parameters
+    ----------
+    count : int
+        Number of poses.
+    edges : (e, 2) of int
+        Pairs of neighbours.
+    senses : (e,)
+        Of the second's basis against the first's, −1 to 1, as of `edge_senses`; no unit.
     """
     sense = np.ones(count)
     if not len(edges):

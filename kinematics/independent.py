@@ -20,7 +20,7 @@ DEPENDENT = 1e-7
 
 
 def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
-    """Indices of independent rows, ascending, and whether all that is given is among them.
+    """Indices of independent rows, (i,), ascending, and whether all that is given is among them.
 
     The held directions of joints come first; of those that depend on each other, as in a
     machine with redundant constraints, enough are taken to span them.
@@ -82,6 +82,15 @@ def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
     """Refuse a direction that was named and that the joints hold at home; a pose may name all six.
 
     What only depends on others that are given stays: it must agree with them.
+
+    Parameters
+    ----------
+    matrix : (r, n)
+        Rows at home in one unit, as in `independent_rows`.
+    held : int
+        How many of its first rows are held directions of joints.
+    asked : Given
+        What the other rows are.
 
     Raises
     ------

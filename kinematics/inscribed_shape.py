@@ -30,7 +30,7 @@ class InscribedShape:
     half : (d,)
         Half of its size along each of its own directions, m and rad.
     rotation : (d, d) or None
-        Its own directions as columns; those of the space by default.
+        Its own directions as columns, orthonormal; those of the space by default.
 
     Raises
     ------
@@ -83,7 +83,13 @@ class InscribedShape:
         return np.asarray(points @ self.turn / self.half)
 
     def gauge(self, points: Array) -> Array:
-        """Size at which the shape reaches points, (...) of (..., d)."""
+        """Size at which the shape reaches points, (...) of (..., d).
+
+        Parameters
+        ----------
+        points : (..., d)
+            From the shape's centre, m and rad.
+        """
         own = self._own(points)
         if self.kind == "ball":
             return np.asarray(np.linalg.norm(own, axis=-1))
@@ -92,7 +98,13 @@ class InscribedShape:
         return np.asarray(np.abs(own).max(axis=-1))
 
     def tangent(self, points: Array) -> Array:
-        """Normals n with n·p the gauge of p, and n·q at most that of any q, (p, d)."""
+        """Normals n with n·p the gauge of p, and n·q at most that of any q, (p, d).
+
+        Parameters
+        ----------
+        points : (p, d)
+            From the shape's centre and not at it, m and rad.
+        """
         own = self._own(points)
         flat = np.zeros_like(own)
         if self.kind == "box":
@@ -109,7 +121,13 @@ class InscribedShape:
         return np.asarray(flat / self.half @ self.turn.T)
 
     def support(self, normals: ArrayLike) -> Array:
-        """How far the shape of size one reaches along normals, (...) of (..., d)."""
+        """How far the shape of size one reaches along normals, (...) of (..., d).
+
+        Parameters
+        ----------
+        normals : (..., d)
+            Of any length, 1/m and 1/rad, so that the result has no unit.
+        """
         own = np.asarray(normals, dtype=float) @ self.turn * self.half
         if self.kind == "ball":
             return np.asarray(np.linalg.norm(own, axis=-1))
@@ -121,21 +139,44 @@ class InscribedShape:
         """Points of the border, (k, d): a grid of `count` on each side of a cube, made to fit.
 
         Corners and, with an odd count, middles are among them.
+
+        Parameters
+        ----------
+        count : int
+            Points along each side of the cube.
         """
         points = self.filled(count)
         rim = np.isclose(self.cube(count), 1.0)
         return self.fitted(points[rim])
 
     def fitted(self, points: Array) -> Array:
-        """Points moved along their rays to the border; none may be the origin."""
+        """Points moved along their rays to the border, (..., d); none may be the origin.
+
+        Parameters
+        ----------
+        points : (..., d)
+            From the shape's centre, m and rad.
+        """
         return np.asarray(points / self.gauge(points)[..., None])
 
     def cube(self, count: int) -> Array:
-        """Largest own coordinate of the points of a grid in the cube of halves one, (k,)."""
+        """Largest own coordinate of the points of a grid in the cube of halves one, (k,).
+
+        Parameters
+        ----------
+        count : int
+            Points along each side.
+        """
         return np.asarray(np.abs(_cube(self.half.size, count)).max(axis=-1))
 
     def filled(self, count: int) -> Array:
-        """Points that fill the shape, border included, (k, d)."""
+        """Points that fill the shape, border included, (k, d).
+
+        Parameters
+        ----------
+        count : int
+            Points along each side of the cube that is made to fit.
+        """
         cube = _cube(self.half.size, count)
         level = np.abs(cube).max(axis=-1)
         points = (cube * self.half) @ self.turn.T
@@ -153,11 +194,23 @@ def _cube(dimensions: int, count: int) -> Array:
 
 
 def plane_turn(angle: float) -> Array:
-    """Rotation of a plane's shape by an angle, rad, (2, 2)."""
+    """Rotation of a plane's shape by an angle, rad, (2, 2).
+
+    Parameters
+    ----------
+    angle : float
+        rad, from the first direction to the second.
+    """
     c, s = np.cos(angle), np.sin(angle)
     return np.array([[c, -s], [s, c]])
 
 
 def box_of(sides: Sequence[float]) -> InscribedShape:
-    """A box of given proportions along the directions themselves."""
+    """A box of given proportions along the directions themselves.
+
+    Parameters
+    ----------
+    sides : (d,) of float
+        Whole sides, m and rad; only their ratios count where the box is to grow.
+    """
     return InscribedShape("box", np.asarray(sides, dtype=float) / 2)

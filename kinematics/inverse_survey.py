@@ -39,8 +39,8 @@ class InverseSurvey:
         Joint coordinates, m or rad, in the order of `names`; zero where no leg takes the pose.
     names : tuple of (joint, direction)
     margin : (...)
-        Distance from the next singularity, 0 at it and where no leg takes the pose, 1 at most
-        (`Jacobians.margin`).
+        Distance from the next singularity, no unit: 0 at it and where no leg takes the pose, 1 at
+        most (`Jacobians.margin`).
     length : float
         What counts as much as one radian in `margin`, m.
     """
@@ -63,7 +63,13 @@ class InverseSurvey:
         return np.asarray(self.status == 0)
 
     def reason(self, index: int | tuple[int, ...]) -> str:
-        """Why the pose at `index` is not good; empty where it is."""
+        """Why the pose at `index` is not good; empty where it is.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of a pose in the batch; () for a single one.
+        """
         code = int(self.status[index])
         return self.reasons[code - 1] if code else ""
 

@@ -38,9 +38,10 @@ class Jacobians:
     Parameters
     ----------
     inverse : (..., a, 6)
-        Rate of each driven direction per unit tool twist (translation then rotation). At a
-        serial (type 1) singularity infinite, without sign, in the directions that are lost.
-        With more drives than freedoms the least rates, turning drives at the arm `length`.
+        Rate of each driven direction per unit tool twist (translation then rotation): no unit and
+        m/rad of a drive that slides, rad/m and no unit of one that turns. At a serial (type 1)
+        singularity infinite, without sign, in the directions that are lost. With more drives than
+        freedoms the least rates, turning drives at the arm `length`.
     driven : tuple of (joint name, direction)
         Order of the rates, m/s or rad/s.
     length : (...)
@@ -161,7 +162,7 @@ class Jacobians:
         Parameters
         ----------
         length : (...), optional
-            As in `condition`.
+            m, as in `condition`.
         """
         first, last = self._extremes(self.inverse, self._length(length))
         still = self.serial | (last <= SINGULAR * first)

@@ -36,7 +36,7 @@ class BodyPoses:
     position : (p, b, 3)
         Of the bodies' reference points, m.
     rotation : (p, b, 3, 3)
-        From home.
+        Rotation matrices from home.
     """
 
     position: Array
@@ -130,7 +130,13 @@ class JointMotion:
         return body_references(self.linkage, self.home)
 
     def start(self, poses: int) -> BodyPoses:
-        """All bodies at home, `poses` times."""
+        """All bodies at home, `poses` times.
+
+        Parameters
+        ----------
+        poses : int
+            Their number p.
+        """
         bodies = self._references
         return BodyPoses(
             np.tile(bodies, (poses, 1, 1)), np.tile(np.eye(3), (poses, len(bodies), 1, 1))
@@ -138,6 +144,11 @@ class JointMotion:
 
     def place(self, bodies: BodyPoses) -> tuple[Array, Array, Array]:
         """Node positions and joint frames of bodies.
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
 
         Returns
         -------
@@ -165,7 +176,13 @@ class JointMotion:
         return positions, frames, gaps
 
     def place_compiled(self, bodies: BodyPoses) -> tuple[Array, Array]:
-        """Node positions and joint frames as of `place`, in compiled code: for many poses."""
+        """Node positions (p, n, 3) and joint frames (p, j, 3, 3) of `place`, for many poses.
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
+        """
         from strutwork.kinematics.leg_place import place_bodies  # noqa: PLC0415 - numba is slow to import
 
         owner, home = self.linkage.body_of_node, self.home
@@ -215,8 +232,15 @@ class JointMotion:
     def residuals(self, bodies: BodyPoses, gaps: Array, near: Array | None = None) -> Array:
         """What the held directions leave open, m and rad, zero in the others, (p, j, 6).
 
-        `near`, (p, c) in the order of `names`, says from which coordinates the turns of
-        couplings and screws count on; without it they lie within half a turn of home.
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
+        gaps : (p, j, 3)
+            As `place` gives them for these bodies, m.
+        near : (p, c), optional
+            Coordinates from which the turns of couplings and screws count on, m and rad, in the
+            order of `names`; without it they lie within half a turn of home.
         """
         first, second = self._frames(bodies)
         relative = np.swapaxes(first, -1, -2) @ second
@@ -251,6 +275,11 @@ class JointMotion:
         """Whether a joint with one free rotation has its axis turned round, (p).
 
         Its held directions close then too, and no pin goes in so.
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
         """
         first, second = self._frames(bodies)
         found = np.zeros(len(bodies.position), dtype=bool)
@@ -262,8 +291,17 @@ class JointMotion:
     def coordinates(self, bodies: BodyPoses, gaps: Array, near: Array | None = None) -> Array:
         """Joint coordinates, m and rad, zero at home and where nothing moves, (p, j, 6).
 
-        A turn is between −π and π, or within half a turn of `near`, (p, c) in the order of
-        `names`; three free rotations are a rotation vector.
+        Three free rotations are a rotation vector.
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
+        gaps : (p, j, 3)
+            As `place` gives them for these bodies, m.
+        near : (p, c), optional
+            Coordinates within half a turn of which each turn lies, m and rad, in the order of
+            `names`; without it turns are between −π and π.
         """
         first, second = self._frames(bodies)
         relative = np.swapaxes(first, -1, -2) @ second

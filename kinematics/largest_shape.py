@@ -3,8 +3,8 @@
 Along rays from a centre the border is found by halving, and finer and finer about the nearest
 places, where the shape will touch it. There the border is taken as flat: a linear program moves the
 centre to where the shape may grow most, within a distance in which this holds (sequential linear
-programming with a trust region; Nocedal and Wright 2006, section 18.5). Where to begin is told by
-the border of the grid: each of its points keeps the shape from being larger than its gauge there.
+programming with a trust region; Nocedal and Wright 2006, section 18.5). The border of the
+grid says where to begin: each of its points keeps the shape from being larger than its gauge there.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ ROUNDS = 10
 
 @dataclass(frozen=True)
 class LargestShape:
-    """The largest shape that was found, and what keeps it from being larger.
+    """The largest shape of the search, and what keeps it from being larger.
 
     Parameters
     ----------
@@ -40,15 +40,16 @@ class LargestShape:
     centre : (d,)
         m and rad.
     size : float
-        Of the shape; its halves are `size * shape.half`.
+        Of the shape, no unit; its halves are `size * shape.half`.
     bound : float
-        What the border, taken as flat where the shape touches it, allows near the result.
+        Size that the border, taken as flat where the shape touches it, allows near the result; no
+        unit.
     critical : (d,)
-        Point on its border that is nearest to being bad.
+        Point on its border that is nearest to being bad, m and rad.
     reason : str
         What is at its bound there.
     confirmed : int
-        Points of a grid over the shape, border included, that were found good.
+        Points of a grid over the shape, border included, that are good.
     """
 
     shape: InscribedShape
@@ -94,7 +95,7 @@ def largest_shape(
     shape : InscribedShape
         Its proportions; the size is sought.
     centre : (d,), optional
-        Anywhere by default.
+        m and rad; anywhere by default.
     accuracy : float
         Of the size, as a share of it.
 

@@ -31,7 +31,7 @@ class LegChains(NamedTuple):
     turns : (d,)
         1 where the direction is a rotation.
     sign : (d,)
-        1 where the leg goes through the joint from its first node to its second, else −1.
+        1 where the leg goes through the joint from its first node to its second, else −1; no unit.
     node : (d,)
         Node at the joint.
     drive : (d,)
@@ -59,6 +59,11 @@ def leg_paths(linkage: Linkage) -> list[list[tuple[int, int]]] | None:
 
     It does where taking away ground and tool body leaves bodies in separate rows, each joined
     to the ground at one end and to the tool's body at the other.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool.
 
     Returns
     -------
@@ -102,6 +107,11 @@ def leg_chains(linkage: Linkage) -> LegChains | None:
     """The legs of a linkage, or None where it has no legs that let the tool move in all ways.
 
     Those of `leg_paths` do whose joints have six free directions or more.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool and drives.
     """
     legs = leg_paths(linkage)
     return None if legs is None else _packed(linkage, legs)

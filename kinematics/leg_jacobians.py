@@ -16,7 +16,13 @@ Array = NDArray[Any]
 
 
 def chains_of(linkage: Linkage) -> LegChains | None:
-    """The legs of the linkage, made once and kept with it."""
+    """The legs of the linkage, made once and kept with it.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool and drives.
+    """
     # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
     kept = linkage.__dict__
     if "_leg_chains" not in kept:
@@ -33,6 +39,13 @@ def legs_compiled(
     A tool twist t is Σ S q̇ over the joints of any one leg, S their screws. The vectors y with
     yᵀS = 0 for all passive joints of the leg are as many as it has drives, and give their rates:
     q̇ = (Yᵀ S_driven)⁻¹ Yᵀ t (Joshi and Tsai 2002, by reciprocal screws).
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool and drives.
+    placement : Placement
+        At p poses, one batch axis.
 
     Returns
     -------

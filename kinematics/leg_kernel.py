@@ -179,7 +179,23 @@ def _rates_of_leg(p, leg, positions, frames, size, work):  # type: ignore[no-unt
 
 @jit()
 def leg_rows(p, positions, frames, inverse, length, good):  # type: ignore[no-untyped-def]
-    """Inverse Jacobians of q poses; see `leg_jacobians.legs_compiled`."""
+    """Inverse Jacobians of q poses; see `leg_jacobians.legs_compiled`.
+
+    Parameters
+    ----------
+    p : LegChains
+        The machine's legs.
+    positions : (q, n, 3)
+        Of the nodes, m.
+    frames : (q, j, 3, 3)
+        Axes of the joints as columns.
+    inverse : (q, a, 6)
+        Filled: no unit, m/rad, rad/m; zero where not good.
+    length : (q,)
+        Filled: largest distance of a leg's joint from the tool, m.
+    good : (q,) of bool
+        Filled: whether all pivots were large.
+    """
     m, order = np.empty((6, 12)), np.empty(6, dtype=np.int64)
     y, z, gram, rates = np.empty((6, 18)), np.empty(6), np.empty((6, 12)), np.empty((12, 6))
     work = (m, order, y, z, gram, rates)
@@ -316,7 +332,15 @@ def _triangle(a, m):  # type: ignore[no-untyped-def]
 
 @jit()
 def jacobi_values(matrices, values):  # type: ignore[no-untyped-def]
-    """Singular values of (q, m, n) matrices, m ≥ n, by one-sided Jacobi (Hestenes 1958)."""
+    """Singular values of (q, m, n) matrices, m ≥ n, by one-sided Jacobi (Hestenes 1958).
+
+    Parameters
+    ----------
+    matrices : (q, m, n)
+        All entries of one unit, m ≥ n.
+    values : (q, n)
+        Filled, largest first, in the unit of the entries.
+    """
     count, rows, columns = matrices.shape
     a, triangle = np.empty((columns, rows)), np.empty((columns, columns))
     size, pairs = np.empty(columns), _rounds(columns)

@@ -18,14 +18,28 @@ ARRIVED, END_OF_REACH, TOO_MANY = 0, 1, 2
 
 
 def workspace(system: Any) -> tuple[Array, Array, Array]:
-    """State of all joints that are passed, at home; the same once more; scratch."""
+    """State of all joints that are passed, (s,), at home; the same once more; scratch, (1,).
+
+    Parameters
+    ----------
+    system : LegSystem
+        With s joints in all its legs.
+    """
     state = np.zeros(len(system.steps), STATE)
     state["turned"] = np.eye(3)
     return state, state.copy(), np.zeros(1, SCRATCH)
 
 
 def home_rates(system: Any, leg: int) -> Array:
-    """Rates of a leg's end by its coordinates at home, on (v / L, ω), (3 or 6, n)."""
+    """Rates of a leg's end by its coordinates at home, on (v / L, ω), (3 or 6, n).
+
+    Parameters
+    ----------
+    system : LegSystem
+        All legs.
+    leg : int
+        Which one.
+    """
     state, _, scratch = workspace(system)
     home_tool(system, scratch[0])
     pass_leg(system, leg, state, scratch[0])
@@ -153,7 +167,19 @@ def _newton(s, leg, sign, rules, state, w):  # type: ignore[no-untyped-def]
 
 @jit()
 def home_signs(s, signs, state, scratch):  # type: ignore[no-untyped-def]
-    """Sign of the determinant of each leg's rates in a state, which is home."""
+    """Sign of the determinant of each leg's rates in a state, which is home.
+
+    Parameters
+    ----------
+    s : LegSystem
+        All legs.
+    signs : (l,)
+        Filled with ±1, or 0 where the rates are singular.
+    state : (s,) of `STATE`
+        Of all joints, at home.
+    scratch : (1,) of `SCRATCH`
+        Overwritten.
+    """
     w = scratch[0]
     home_tool(s, w)
     for leg in range(signs.shape[0]):
@@ -280,7 +306,28 @@ def _bodies(s, leg, state, position, rotation):  # type: ignore[no-untyped-def]
 
 @jit()
 def walk_legs(s, start, ends, signs, rules, work, found):  # type: ignore[no-untyped-def]
-    """Walk all legs to p targets; see `leg_walk.LegWalk`. A leg that ends ends the others there."""
+    """Walk all legs to p targets; see `leg_walk.LegWalk`. A leg that ends ends the others there.
+
+    Parameters
+    ----------
+    s : LegSystem
+        All legs.
+    start : (3,)
+        The tool at home, m.
+    ends : (p, 3), (p, 3) and (p, 3, 3)
+        Targets of the tool: position, m; rotation from home as a vector, rad, and as a matrix.
+    signs : (l,)
+        As `home_signs` fills them.
+    rules : tuple
+        Limits of Newton's method for the last step and for those on the way, the shortest step as a
+        share of the way, the most steps.
+    work : tuple
+        As `workspace` makes it.
+    found : tuple of arrays
+        Filled: positions (p, b, 3), m, and rotations (p, b, 3, 3) of the bodies, joint coordinates
+        (p, c), m and rad, share of the way (p,), largest gap over the length (p,), steps (p,), why
+        the way ended (p,) and at which leg (p,).
+    """
     end, whole, last = ends
     position, rotation, coordinates, share, gap, steps, ended, which = found
     state, w = work[0], work[2][0]

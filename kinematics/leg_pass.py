@@ -41,7 +41,15 @@ SCRATCH = np.dtype(
 
 @jit()
 def home_tool(s, w):  # type: ignore[no-untyped-def]
-    """The tool's body as it is at home."""
+    """The tool's body as it is at home.
+
+    Parameters
+    ----------
+    s : LegSystem
+        All legs.
+    w : record of `SCRATCH`
+        Its `target`, m, and `turn` are filled.
+    """
     for r in range(3):
         w.target[r] = s.reference[s.platform, r]
         for k in range(3):
@@ -114,7 +122,19 @@ def _across(step, at):  # type: ignore[no-untyped-def]
 
 @jit()
 def pass_leg(s, leg, state, w):  # type: ignore[no-untyped-def]
-    """Pass a leg and find what is open at its end, over the length; the largest part of it."""
+    """Pass a leg and find what is open at its end, over the length; the largest part of it.
+
+    Parameters
+    ----------
+    s : LegSystem
+        All legs.
+    leg : int
+        Which one.
+    state : (s,) of `STATE`
+        Of all joints; `slides`, m, and `angles`, rad, are read, the rest of this leg's is filled.
+    w : record of `SCRATCH`
+        The tool's `target` and `turn` are read; `left`, over the length and rad, is filled.
+    """
     first, last = s.legs[leg].start, s.legs[leg].stop - 1
     ball = s.legs[leg].ball == 1
     _begin(s, s.steps[first], s.legs[leg].from_tool, state[first], w)
@@ -151,7 +171,17 @@ def pass_leg(s, leg, state, w):  # type: ignore[no-untyped-def]
 
 @jit()
 def end_axes(step, at_tool, w):  # type: ignore[no-untyped-def]
-    """Axes of a leg's last joint on the body where it ends, into `w.rotation`."""
+    """Axes of a leg's last joint on the body where it ends, into `w.rotation`.
+
+    Parameters
+    ----------
+    step : record of `STEP`
+        The last joint.
+    at_tool : bool
+        Whether the leg ends at the tool's body, else on the ground.
+    w : record of `SCRATCH`
+        The tool's `turn` is read.
+    """
     for r in range(3):
         for k in range(3):
             w.rotation[r, k] = step.frame[r, k]
@@ -165,7 +195,19 @@ def end_axes(step, at_tool, w):  # type: ignore[no-untyped-def]
 
 @jit()
 def rates(s, leg, state, w):  # type: ignore[no-untyped-def]
-    """Rates of a leg's end at the place that is wanted, on (v / L, ω), as columns."""
+    """Rates of a leg's end at the place that is wanted, on (v / L, ω), as columns.
+
+    Parameters
+    ----------
+    s : LegSystem
+        All legs.
+    leg : int
+        Which one, passed by `pass_leg`.
+    state : (s,) of `STATE`
+        Of all joints.
+    w : record of `SCRATCH`
+        Its `rates` (3 or 6, n) are filled: 1/m of slides, no unit of turns.
+    """
     m, c = w.rates, 0
     for i in range(s.legs[leg].start, s.legs[leg].stop - s.legs[leg].ball):
         step, at = s.steps[i], state[i]

@@ -39,9 +39,22 @@ def _two_turns(first, second, locked, out):  # type: ignore[no-untyped-def]
 def place_bodies(position, rotation, nodes, joints, positions, frames):  # type: ignore[no-untyped-def]
     """Node positions and joint frames of p placements of the bodies.
 
-    `nodes`: body of each, −1 for the ground, and its arm from the body's reference point at home,
-    from the origin on the ground. `joints`: first and second node, whether it slides, the locked
-    one of two free rotations or −1, and the axes at home.
+    Parameters
+    ----------
+    position : (p, b, 3)
+        Reference points of the bodies, m.
+    rotation : (p, b, 3, 3)
+        Of the bodies from home.
+    nodes : (n,) of int and (n, 3)
+        Body of each node, −1 for the ground, and its arm from the body's reference point at home,
+        from the origin on the ground, m.
+    joints : (j, 2) of int, (j,) of bool, (j,) of int and (j, 3, 3)
+        First and second node, whether it slides, the locked one of two free rotations or −1, and
+        the axes at home.
+    positions : (p, n, 3)
+        Filled, m.
+    frames : (p, j, 3, 3)
+        Filled: axes of the joints as columns.
     """
     owner, arms = nodes
     ends, slides, locked, home = joints

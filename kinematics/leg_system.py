@@ -57,8 +57,9 @@ class LegSystem(NamedTuple):
     Parameters
     ----------
     legs : (l,) of `LEG`
+        Indices of the steps of each leg, and how it is passed.
     steps : (s,) of `STEP`
-        The joints of all legs, leg by leg.
+        The joints of all legs, leg by leg; places of nodes at home, m.
     reference : (b, 3)
         Reference points of the bodies at home, m.
     platform : int
@@ -79,6 +80,11 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
 
     It fits where the linkage falls into legs (`leg_chains.leg_paths`) of six freedoms each, all
     regular at home: there the tool's pose fixes each leg by itself.
+
+    Parameters
+    ----------
+    joints : JointMotion
+        Of the linkage at home.
     """
     linkage = joints.linkage
     if linkage.tool is None or linkage.tool_body < 0:

@@ -9,7 +9,17 @@ from strutwork.jit import jit
 
 @jit()
 def turn_about(axes, e, angle):  # type: ignore[no-untyped-def]
-    """Turn a frame about its own axis e."""
+    """Turn a frame about its own axis e.
+
+    Parameters
+    ----------
+    axes : (3, 3)
+        Columns, unit vectors; overwritten.
+    e : int
+        0 to 2.
+    angle : float
+        rad.
+    """
     f = e + 1 if e < 2 else 0
     g = f + 1 if f < 2 else 0
     c, s = np.cos(angle), np.sin(angle)
@@ -21,7 +31,15 @@ def turn_about(axes, e, angle):  # type: ignore[no-untyped-def]
 
 @jit()
 def turn_by_vector(matrix, x, y, z):  # type: ignore[no-untyped-def]
-    """Turn a rotation from the left about a vector by its length (Rodrigues)."""
+    """Turn a rotation from the left about a vector by its length (Rodrigues).
+
+    Parameters
+    ----------
+    matrix : (3, 3)
+        Overwritten.
+    x, y, z : float
+        Rotation vector, rad.
+    """
     square = x * x + y * y + z * z
     if square < 1e-8:
         s, c = 1.0 - square / 6.0, 0.5 - square / 24.0
@@ -41,7 +59,17 @@ def turn_by_vector(matrix, x, y, z):  # type: ignore[no-untyped-def]
 
 @jit()
 def rotation_log(matrix, out, at):  # type: ignore[no-untyped-def]
-    """Axis times angle, 0 to π, of a rotation, into out[at : at + 3]."""
+    """Axis times angle, 0 to π, of a rotation, into out[at : at + 3].
+
+    Parameters
+    ----------
+    matrix : (3, 3)
+        Rotation matrix.
+    out : (n,)
+        Filled in three places, rad.
+    at : int
+        The first of them.
+    """
     a, b, c = matrix[0, 0], matrix[1, 1], matrix[2, 2]
     trace = a + b + c
     x, y, z = (

@@ -40,6 +40,17 @@ class LegWalk:
 
     The same way and the same rules as `walk.Walk`, so that the same working mode is met; the
     sign of each leg's determinant is kept. What the way ended at names the joints of the leg.
+
+    Parameters
+    ----------
+    joints : JointMotion
+        Of the linkage.
+    rotation : (3, 3)
+        Rotation matrix of the tool at home.
+    wanted : Given
+        Poses of the tool.
+    system : LegSystem
+        The legs of the linkage.
     """
 
     def __init__(
@@ -55,7 +66,13 @@ class LegWalk:
         self.reasons: list[str] = []
 
     def go(self, poses: NDArray[np.intp]) -> None:
-        """Walk some poses until each has arrived or its way has ended."""
+        """Walk some poses until each has arrived or its way has ended.
+
+        Parameters
+        ----------
+        poses : (k,) of int
+            Indices of the targets.
+        """
         from strutwork.kinematics.leg_newton import (  # noqa: PLC0415 - numba is slow to import
             home_signs,
             walk_legs,

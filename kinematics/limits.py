@@ -52,12 +52,24 @@ class Limit:
 
 
 def joint_limits(linkage: Linkage) -> tuple[Limit, ...]:
-    """The ranges that the joints of a linkage state themselves."""
+    """The ranges that the joints of a linkage state themselves.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Whose joints have `limits`, or none.
+    """
     return joint_limits_of(linkage.joints)
 
 
 def joint_limits_of(joints: Iterable[Joint]) -> tuple[Limit, ...]:
-    """The ranges that joints state themselves."""
+    """The ranges that joints state themselves.
+
+    Parameters
+    ----------
+    joints : iterable of Joint
+        In the order of the result.
+    """
     return tuple(
         Limit(j.name, d, low, high, j.type) for j in joints for d, (low, high) in j.limits.items()
     )

@@ -20,7 +20,15 @@ GROUND = "ground"
 
 @dataclass(frozen=True)
 class Body:
-    """A named group of nodes that move together when nothing deforms."""
+    """A named group of nodes that move together when nothing deforms.
+
+    Parameters
+    ----------
+    name : str
+        Unique in the linkage; "ground" for what does not move.
+    nodes : tuple of str
+        Its nodes, each of no other body.
+    """
 
     name: str
     nodes: tuple[str, ...]

@@ -68,7 +68,13 @@ _MEANING = {
 
 
 def kinds(space: ToolDriveSpace) -> NDArray[np.object_]:
-    """Kind of each pose that was refined onto a singularity, None where there is none, (p,)."""
+    """Kind of each pose that was refined onto a singularity, None where there is none, (p,).
+
+    Parameters
+    ----------
+    space : ToolDriveSpace
+        At p poses.
+    """
     parallel, serial = space.parallel <= ZERO, space.serial <= ZERO
     found = np.full(len(space.basis), None, dtype=object)
     found[serial] = Kind.END_EFFECTOR
@@ -270,7 +276,15 @@ def _named(
 
 
 def twist_words(twist: Array, length: float) -> str:
-    """A small motion in words: `moves along (0, 0, 1) and turns about (1, 0, 0), 3 deg a mm`."""
+    """A small motion in words: `moves along (0, 0, 1) and turns about (1, 0, 0), 3 deg a mm`.
+
+    Parameters
+    ----------
+    twist : (6,)
+        Of the tool, m and rad; parts below `STILL` are left out.
+    length : float
+        L, m, by which turns are compared with shifts.
+    """
     move, turn = np.linalg.norm(twist[:3]), np.linalg.norm(twist[3:])
     parts = []
     if move > STILL:

@@ -23,8 +23,9 @@ class VelocityEllipsoid:
     Parameters
     ----------
     semi_axes : (..., k)
-        Largest first, in tool velocity per drive rate; infinite where the drives cannot hold
-        the tool, zero where they cannot move it: at a parallel and at a serial singularity.
+        Largest first, tool velocity per drive rate, units as in the inverse of `inverse`; infinite
+        where the drives cannot hold the tool, zero where they cannot move it: at a parallel and at
+        a serial singularity.
     directions : (..., k, k)
         Unit vectors of the semi-axes as columns.
     """

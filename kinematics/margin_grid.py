@@ -41,7 +41,7 @@ class Crossings:
     axis : (e,) of int
         Along which it runs.
     share : (e,)
-        Where on it the border is, 0 at the lower end.
+        Share of it at which the border is, 0 at the lower end.
     reason : (e,) of int
         Index into `reasons`: what ends the workspace there.
     reasons : tuple of str
@@ -82,7 +82,7 @@ class MarginGrid:
 
     @property
     def good(self) -> Mask:
-        """Of the shape of the grid."""
+        """True where a point is good, of the shape of the grid."""
         return self.margins.good
 
     @cached_property
@@ -126,7 +126,13 @@ class MarginGrid:
 
 
 def grid_points(axes: Sequence[Array]) -> Array:
-    """All points of a grid, the last axis fastest, (p, d)."""
+    """All points of a grid, the last axis fastest, (p, d).
+
+    Parameters
+    ----------
+    axes : sequence of (n,)
+        Values along each direction, m or rad.
+    """
     return np.stack([g.ravel() for g in np.meshgrid(*axes, indexing="ij")], axis=-1)
 
 
@@ -148,7 +154,7 @@ def margin_grid(
     ----------
     directions : sequence of str
     axes : sequence of (n,)
-        One to three, evenly spaced, an odd number of at least `FEWEST` along each.
+        m or rad; one to three, evenly spaced, an odd number of at least `FEWEST` along each.
     margin : callable
         From points (p, d) to their `Margins`.
     halvings : int
@@ -172,6 +178,13 @@ def margin_grid(
 
 def check_axes(directions: Sequence[str], axes: Sequence[Array]) -> None:
     """Refuse axes that make no grid for a level set.
+
+    Parameters
+    ----------
+    directions : sequence of str
+        Names, for messages.
+    axes : sequence of (n,)
+        Values along each, m or rad.
 
     Raises
     ------
@@ -197,7 +210,17 @@ def check_axes(directions: Sequence[str], axes: Sequence[Array]) -> None:
 
 
 def asked(margin: MarginFunction, points: Array, told: Told | None = None) -> Margins:
-    """Margins of many points, some at a time, (p,)."""
+    """Margins of many points, some at a time, (p,).
+
+    Parameters
+    ----------
+    margin : callable
+        From points (p, d) to their `Margins`.
+    points : (p, d)
+        m and rad.
+    told : callable, optional
+        Called with the number of points done and that of all.
+    """
     several = []
     for first in range(0, len(points), PIECE):
         several.append(margin(points[first : first + PIECE]))

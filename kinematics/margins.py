@@ -50,7 +50,7 @@ class Margins:
     Parameters
     ----------
     value : (...)
-        Positive or zero where a pose is good, at most 1.
+        Positive or zero where a pose is good, at most 1; no unit.
     reason : (...) of int
         Index into `reasons`.
     reasons : tuple of str
@@ -97,18 +97,36 @@ def of_slacks(slacks: Mapping[str, ArrayLike]) -> Margins:
 
 
 def worst(several: Sequence[Margins]) -> Margins:
-    """The least of several margins of each pose: all must be good."""
+    """The least of several margins of each pose: all must be good.
+
+    Parameters
+    ----------
+    several : sequence of Margins
+        Of one batch.
+    """
     return _chosen(several, np.stack([m.value for m in several]).argmin(axis=0))
 
 
 def best(several: Sequence[Margins]) -> tuple[Margins, Indices]:
-    """The largest of several margins of each pose, one must be good; and which it is, (...)."""
+    """The largest of several margins of each pose, one must be good; and which it is, (...).
+
+    Parameters
+    ----------
+    several : sequence of Margins
+        Of one batch.
+    """
     chosen = np.stack([m.value for m in several]).argmax(axis=0)
     return _chosen(several, chosen), chosen
 
 
 def joined(several: Sequence[Margins]) -> Margins:
-    """Margins of several batches, one after the other, (p,)."""
+    """Margins of several batches, one after the other, (p,).
+
+    Parameters
+    ----------
+    several : sequence of Margins
+        Of any batches, which are made flat.
+    """
     words, numbers = _together(several)
     return Margins(
         np.concatenate([m.value.ravel() for m in several]),

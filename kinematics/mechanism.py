@@ -56,7 +56,15 @@ class Poses:
 
     @classmethod
     def of(cls, position: ArrayLike, rotation: ArrayLike | None = None) -> Poses:
-        """Poses from arrays; without a rotation the tool axes are the global ones."""
+        """Poses from arrays; without a rotation the tool axes are the global ones.
+
+        Parameters
+        ----------
+        position : (..., 3)
+            m.
+        rotation : (..., 3, 3), optional
+            Rotation matrices; broadcast against the positions.
+        """
         p = np.asarray(position, dtype=float)
         r = np.eye(3) if rotation is None else np.asarray(rotation, dtype=float)
         batch = np.broadcast_shapes(p.shape[:-1], r.shape[:-2])
@@ -74,7 +82,13 @@ class Poses:
         return Poses(self.position[index], self.rotation[index])
 
     def moved(self, twist: ArrayLike) -> Poses:
-        """Poses after a small motion, translation then rotation vector, (..., 6)."""
+        """Poses after a small motion, translation then rotation vector, (..., 6).
+
+        Parameters
+        ----------
+        twist : (..., 6)
+            m and rad, global axes, about the tool centre point.
+        """
         # imported late: it takes a third of a small command's start
         from scipy.spatial.transform import Rotation  # noqa: PLC0415
 
@@ -97,6 +111,11 @@ class Mechanism(Protocol):
 
         Poses that cannot be taken are marked in the placement's status with a reason; the
         others are complete.
+
+        Parameters
+        ----------
+        poses : Poses
+            (...); of the tool.
         """
 
     def home(self) -> Poses:
@@ -107,6 +126,14 @@ class Mechanism(Protocol):
 
 
 def drive_values(mechanism: Mechanism, placement: Placement) -> Array:
-    """Coordinates of the driven directions, (..., a), m or rad, in the linkage's order."""
+    """Coordinates of the driven directions, (..., a), m or rad, in the linkage's order.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+        Whose linkage has the a driven directions.
+    placement : Placement
+        That gives all of them.
+    """
     names = list(placement.names)
     return placement.values[..., [names.index(d) for d in mechanism.linkage.driven]]

@@ -1,8 +1,8 @@
 """Distances of moving meshes from one another and from capsules, by FCL.
 
 FCL, the Flexible Collision Library (Pan, Chitta and Manocha 2012), is the extra `interference`:
-its trees of boxes are built once a shape, and one call a pose asks two of them. Before that,
-capsules about the shapes tell which poses are near at all, all poses together.
+its trees of boxes are built once per shape, and one call per pose asks two of them. Before that,
+capsules about the shapes show which poses are near at all, all poses together.
 """
 
 from __future__ import annotations
@@ -95,6 +95,13 @@ class MeshGaps:
         """Gap of two parts at poses, m, negative where they overlap, (p,).
 
         Where it is not below `within`, a distance that it has at least.
+
+        Parameters
+        ----------
+        first, second : PlacedPart
+            At the same p poses; one of them at least is a mesh.
+        within : float
+            Gap from which on its exact value is not asked for, m.
         """
         found = segment_distances(first.ends, second.ends) - first.radius - second.radius
         near = np.flatnonzero(found < within)

@@ -26,8 +26,9 @@ def inside(points: Array, corners: Array) -> NDArray[np.bool_]:
     Parameters
     ----------
     points : (p, 3)
+        m.
     corners : (t, 3, 3)
-        Of the triangles.
+        Of the triangles, m, counterclockwise seen from outside.
 
     Returns
     -------
@@ -62,7 +63,7 @@ def crossing_depth(first: Array, second: Array) -> float:
     Parameters
     ----------
     first, second : (c, 3, 3)
-        Corners of the two triangles of each pair.
+        Corners of the two triangles of each pair, m.
     """
     if not len(first):
         return 0.0
@@ -89,7 +90,7 @@ def hull_depth(first: Array, second: Array) -> float:
     Parameters
     ----------
     first, second : (t, 3, 3)
-        Corners of their triangles.
+        Corners of their triangles, m.
     """
     depth = np.inf
     for corners, other in ((first, second), (second, first)):
@@ -106,6 +107,7 @@ def share_space(first: Array, second: Array, size: float) -> bool:
     Parameters
     ----------
     first, second : (t, 3, 3)
+        Corners of their triangles, m.
     size : float
         Least extent, m.
     """

@@ -38,9 +38,10 @@ class FreeMotion:
     Parameters
     ----------
     twists : (b, 6)
-        Twist of every moving body at its reference point; largest displacement scaled to one.
+        Twist of every moving body at its reference point, m and rad; largest displacement scaled to
+        one.
     nodes : (n, 6)
-        Displacement and rotation of every node in that motion.
+        Displacement and rotation of every node in that motion, m and rad.
     joints : tuple of (joint name, direction)
         Joint directions that move.
     description : str
@@ -71,7 +72,7 @@ class SelfStress:
 
 @dataclass(frozen=True)
 class Mobility:
-    """What `mobility` found.
+    """Result of `mobility`.
 
     Parameters
     ----------
@@ -201,13 +202,37 @@ def free_motions(
     length: float,
     moves: NDArray[np.bool_],
 ) -> tuple[FreeMotion, ...]:
-    """Name the motions in the columns of `null`, (6 b, k), rotations scaled by `length`."""
+    """Name motions by the joint directions that move in them.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With b moving bodies.
+    placement : Placement
+        One pose, without batch axes.
+    null : (6 b, k)
+        The motions as columns, (v, L ω) of the bodies about their reference points, m.
+    length : float
+        L, m.
+    moves : (j, 6) of bool
+        Joint directions by which they may be named.
+    """
     rows = constraint_rows(linkage, placement, moves)
     return tuple(_motion(rows, null[:, k].reshape(-1, 6), length) for k in range(null.shape[1]))
 
 
 def node_motion(linkage: Linkage, placement: Placement, twists: Array) -> Array:
-    """Displacement and rotation of every node when the bodies move by `twists`, (n, 6)."""
+    """Displacement and rotation of every node when the bodies move by `twists`, (n, 6).
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With n nodes and b moving bodies.
+    placement : Placement
+        One pose, without batch axes.
+    twists : (b, 6)
+        Of the bodies about their reference points, m and rad.
+    """
     owner = linkage.body_of_node
     moves = owner >= 0
     result = np.zeros((len(linkage.nodes), 6))

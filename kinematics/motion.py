@@ -41,7 +41,7 @@ class Moved:
     tool : Poses or None
         Of the tool: where the way ended, for poses that were not reached. None without a tool.
     share : (...)
-        Of the way that was gone, 1 where the pose was reached.
+        Share of the way that was gone, 1 where the pose was reached.
     error : (...)
         Largest gap that is left in a joint or in what was given, m, turns at the characteristic
         length.
@@ -68,7 +68,15 @@ class Moved:
         return self.placement.reachable
 
     def coordinate(self, joint: str, direction: str) -> Array:
-        """Coordinate of a joint, m or rad, (...)."""
+        """Coordinate of a joint, m or rad, (...).
+
+        Parameters
+        ----------
+        joint : str
+            Its name.
+        direction : str
+            One of its directions that move.
+        """
         return np.asarray(
             self.placement.values[..., self.placement.names.index((joint, direction))]
         )
@@ -86,7 +94,7 @@ class Motion:
         Where all motion starts, one pose without batch axes. Joint coordinates that it names
         keep their values there; all others are zero at home.
     rotation : (3, 3)
-        Of the tool at home.
+        Rotation matrix of the tool at home.
 
     Raises
     ------
@@ -188,7 +196,13 @@ class Motion:
         return self._moved(walk, wanted)
 
     def task_of(self, poses: Poses) -> Array:
-        """Task coordinates of poses: place, m, and rotation vector from home, rad, (..., 6)."""
+        """Task coordinates of poses: place, m, and rotation vector from home, rad, (..., 6).
+
+        Parameters
+        ----------
+        poses : Poses
+            (...); of the tool.
+        """
         turned = poses.rotation @ self.rotation.T
         return np.concatenate([poses.position, rotation_vector(turned)], axis=-1)
 
@@ -231,6 +245,11 @@ class Motion:
     def require_task(self, directions: Sequence[str]) -> None:
         """Check that the tool can move from home in some directions, one by one.
 
+        Parameters
+        ----------
+        directions : sequence of str
+            x, y, z of the tool centre point, rx, ry, rz of its rotation vector.
+
         Raises
         ------
         ModelError
@@ -242,7 +261,13 @@ class Motion:
             Walk(self.joints, self.rotation, wanted)
 
     def place(self, poses: Poses) -> Placement:
-        """Inverse kinematics of poses of the tool; those that cannot be taken are marked."""
+        """Inverse kinematics of poses of the tool; those that cannot be taken are marked.
+
+        Parameters
+        ----------
+        poses : Poses
+            (...); of the tool.
+        """
         return self.move(tool=poses).placement
 
     def _moved(self, walk: Walk | LegWalk, wanted: Given) -> Moved:

@@ -38,9 +38,11 @@ class MotionSpaces:
     Parameters
     ----------
     inverse : (p, a, 6)
-        Least rates per tool twist; infinite in directions that are lost.
+        Least rates per tool twist, m/s or rad/s per m/s and rad/s; infinite in directions that are
+        lost.
     forward : (p, 6, a)
-        Tool twist per rate; infinite where the tool moves at standing drives.
+        Tool twist per rate, m/s and rad/s per m/s or rad/s; infinite where the tool moves at
+        standing drives.
     motions : (p, 6, 6)
         Tool twists that can be made, orthonormal columns, the rest zero.
     rank : (p,)
@@ -138,8 +140,16 @@ def _allowed(rows: Array) -> Array:
 def null_space(rows: Array, tolerance: Array | float = 0.0, *, share: float = 0.0) -> Array:
     """Null space of a stack of matrices, (p, r, n) to (p, n, n): unit columns, the rest zero.
 
-    Columns are blanked instead of cut, so that poses of different rank stay one stack. Singular
-    values of at most `tolerance`, (p,), or of this share of the matrix's largest count as zero.
+    Columns are blanked instead of cut, so that poses of different rank stay one stack.
+
+    Parameters
+    ----------
+    rows : (p, r, n)
+        In any unit, one for all.
+    tolerance : (p,) or float
+        Singular values of at most this count as zero, same unit as the rows.
+    share : float
+        So do those of at most this share of the matrix's largest.
     """
     values, right = _decomposed(rows)
     held = np.zeros(right.shape[:-1], dtype=bool)

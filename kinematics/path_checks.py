@@ -27,7 +27,17 @@ BOTH = "serial and parallel at once (type 3)"
 
 
 def move_along(dynamics: Dynamics, trajectory: Trajectory, times: ArrayLike) -> Moved:
-    """The linkage at times of a trajectory; poses that it cannot take are marked."""
+    """The linkage at times of a trajectory; poses that it cannot take are marked.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        Of the machine.
+    trajectory : Trajectory
+        Of coordinates of its tool and joints.
+    times : (p,)
+        s.
+    """
     values = trajectory.at(times)[0]
     names = trajectory.coordinates.names
     task = {d: values[:, k] for k, (joint, d) in enumerate(names) if not joint}
@@ -39,6 +49,15 @@ def placed_along(
     dynamics: Dynamics, trajectory: Trajectory, times: Array
 ) -> tuple[Moved, PlacedDynamics]:
     """The dynamics at times of a trajectory.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        Of the machine.
+    trajectory : Trajectory
+        Of the dynamics' coordinates.
+    times : (p,)
+        s.
 
     Raises
     ------
@@ -62,7 +81,17 @@ def placed_along(
 
 
 def singular_at(trajectory: Trajectory, when: float, kind: str) -> SingularPoseError:
-    """The error of a singularity on a path."""
+    """The error of a singularity on a path.
+
+    Parameters
+    ----------
+    trajectory : Trajectory
+        The path.
+    when : float
+        s.
+    kind : str
+        `SERIAL`, `PARALLEL` or `BOTH`.
+    """
     return SingularPoseError(
         _place(trajectory, when),
         f"passes through a singularity, {kind}.",
@@ -92,7 +121,7 @@ class Way:
     times : (p,)
         s.
     sign, driven : (p,)
-        As `PlacedMotion.sign` and `PlacedDynamics.drive_sign`.
+        As `PlacedMotion.sign` and `PlacedDynamics.drive_sign`, no unit.
     points, speeds : (p, b, 3)
         Of the bodies, m and m/s.
     """
@@ -107,7 +136,13 @@ class Way:
         return self.times, self.sign, self.driven, self.points, self.speeds
 
     def then(self, other: Way) -> Way:
-        """The poses of both, one way after the other."""
+        """The poses of both, one way after the other.
+
+        Parameters
+        ----------
+        other : Way
+            Poses that follow.
+        """
         pairs = zip(self._parts(), other._parts(), strict=True)
         return Way(*(np.concatenate(pair) for pair in pairs))
 
@@ -119,6 +154,15 @@ class Way:
 
 def check_way(dynamics: Dynamics, trajectory: Trajectory, way: Way) -> None:
     """Refuse a path with a singularity or a jump between neighbouring poses.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        Of the machine.
+    trajectory : Trajectory
+        The path.
+    way : Way
+        Its poses, times ascending.
 
     Raises
     ------
@@ -173,6 +217,17 @@ def _signs(dynamics: Dynamics, trajectory: Trajectory, when: float) -> tuple[flo
 
 def check_touched(dynamics: Dynamics, trajectory: Trajectory, times: Array, held: Array) -> None:
     """Refuse a singularity that the path touches between two poses without changing sides.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+        Of the machine.
+    trajectory : Trajectory
+        The path.
+    times : (p,)
+        s, ascending.
+    held : (p,)
+        As `PlacedDynamics.held` at these times, no unit.
 
     Raises
     ------

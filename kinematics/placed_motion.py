@@ -39,7 +39,7 @@ class PlacedMotion:
     position : (p, b, 3)
         Of the bodies' reference points, m.
     rotation : (p, b, 3, 3)
-        Of the bodies from home.
+        Rotation matrices of the bodies from home.
     """
 
     of: BodyMotion
@@ -61,7 +61,15 @@ class PlacedMotion:
         return self.position + np.stack(arms, axis=1) if arms else self.position
 
     def rows(self, select: NDArray[np.bool_], *, coupled: bool = True) -> ConstraintRows:
-        """Rows of joint directions, whose shifts are along axes of the joint's first body."""
+        """Rows of joint directions, whose shifts are along axes of the joint's first body.
+
+        Parameters
+        ----------
+        select : (j, 6) of bool
+            Which joint directions.
+        coupled : bool
+            As in `constraint_rows`.
+        """
         return self._along(
             constraint_rows(self.of.motion.linkage, self.placement, select, coupled=coupled)
         )
@@ -207,7 +215,7 @@ class PlacedMotion:
 
     @property
     def singular(self) -> NDArray[np.bool_]:
-        """Where the coordinates do not tell how the bodies move, (p,)."""
+        """Where the coordinates do not determine how the bodies move, (p,)."""
         return np.asarray(self._solved[2], dtype=bool)
 
     @property
@@ -231,17 +239,29 @@ class PlacedMotion:
         Parameters
         ----------
         forces : (p, 6 b)
-            At the bodies' points; they do no work in a motion of the coordinates.
+            At the bodies' points, N and N·m; they do no work in a motion of the coordinates.
         """
         found = np.einsum("pnk,pn->pk", self._solved[0], forces)
         return np.asarray(found[:, : len(self.of.plan[0])])
 
     def twists(self, rates: Array) -> Array:
-        """Twists of the bodies for rates (p, t), m/s and rad/s, (p, 6 b)."""
+        """Twists of the bodies for rates (p, t), m/s and rad/s, (p, 6 b).
+
+        Parameters
+        ----------
+        rates : (p, t)
+            Of the coordinates, m/s or rad/s.
+        """
         return np.asarray(np.einsum("pnt,pt->pn", self.map, rates))
 
     def rows_rate(self, rates: Array) -> Array:
-        """Time derivative of all rows that are solved, (p, 6 b, 6 b)."""
+        """Time derivative of all rows that are solved, (p, 6 b, 6 b).
+
+        Parameters
+        ----------
+        rates : (p, t)
+            Of the coordinates, m/s or rad/s.
+        """
         twists = self.twists(rates)
         parts = [row_rates(self.held, self.points, twists)[:, self.of.plan[0]]]
         if self.of.coordinates.tool:
@@ -268,7 +288,13 @@ class PlacedMotion:
         return rows.reshape(len(twists), 6, -1)[:, self._asked_tool]
 
     def map_rate(self, rates: Array) -> Array:
-        """Ṅ along rates (p, t), (p, 6 b, t)."""
+        """Ṅ along rates (p, t), (p, 6 b, t).
+
+        Parameters
+        ----------
+        rates : (p, t)
+            Of the coordinates, m/s or rad/s.
+        """
         return np.asarray(-self._solved[0] @ (self.rows_rate(rates) @ self.map))
 
     def accelerations(self, rates: Array, changes: Array) -> Array:

@@ -24,7 +24,7 @@ class Placement:
     positions : (..., n, 3)
         Node positions, m, in the order of `Linkage.nodes`.
     frames : (..., j, 3, 3)
-        Joint axes as columns x, y, z, in the order of `Linkage.joints`.
+        Joint axes as columns x, y, z, unit vectors, in the order of `Linkage.joints`.
     values : (..., m)
         Joint coordinates, m or rad, in the order of `names`.
     names : tuple of (joint, direction)
@@ -34,9 +34,9 @@ class Placement:
     reasons : tuple of str
         Why a pose is not good.
     turns : (..., b, 3, 3) or None
-        Rotation of each body of `Linkage.body_names` from the configuration in which vectors of
-        its parts are written in global axes: these follow their bodies. None: no body has turned,
-        or no part has such vectors.
+        Rotation matrix of each body of `Linkage.body_names` from the configuration in which vectors
+        of its parts are written in global axes: these follow their bodies. None: no body has
+        turned, or no part has such vectors.
     """
 
     positions: NDArray[Any]
@@ -66,7 +66,13 @@ class Placement:
         return np.asarray(np.asarray(self.status) == 0)
 
     def reason(self, index: int | tuple[int, ...]) -> str:
-        """Why the pose at `index` is not good; empty where it is."""
+        """Why the pose at `index` is not good; empty where it is.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of a pose in the batch; () for a single one.
+        """
         code = int(np.asarray(self.status)[index])
         return self.reasons[code - 1] if code else ""
 
@@ -119,6 +125,13 @@ class Placement:
 
 def check_coincidence(linkage: Linkage, placement: Placement) -> None:
     """Check that the two nodes of every joint stand at the same place.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        Whose joints are looked at.
+    placement : Placement
+        Any batch axes; poses that are not good are left out.
 
     Raises
     ------

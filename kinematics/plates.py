@@ -68,12 +68,14 @@ def plates(gradient: Array, moving: NDArray[np.intp]) -> NDArray[np.intp]:
     """Number of the plate at each grid point, from 1; 0 out of reach or on a border, (k, l).
 
     Two points of one plate are joined by sides of cells without a border between them; what is
-    narrower than a cell is not told apart.
+    narrower than a cell is not distinguished.
 
     Parameters
     ----------
-    gradient, moving
-        As for `determinants`.
+    gradient : (k, l, n, 2)
+        As for `determinants`: m or rad, by the patch's own size.
+    moving : (a,) of int
+        Drives that move.
     """
     _, values = determinants(gradient, moving)
     signs = np.where(np.abs(values) <= PARALLEL, 0, np.sign(values))
@@ -98,9 +100,13 @@ def plate_borders(
     Parameters
     ----------
     field : DriveField
+        Of the gradients.
     patch : Patch
-    gradient, moving
-        As for `determinants`.
+        The grid.
+    gradient : (k, l, n, 2)
+        As for `determinants`: m or rad, by the patch's own size.
+    moving : (a,) of int
+        Drives that move.
     """
     pairs, values = determinants(gradient, moving)
     first, second = (np.array([p[n] for p in pairs], dtype=np.intp) for n in (0, 1))

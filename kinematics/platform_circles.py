@@ -23,7 +23,7 @@ class PlatformCircles:
     Parameters
     ----------
     centre, first, second : (..., 3, 3)
-        m, and unit vectors; a row a joint.
+        m, and unit vectors; one row per joint.
     radius : (..., 3)
         m.
     joints : tuple of str

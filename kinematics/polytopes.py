@@ -26,9 +26,9 @@ class Polytope:
     Parameters
     ----------
     normals : (m, d)
-        A.
+        A, in the unit of b over that of x: any unit.
     offsets : (m,)
-        b, positive; rows with an infinite one do not count.
+        b, any unit, positive; rows with an infinite one do not count.
     """
 
     normals: Array
@@ -43,6 +43,11 @@ class Polytope:
     def of(cls, zonotope: Zonotope) -> Polytope:
         """The half-spaces of a zonotope, one pose.
 
+        Parameters
+        ----------
+        zonotope : Zonotope
+            Without batch axes.
+
         Raises
         ------
         ModelError
@@ -56,11 +61,26 @@ class Polytope:
 
     @classmethod
     def of_rates(cls, inverse: ArrayLike, limits: ArrayLike) -> Polytope:
-        """Velocities whose drive rates, (a, d) of them, keep the limits (a,)."""
+        """Velocities whose drive rates, (a, d) of them, keep the limits (a,).
+
+        Parameters
+        ----------
+        inverse : (a, d)
+            Drive rates per velocity of the tool, columns of the inverse Jacobian, units of `limits`
+            per that of the velocity.
+        limits : (a,)
+            Greatest rates of the drives, m/s or rad/s, positive.
+        """
         return cls(np.asarray(inverse, dtype=float), np.asarray(limits, dtype=float))
 
     def section(self, directions: tuple[int, ...]) -> Polytope:
-        """Its points whose other coordinates are zero."""
+        """Its points whose other coordinates are zero.
+
+        Parameters
+        ----------
+        directions : tuple of int
+            Numbers of the coordinates that stay.
+        """
         return Polytope(self.normals[:, list(directions)], self.offsets)
 
     @property
@@ -103,7 +123,13 @@ class Polytope:
         return float(np.linalg.norm(self.vertices, axis=1).max())
 
     def projection(self, directions: tuple[int, ...]) -> Polytope:
-        """Its shadow: some coordinates of its points, whatever the others."""
+        """Its shadow: some coordinates of its points, whatever the others.
+
+        Parameters
+        ----------
+        directions : tuple of int
+            Numbers of the coordinates that stay.
+        """
         shadow = self.vertices[:, list(directions)]
         hull = ConvexHull(shadow)
         equations = hull.equations

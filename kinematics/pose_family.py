@@ -51,6 +51,15 @@ class TaskSection:
     ) -> TaskSection:
         """The section through `at`; what is not named stays as at home, where it can.
 
+        Parameters
+        ----------
+        motion : Motion
+            With a tool.
+        names : tuple of directions
+            Task coordinates that the parameters are.
+        at : mapping of direction to float, optional
+            Other coordinates of the tool with their values, m and rad.
+
         Raises
         ------
         ModelError
@@ -75,13 +84,25 @@ class TaskSection:
         return tuple(k for k, d in enumerate(DIRECTIONS) if d in self.names or d in self.held)
 
     def values(self, parameters: Array) -> dict[str, Array]:
-        """Task coordinates at parameters (p, k), (p,) each."""
+        """Task coordinates at parameters (p, k), (p,) each.
+
+        Parameters
+        ----------
+        parameters : (p, k)
+            m and rad, in the order of `names`.
+        """
         found = {name: parameters[:, k] for k, name in enumerate(self.names)}
         found |= {name: np.full(len(parameters), v) for name, v in self.held.items()}
         return found
 
     def place(self, parameters: Array) -> Placement:
-        """Placements at parameters (p, k)."""
+        """Placements at parameters (p, k).
+
+        Parameters
+        ----------
+        parameters : (p, k)
+            m and rad, in the order of `names`.
+        """
         return self.motion.move(task=self.values(parameters)).placement
 
 
@@ -137,7 +158,14 @@ class PoseFamily:
         return f"<PoseFamily: {', '.join(self.names)}; L = {1e3 * self.length:.4g} mm>"
 
     def look(self, parameters: Array, progress: Progress | None = None) -> Looked:
-        """Place poses and find their spaces, (p, k) parameters.
+        """Place poses and determine their spaces.
+
+        Parameters
+        ----------
+        parameters : (p, k)
+            m and rad, in the order of `names`.
+        progress : callable, optional
+            Called with the number of poses done and that of all.
 
         Raises
         ------
@@ -176,6 +204,7 @@ class Looked:
     Parameters
     ----------
     parameters : (p, k)
+        m or rad.
     reach : (p,) of bool
     placement : Placement
         Of those that are reached only, in order.
@@ -199,14 +228,26 @@ class Looked:
         return np.where(self.reach, np.cumsum(self.reach) - 1, -1)
 
     def spread(self, values: Array) -> Array:
-        """Values at the poses that are reached as values at all, NaN elsewhere, (p,)."""
+        """Values at the poses that are reached as values at all, NaN elsewhere, (p,).
+
+        Parameters
+        ----------
+        values : (r,)
+            One for each of the r poses that are reached, any unit.
+        """
         result = np.full(len(self.reach), np.nan)
         result[self.reach] = values
         return result
 
 
 def joined(placements: list[Placement]) -> Placement:
-    """Placements of one batch axis one after the other."""
+    """Placements of one batch axis one after the other.
+
+    Parameters
+    ----------
+    placements : list of Placement
+        Of one linkage, all poses good; at least one.
+    """
     first = placements[0]
 
     def chained(arrays: list[Array | None]) -> Array | None:

@@ -26,7 +26,7 @@ class Goals:
     target : (p, t) or None
         Its coordinates, m and rad; None where a pose is asked.
     place, turned : (p, 3) and (p, 3, 3), or None
-        Its pose.
+        Its pose: place, m, and rotation matrix.
     """
 
     asked: tuple[int, ...]
@@ -43,9 +43,9 @@ class QuickStep:
     ----------
     system : row_kernel.RowSystem
     tool : (3, 3)
-        Its rotation at home.
+        Its rotation matrix at home.
     rules : tuple of float
-        As `step_kernel.newton_step` takes them.
+        As `step_kernel.newton_step` takes them: no unit, lengths over L, rad.
     """
 
     system: Any
@@ -56,7 +56,19 @@ class QuickStep:
     def of(
         cls, joints: JointMotion, tool: Array, length: float, rules: tuple[float, ...]
     ) -> QuickStep | None:
-        """For a linkage, or None where coordinates follow others or there is no compiler."""
+        """For a linkage, or None where coordinates follow others or there is no compiler.
+
+        Parameters
+        ----------
+        joints : JointMotion
+            Of the linkage.
+        tool : (3, 3)
+            Rotation matrix of the tool at home.
+        length : float
+            L, m, by which lengths are divided.
+        rules : tuple of float
+            As `step_kernel.newton_step` takes them, no unit.
+        """
         if joints.linkage.ties or not compiled():
             return None
         from strutwork.kinematics.row_kernel import row_system  # noqa: PLC0415 - numba is slow to import
@@ -70,7 +82,7 @@ class QuickStep:
     def newton(
         self, bodies: BodyPoses, rows: Indices, goals: Goals
     ) -> tuple[BodyPoses, NDArray[np.bool_], Array]:
-        """Bodies that are moved, where a step holds, and what is left open, as `Walk` finds them.
+        """Bodies that are moved, where a step holds and what it leaves open, (p,), as in `Walk`.
 
         Parameters
         ----------
@@ -112,7 +124,15 @@ class QuickStep:
         return moved, good, error
 
     def coordinates(self, bodies: BodyPoses, before: Array) -> Array:
-        """Joint coordinates, turns counted on from those before, (p, c)."""
+        """Joint coordinates, turns counted on from those before, (p, c).
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
+        before : (p, c)
+            Joint coordinates from which turns count on, m and rad.
+        """
         from strutwork.kinematics.row_kernel import joint_coordinates  # noqa: PLC0415 - as above
 
         values = np.array(before, dtype=float, order="C")

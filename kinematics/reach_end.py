@@ -33,12 +33,13 @@ class ReachEnds:
     Parameters
     ----------
     parameters : (e, k)
+        m or rad.
     placement : Placement
         There, or at the last pose that was reached.
     turned : (e,) of bool
         Whether the coordinates turn back there; else the end is known to the last halving.
     beyond : (e, k)
-        Next to it, not reached.
+        Next to it, not reached, m or rad.
     reasons : tuple of str
         Why.
     """
@@ -59,6 +60,7 @@ def reach_ends(
     ----------
     family : PoseFamily
     inside, outside : (e, k)
+        Parameters of poses that are reached and of others, in the family's units.
     reasons : sequence of str
         Why those outside are not reached.
     """

@@ -37,6 +37,11 @@ class Regions:
         """Number of the component at a place in cells of the grid, (d,); 0 for none.
 
         A place in a cell whose good corners are of several components is of the nearest one.
+
+        Parameters
+        ----------
+        place : (d,)
+            In cells from the grid's first point, no unit.
         """
         shape = np.array(self.label.shape)
         if np.any(place < -1e-9) or np.any(place > shape - 1 + 1e-9):

@@ -24,7 +24,7 @@ def cone(gradient: ArrayLike, signs: ArrayLike) -> Array:
         Of the drives' coordinates over the surface's two parameters. A drive that does not move
         there (zero) asks for nothing.
     signs : (..., n)
-        1 or −1: of the drives' speeds.
+        1 or −1, no unit: of the drives' speeds.
 
     Returns
     -------
@@ -55,6 +55,7 @@ def sectors(gradient: ArrayLike) -> tuple[Array, NDArray[np.int8]]:
     Parameters
     ----------
     gradient : (n, 2)
+        Of the drives' coordinates over the two parameters, units as these give them.
 
     Returns
     -------

@@ -49,7 +49,7 @@ class Patch:
     Parameters
     ----------
     u, v : (k,), (l,)
-        Ascending.
+        Ascending, m or rad.
     """
 
     u: Array
@@ -66,7 +66,13 @@ class Patch:
         return np.stack(np.meshgrid(self.u, self.v, indexing="ij"), axis=-1).reshape(-1, 2)
 
     def inside(self, points: Array) -> NDArray[np.bool_]:
-        """Points on the patch, its border included to rounding, (m,)."""
+        """Points on the patch, its border included to rounding, (m,).
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the parameters, in the units of u and v.
+        """
         slack = 1e-9 * self.span
         low = np.array([self.u[0], self.v[0]]) - slack
         high = np.array([self.u[-1], self.v[-1]]) + slack
@@ -96,7 +102,7 @@ class SingularPoint:
     ----------
     drive : str
     place : (2,)
-        Parameters.
+        Parameters, m or rad.
     kind : "strong" or "weak"
         An extremum or a saddle.
     hessian : (2, 2)
@@ -118,7 +124,7 @@ class DriveSingularities:
     drive : str
     points : tuple of SingularPoint
     lines : tuple of (c, 2)
-        Whole lines of such points.
+        Whole lines of such points, in parameters, m or rad.
     winding : int or None
         Turns of the gradient along the border; None where the border leaves the reach, or a
         singular place lies on it.
@@ -141,7 +147,7 @@ class DriveSingularities:
 
     @property
     def complete(self) -> bool | None:
-        """Whether strong less weak points are the winding; None where it cannot be told."""
+        """Whether strong less weak points are the winding; None where that is unknown."""
         if self.winding is None or self.lines:
             return None
         return self.strong - self.weak == self.winding
@@ -195,6 +201,7 @@ def hessians(field: DriveField, patch: Patch, points: Array, drives: NDArray[np.
     field : DriveField
     patch : Patch
     points : (m, 2)
+        Values of the parameters, in the units of u and v.
     drives : (m,) of int
     """
     count = len(points)
@@ -211,6 +218,15 @@ def windings(field: DriveField, patch: Patch, moving: NDArray[np.intp]) -> dict[
     """Turns of drives' gradients along the border of the patch, counter-clockwise.
 
     None where the border leaves the reach or the gradient vanishes on it.
+
+    Parameters
+    ----------
+    field : DriveField
+        Of n drives.
+    patch : Patch
+        Whose border is gone round.
+    moving : (a,) of int
+        Drives that are looked at.
     """
     way = patch.border()
     g = field.gradient(way)[:, moving] * patch.span

@@ -55,7 +55,7 @@ class Reversals:
 
     @cached_property
     def moving(self) -> NDArray[np.intp]:
-        """Indices of the drives that move; the others turn back nowhere."""
+        """Indices of the drives that move, (a,); the others turn back nowhere."""
         size = np.nanmax(np.abs(self.gradient * self.patch.span), axis=(0, 1, 3), initial=0.0)
         return np.flatnonzero(size > STILL)
 
@@ -68,6 +68,11 @@ class Reversals:
         """Of the drives' speeds along a feed direction (2,) at the grid's points, (k, l, n).
 
         0 where a drive stands still, and out of reach.
+
+        Parameters
+        ----------
+        feed : (2,)
+            Change of the parameters, of any length, in their units.
         """
         speed = self.gradient @ np.asarray(feed, dtype=float)
         return np.asarray(np.nan_to_num(np.sign(speed)), dtype=np.int8)
@@ -76,6 +81,11 @@ class Reversals:
         """Lines on which a feed direction (2,) makes a drive turn back, (c, 2) each, by drive.
 
         Drives that the feed does not move anywhere have none.
+
+        Parameters
+        ----------
+        feed : (2,)
+            Change of the parameters, of any length, in their units.
         """
         way = np.asarray(feed, dtype=float)
         values = self.gradient @ way
@@ -93,6 +103,11 @@ class Reversals:
 
     def cones(self, point: ArrayLike) -> tuple[Array, NDArray[np.int8]]:
         """Cones of directions without a reversal at a point (2,): `sectors` of its gradients.
+
+        Parameters
+        ----------
+        point : (2,)
+            Values of the parameters, in their units.
 
         Raises
         ------
@@ -119,11 +134,24 @@ class Reversals:
         """Grid points to which a path without a reversal leads from one of them, (k, l).
 
         The paths go by straight steps between grid points; a finer grid finds more of them.
+
+        Parameters
+        ----------
+        start : (int, int)
+            Which grid point along u and v.
         """
         return reach(self.patch, self.gradient, self.moving, start)
 
     def longest(self, ways: ArrayLike, lines: int = 21) -> ClearPath | None:
-        """Longest straight path without a reversal along directions (w, 2) of the parameters."""
+        """Longest straight path without a reversal along directions (w, 2) of the parameters.
+
+        Parameters
+        ----------
+        ways : (w, 2)
+            Directions of the parameters, of any length, in their units.
+        lines : int
+            Evenly spaced lines along each way across the patch.
+        """
         return longest_clear_path(self.field, self.patch, ways, self.moving, lines)
 
 
@@ -134,8 +162,8 @@ def reversals(field: DriveField, u: ArrayLike, v: ArrayLike) -> Reversals:
     ----------
     field : DriveField
     u, v : (k,), (l,)
-        Grid along the parameters, ascending, three points or more. What comes and goes within
-        one cell, and is not told by the index of a gradient, is not seen.
+        Grid along the parameters, in their units, ascending, three points or more. What comes and
+        goes within one cell, and does not show in the index of a gradient, is not seen.
 
     Returns
     -------

@@ -29,7 +29,7 @@ class RigidGraph:
     Parameters
     ----------
     axes : (r, 6)
-        Directions in global axes, (a, 0) or (0, a).
+        Unit vectors in global axes, (a, 0) or (0, a).
     points : (r, 3)
         Where they act, m.
     first, second : (r,)
@@ -57,7 +57,15 @@ class RigidGraph:
         return len(self.references)
 
     def wrenches(self, rows: Ints, centre: Array) -> Array:
-        """Rows as wrenches about a point, force then moment, (k, 6)."""
+        """Rows as wrenches about a point, force then moment, (k, 6).
+
+        Parameters
+        ----------
+        rows : (k,) of int
+            Which rows.
+        centre : (3,)
+            m.
+        """
         result = self.axes[rows].copy()
         result[:, 3:] += np.cross(self.points[rows] - centre, result[:, :3])
         return result
@@ -74,13 +82,13 @@ class Block:
     groups : (g,)
         Groups of bodies that the block moves against its carrier.
     values : (s,)
-        Singular values, descending.
+        Singular values, descending, no unit.
     right : (6 g, 6 g)
-        Right singular vectors as rows.
+        Right singular vectors as rows, orthonormal.
     matrix : (k, 6 g)
-        The rows themselves, of unit size, on twists about the centre.
+        The rows themselves, of unit size, on twists about the centre, no unit.
     size : (k,)
-        By which each row was divided.
+        By which each row was divided, no unit.
     centre : (3,)
         m.
     length : float
@@ -111,7 +119,7 @@ class Blocks:
     inner : (i,)
         Rows inside one group: redundant.
     blocks : tuple of Block
-    below : mapping
+    below : tuple of mapping of group to (h,)
         For each block, the groups that move with each of its own: what hangs on it.
     """
 
@@ -123,11 +131,23 @@ class Blocks:
     below: tuple[dict[int, Ints], ...]
 
     def rank(self, tolerance: float) -> int:
-        """Rank of the rows: six for every joint of the tree, and that of every block."""
+        """Rank of the rows: six for every joint of the tree, and that of every block.
+
+        Parameters
+        ----------
+        tolerance : float
+            Share of a block's largest singular value up to which others count as zero.
+        """
         return 6 * len(self.tree) + sum(_rank(b.values, tolerance) for b in self.blocks)
 
     def null(self, tolerance: float) -> Array:
-        """Motions that no row resists, twists about the references, (b, 6, k), m and rad."""
+        """Motions that no row resists, twists about the references, (b, 6, k), m and rad.
+
+        Parameters
+        ----------
+        tolerance : float
+            Share of a block's largest singular value up to which others count as zero.
+        """
         found = [
             self.motion(block, below, vector)
             for block, below in zip(self.blocks, self.below, strict=True)
@@ -138,7 +158,17 @@ class Blocks:
         return np.stack(found, axis=-1)
 
     def motion(self, block: Block, below: dict[int, Ints], vector: Array) -> Array:
-        """Twists of all bodies about their references in a motion of one block, (b, 6)."""
+        """Twists of all bodies about their references in a motion of one block, (b, 6).
+
+        Parameters
+        ----------
+        block : Block
+            One of `blocks`.
+        below : dict of int to (h,) of int
+            Its entry of `below`: groups that hang on each of its own.
+        vector : (6 g,)
+            (v, L ω) of its groups about its centre, m; L is the block's length.
+        """
         groups = int(self.group.max(initial=-1)) + 1
         twists = np.zeros((groups + 1, 6))
         for own, twist in zip(block.groups, vector.reshape(-1, 6), strict=True):
@@ -158,6 +188,11 @@ def decompose(graph: RigidGraph) -> Blocks:
     """Hold together what six rows hold, then decompose block by block.
 
     Where rows tie two pairs of bodies the graph is one block, for it has no edges.
+
+    Parameters
+    ----------
+    graph : RigidGraph
+        The rows of one pose.
     """
     if graph.tied is not None:
         every = np.arange(graph.bodies, dtype=np.intp)

@@ -19,7 +19,15 @@ ROUNDING = 1e-9
 
 
 def rigid_graph(rows: ConstraintRows, length: float) -> RigidGraph:
-    """The graph of rows of a single pose."""
+    """The graph of rows of a single pose.
+
+    Parameters
+    ----------
+    rows : ConstraintRows
+        Of one pose, without batch axes.
+    length : float
+        For blocks that have none of their own, m.
+    """
     linkage, positions = rows.linkage, rows.placement.positions
     tied = None
     if rows.tied is not None:
@@ -38,7 +46,15 @@ def rigid_graph(rows: ConstraintRows, length: float) -> RigidGraph:
 
 
 def stress_states(blocks: Blocks, tolerance: float) -> list[tuple[Ints, Array]]:
-    """A basis of the states of self-stress: rows and their multipliers, few in each."""
+    """A basis of the states of self-stress: rows (k,) and their multipliers (k,), few in each.
+
+    Parameters
+    ----------
+    blocks : Blocks
+        Of the rows that are held.
+    tolerance : float
+        Share of a block's largest singular value up to which others count as zero.
+    """
     tree = _Tree(blocks)
     found = [tree.balanced(np.array([r]), np.ones(1)) for r in blocks.inner]
     for block in blocks.blocks:

@@ -33,7 +33,7 @@ class RowSystem(NamedTuple):
     locks : (j,)
         Number of locked rotations.
     frames : (j, 3, 3)
-        At home.
+        Axes at home as columns, unit vectors.
     joint, direction : (h,)
         Of each held row.
     free_joint, free_direction : (c,)
@@ -63,7 +63,15 @@ class RowSystem(NamedTuple):
 
 
 def row_system(joints: JointMotion, length: float) -> RowSystem:
-    """The linkage of a joint motion as arrays."""
+    """The linkage of a joint motion as arrays.
+
+    Parameters
+    ----------
+    joints : JointMotion
+        Of the linkage.
+    length : float
+        By which lengths are divided, m.
+    """
     linkage, home = joints.linkage, joints.home
     owner = linkage.body_of_node.astype(np.int64)
     bodies = joints.start(1).position[0]
@@ -110,7 +118,21 @@ def _places(pairs: Ints, count: int) -> Ints:
 
 @jit()
 def place_pose(s, position, rotation, positions, frames):  # type: ignore[no-untyped-def]
-    """Nodes and joint axes of one pose of the bodies, (1, …) each."""
+    """Nodes and joint axes of one pose of the bodies.
+
+    Parameters
+    ----------
+    s : RowSystem
+        The linkage.
+    position : (1, b, 3)
+        Reference points of the bodies, m.
+    rotation : (1, b, 3, 3)
+        Of the bodies from home.
+    positions : (1, n, 3)
+        Filled: nodes, m.
+    frames : (1, j, 3, 3)
+        Filled: joint axes as columns.
+    """
     place_bodies(
         position,
         rotation,
@@ -150,7 +172,22 @@ def _end(s, position, rotation, n, out):  # type: ignore[no-untyped-def]
 
 @jit()
 def pass_joint(s, position, rotation, j, work):  # type: ignore[no-untyped-def]
-    """Axes of a joint that go with either body, their turn, and its nodes' places."""
+    """Axes of a joint that go with either body, their turn, and its nodes' places.
+
+    Parameters
+    ----------
+    s : RowSystem
+        The linkage.
+    position : (b, 3)
+        Reference points of the bodies, m.
+    rotation : (b, 3, 3)
+        Of the bodies from home.
+    j : int
+        Which joint.
+    work : (3, 3), (3, 3), (3, 3), (3,) and (2, 3)
+        Filled: axes of the first and of the second body as rows, the second's in the first's as a
+        matrix; left alone; places of both nodes, m.
+    """
     first, second, turn, _, ends = work
     for k in range(3):
         _axis(s, rotation, j, 0, k, first[k])
@@ -166,7 +203,19 @@ def pass_joint(s, position, rotation, j, work):  # type: ignore[no-untyped-def]
 
 @jit()
 def joint_coordinates(s, position, rotation, values):  # type: ignore[no-untyped-def]
-    """Joint coordinates of p poses of the bodies, turns counted on from those in `values`."""
+    """Joint coordinates of p poses of the bodies, turns counted on from those in `values`.
+
+    Parameters
+    ----------
+    s : RowSystem
+        The linkage.
+    position : (p, b, 3)
+        Reference points of the bodies, m.
+    rotation : (p, b, 3, 3)
+        Of the bodies from home.
+    values : (p, c)
+        Coordinates before, overwritten by those now, m and rad.
+    """
     work = (np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.zeros(3), np.empty((2, 3)))
     first, _, turn, log, ends = work
     for p in range(position.shape[0]):
@@ -201,7 +250,23 @@ def joint_coordinates(s, position, rotation, values):  # type: ignore[no-untyped
 
 @jit()
 def fill_row(s, r, nodes, frames, references, out):  # type: ignore[no-untyped-def]
-    """One held row on (v / L, ω) of all bodies, each about its reference point, in `out`."""
+    """One held row on (v / L, ω) of all bodies, each about its reference point, in `out`.
+
+    Parameters
+    ----------
+    s : RowSystem
+        The linkage.
+    r : int
+        Which of its held rows.
+    nodes : (n, 3)
+        Places of the nodes, m.
+    frames : (j, 3, 3)
+        Joint axes as columns.
+    references : (b, 3)
+        Reference points of the bodies, m.
+    out : (6 b,)
+        Filled, no unit.
+    """
     out[:] = 0.0
     j, d = s.joint[r], s.direction[r]
     k = d % 3
@@ -259,6 +324,17 @@ def eliminate(a, n, order, where):  # type: ignore[no-untyped-def]
 
     Row pivoting; what is zero is passed over. The solution of unknown k stands in row `order[k]`.
     Returns the sign of the determinant, 0 where there is none.
+
+    Parameters
+    ----------
+    a : (m, c)
+        Coefficients in n columns, then right sides, in any unit; overwritten.
+    n : int
+        Number of equations, at most m.
+    order : (n,) of int
+        Filled.
+    where : (c,) of int
+        Overwritten.
     """
     sign = 1.0
     for i in range(n):

@@ -38,7 +38,8 @@ class ConstraintRows:
     direction : (r,)
         Index into `DIRECTIONS`.
     axes : (..., r, 6)
-        The direction e in global axes, translation then rotation: (a, 0) or (0, a).
+        The direction e in global axes, translation then rotation: (a, 0) or (0, a), a a unit
+        vector.
     tied : Tied or None
         What the rows of coordinates that follow others have beside that.
     """
@@ -82,7 +83,7 @@ class ConstraintRows:
         Parameters
         ----------
         references : (..., b, 3), optional
-            Default: `body_references`.
+            m. Default: `body_references`.
 
         Returns
         -------
@@ -188,7 +189,17 @@ def _directions(frames: Array, joint: NDArray[np.intp], direction: NDArray[np.in
 def row_selection(
     shape: tuple[int, ...], joint: NDArray[np.intp], direction: NDArray[np.intp]
 ) -> tuple[NDArray[np.bool_], NDArray[np.intp]]:
-    """Joint directions as a mask, and where each of them stands among the rows of that mask."""
+    """Joint directions as a mask (j, 6), and where each of them stands among its rows, (m,).
+
+    Parameters
+    ----------
+    shape : (int, int)
+        Of the mask: number of joints, and 6.
+    joint : (m,) of int
+        Number of the joint of each direction.
+    direction : (m,) of int
+        Index into `DIRECTIONS`.
+    """
     select = np.zeros(shape, dtype=bool)
     select[joint, direction] = True
     rank = np.cumsum(select.ravel()) - 1
@@ -197,6 +208,13 @@ def row_selection(
 
 def body_references(linkage: Linkage, placement: Placement) -> Array:
     """Reference point of every moving body: the tool on its body, else the body's first node.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With b moving bodies.
+    placement : Placement
+        (...); any batch axes.
 
     Returns
     -------
@@ -216,13 +234,24 @@ def characteristic_length(placement: Placement) -> float:
 
     The largest distance of a node from the centre of all nodes, which no turn of the machine
     changes; the median over the reachable poses.
+
+    Parameters
+    ----------
+    placement : Placement
+        (...); any batch axes.
     """
     sizes = characteristic_lengths(placement)[placement.reachable]
     return float(np.median(sizes)) if sizes.size else 1.0
 
 
 def characteristic_lengths(placement: Placement) -> Array:
-    """`characteristic_length` of every pose by itself, (...), m: no pose sees its neighbours."""
+    """`characteristic_length` of every pose by itself, (...), m: no pose sees its neighbours.
+
+    Parameters
+    ----------
+    placement : Placement
+        (...); any batch axes.
+    """
     points = placement.positions.real
     reach = _reach(points)
     far = _marks(points)

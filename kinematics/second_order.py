@@ -30,13 +30,13 @@ def lost_twists(
     passive : ConstraintRows
         At p poses.
     null : (p, n, m)
-        Motions that the passive rows allow, on (v, L ω) of all bodies; columns may be zero.
+        Motions that the passive rows allow, on (v, L ω) of all bodies, m; columns may be zero.
     standing : (p, n, k)
-        Those of them in which the tool stands; columns may be zero.
+        Those of them in which the tool stands, m; columns may be zero.
     body : int
         The tool's.
     columns : (p, n)
-        Factors 1 and L of the bodies' twists.
+        Factors 1 and L of the bodies' twists, no unit and m.
 
     Returns
     -------
@@ -62,6 +62,14 @@ def lost_twists(
 
 
 def drift(passive: ConstraintRows, twists: Array) -> Array:
-    """Ȧ(q) q of every row for twists (p, n) of the bodies about their references, (p, r)."""
+    """Ȧ(q) q of every row for twists (p, n) of the bodies about their references, (p, r).
+
+    Parameters
+    ----------
+    passive : ConstraintRows
+        At p poses.
+    twists : (p, n)
+        Of the bodies about their references, m and rad per unit of the motion.
+    """
     references = body_references(passive.linkage, passive.placement)
     return np.asarray(np.einsum("prn,pn->pr", row_rates(passive, references, twists), twists))

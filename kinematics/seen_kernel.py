@@ -36,8 +36,24 @@ def _equations(s, d, wanted, placed, seen, a):  # type: ignore[no-untyped-def]
 def solve_seen(s, d, wanted, nodes, frames, references, found):  # type: ignore[no-untyped-def]
     """Motions of tool and drives at p poses; largest motion of a body, and what others leave open.
 
-    `d` is the linkage with the drives' rows in place of the held ones. `wanted`: rows that are
-    solved for, the others, `made` and `idle` of `SeenMotions` in the order of columns.
+    Parameters
+    ----------
+    s : RowSystem
+        The linkage.
+    d : RowSystem
+        The same with the drives' rows in place of the held ones.
+    wanted : (r,) and (k,) of int, (f, 6 + a) and (i, 6 b)
+        Rows that are solved for, the others, `made` and `idle` of `SeenMotions` in the order of
+        columns.
+    nodes : (p, n, 3)
+        Places of the nodes, m.
+    frames : (p, j, 3, 3)
+        Joint axes as columns.
+    references : (p, b, 3)
+        Reference points of the bodies, m.
+    found : (p, 6 + a, f), (p,) and (p,)
+        Filled: the motions, over L and rad; the largest motion of a body, infinite at a singular
+        pose; how far other rows are from holding.
     """
     _, others, made, _ = wanted
     motions, large, left = found

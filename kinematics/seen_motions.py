@@ -61,7 +61,7 @@ class SeenMotions:
     made : (f, 6 + a)
         Motions of tool and drives at that pose, (v, L ω) and m/s or L rad/s.
     idle : (i, 6 b)
-        Motions of bodies in which neither moves there.
+        Motions of bodies in which neither moves there, m/s and rad/s of any size.
     """
 
     linkage: Linkage
@@ -76,6 +76,13 @@ class SeenMotions:
     @classmethod
     def at(cls, linkage: Linkage, placement: Placement) -> SeenMotions:
         """Set up at one pose, at which the machine is not singular.
+
+        Parameters
+        ----------
+        linkage : Linkage
+            With a tool that moves and drives.
+        placement : Placement
+            One pose, without batch axes.
 
         Raises
         ------

@@ -37,11 +37,11 @@ class Touch:
     Parameters
     ----------
     size : (k,)
-        Largest good sizes.
+        Largest good sizes, no unit.
     rays : (k, d)
-        To the border of the shape of size one.
+        To the border of the shape of size one, m and rad.
     points : (k, d)
-        Beside the border, on its bad side.
+        Beside the border, on its bad side, m and rad.
     """
 
     size: Array
@@ -58,7 +58,7 @@ class ShapeSearch:
     margin : callable
     shape : InscribedShape
     low, high : (d,)
-        Ends of the grid.
+        Ends of the grid, m and rad.
     accuracy : float
         Of the size, as a share of it.
     """
@@ -70,13 +70,29 @@ class ShapeSearch:
     accuracy: float
 
     def within(self, centre: Array) -> float:
-        """Size that the grid allows about a centre."""
+        """Size that the grid allows about a centre.
+
+        Parameters
+        ----------
+        centre : (d,)
+            m and rad.
+        """
         reach = self.shape.support(np.eye(len(centre)))
         room = np.minimum(self.high - centre, centre - self.low)
         return float((room / reach).min())
 
     def touched(self, centre: Array, most: float, accuracy: float) -> Touch:
-        """Nearest places of the border up to a size; none where all is good."""
+        """Nearest places of the border up to a size; none where all is good.
+
+        Parameters
+        ----------
+        centre : (d,)
+            m and rad.
+        most : float
+            The size, no unit.
+        accuracy : float
+            Of sizes, as a share of them.
+        """
         d = len(centre)
         rays = self.shape.border(RAYS[d])
         steps = np.arange(1, ALONG + 1) / ALONG * most
@@ -188,7 +204,15 @@ class ShapeSearch:
         return low, high
 
     def slopes(self, centre: Array, touch: Touch) -> Array:
-        """Normals of the border where it is touched, to the bad side, (k, d)."""
+        """Normals of the border where it is touched, to the bad side, (k, d).
+
+        Parameters
+        ----------
+        centre : (d,)
+            m and rad.
+        touch : Touch
+            Its k places, as `touched` gives them for this centre.
+        """
         k, d = touch.rays.shape
         beside = SLOPE * np.concatenate([np.eye(d), -np.eye(d)])
         beside = (beside * self.shape.half) @ self.shape.turn.T
@@ -206,7 +230,21 @@ class ShapeSearch:
     def stepped(
         self, normals: Array, points: Array, centre: Array, size: float, trust: float
     ) -> tuple[Array, float]:
-        """Centre near one, and the size there, that a flat border allows."""
+        """Centre near one, (d,), and the size there, that a flat border allows.
+
+        Parameters
+        ----------
+        normals : (m, d)
+            Of the pieces of border, to the bad side, of any length, in any unit.
+        points : (m, d)
+            One of each piece, m and rad.
+        centre : (d,)
+            m and rad.
+        size : float
+            Of the shape about it, no unit.
+        trust : float
+            How far the centre may move, as a share of the shape.
+        """
         from scipy.optimize import linprog  # noqa: PLC0415 - only this search needs it
 
         d = len(centre)
@@ -227,7 +265,15 @@ class ShapeSearch:
     def climbed(
         self, start: Array, final: float | None = None
     ) -> tuple[Array, float, Touch, float]:
-        """Centre and size to which steps from a start lead, where it touches, and the bound."""
+        """Centre (d,) and size to which steps from a start lead, where it touches, and the bound.
+
+        Parameters
+        ----------
+        start : (d,)
+            Centre to begin at, m and rad.
+        final : float, optional
+            Accuracy of the size at the end, as a share of it; default `accuracy`.
+        """
         centre, most = start, self.within(start)
         final = self.accuracy if final is None else final
         # the first steps are long: where they end need not be known to the last digit

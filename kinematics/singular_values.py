@@ -30,6 +30,7 @@ def singular_values(matrices: Array) -> Array:
     Parameters
     ----------
     matrices : (..., m, n)
+        All entries of one unit, whichever.
 
     Returns
     -------

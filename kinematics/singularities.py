@@ -77,14 +77,14 @@ class Distance:
         L, m: how much translation counts as much as one radian, of the tool and of a drive that
         turns.
     parallel : (...)
-        Least singular value of the inverse Jacobian: rates of the drives in that motion of the
-        tool of size one, (v, L ω), which moves them least. 0 at an actuator singularity (type 2).
+        No unit. Least singular value of the inverse Jacobian: rates of the drives in that motion of
+        the tool of size one, (v, L ω), which moves them least. 0 at type 2, of actuators.
     serial : (...)
-        Least singular value of the Jacobian: motion of the tool, of those that rates of size one
-        make, which is least. 0 at an end-effector singularity (type 1).
+        No unit. Least singular value of the Jacobian: motion of the tool, of those that rates of
+        size one make, which is least. 0 at type 1, of the end-effector.
     passive : (...)
-        Least singular value of the passive rows, each of size one on (v, L ω) of the bodies. 0 at
-        a singularity of the configuration space.
+        No unit. Least singular value of the passive rows, each of size one on (v, L ω) of the
+        bodies. 0 at a singularity of the configuration space.
     """
 
     length: float
@@ -175,7 +175,7 @@ def singularities_on_line(
     family : PoseFamily
         Of one parameter, or of k that go along a straight line.
     values : (n,) or (n, k)
-        Poses along the line, so near to each other that between two of them there is one
+        Poses along the line, m and rad, so near to each other that between two of them there is one
         singularity of a kind at most.
     progress : callable, optional
 
@@ -237,6 +237,17 @@ def local_minima(
 
     Those beside a change of sign are left out, since that has been followed already, and those
     beside the end of reach, towards which values fall.
+
+    Parameters
+    ----------
+    looked : Looked
+        p poses of a net.
+    edges : (e, 2) of int
+        Pairs of neighbours.
+    changed : (c, 2) of int
+        Edges on which a minor changes its sign.
+    part : Part
+        Whose singular values.
     """
     if part == "passive" and looked.space.known.rank == 0:
         return np.zeros(0, dtype=np.intp)
@@ -253,7 +264,15 @@ def local_minima(
 
 
 def singular_poses(family: PoseFamily, refined: Refined) -> list[Singularity]:
-    """What refined poses are, and what is lost there."""
+    """What refined poses are, and what is lost there.
+
+    Parameters
+    ----------
+    family : PoseFamily
+        Whose ranks are known.
+    refined : Refined
+        Its poses on singularities; those that are none are left out.
+    """
     found = kinds(refined.space)
     result = []
     for i, kind in enumerate(found):
@@ -264,7 +283,15 @@ def singular_poses(family: PoseFamily, refined: Refined) -> list[Singularity]:
 
 
 def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array, tuple[str, ...]]:
-    """Of edges with one end in reach: parameters there, of the other, and why that is not."""
+    """Of edges with one end in reach: parameters there and beyond, (e, k), and why that is not.
+
+    Parameters
+    ----------
+    looked : Looked
+        p poses of a net.
+    edges : (e, 2) of int
+        One end of each in reach.
+    """
     inside = np.where(looked.reach[edges[:, 0]], edges[:, 0], edges[:, 1])
     outside = edges.sum(axis=1) - inside
     reasons = tuple(looked.reasons[k] for k in looked.reason[outside])
@@ -272,7 +299,15 @@ def ordered_ends(looked: Looked, edges: NDArray[np.intp]) -> tuple[Array, Array,
 
 
 def end_kinds(family: PoseFamily, ends: ReachEnds) -> list[Kind]:
-    """Kinds of ends of reach, (e,)."""
+    """Kinds of ends of reach, (e,).
+
+    Parameters
+    ----------
+    family : PoseFamily
+        Whose ranks are known.
+    ends : ReachEnds
+        e of them.
+    """
     space = tool_drive_space(family.linkage, ends.placement, family.length, family.known)
     found = list(kinds(space))
     section = family.section
@@ -289,7 +324,15 @@ def end_kinds(family: PoseFamily, ends: ReachEnds) -> list[Kind]:
 
 
 def ends_of_reach(family: PoseFamily, ends: ReachEnds) -> list[Singularity]:
-    """Ends of reach, as singularities."""
+    """Ends of reach, as singularities.
+
+    Parameters
+    ----------
+    family : PoseFamily
+        Whose ranks are known.
+    ends : ReachEnds
+        e of them.
+    """
     return [
         singular_pose(family, ends.parameters[i], kind, ends.placement[i : i + 1], ends.reasons[i])
         for i, kind in enumerate(end_kinds(family, ends))
@@ -297,7 +340,15 @@ def ends_of_reach(family: PoseFamily, ends: ReachEnds) -> list[Singularity]:
 
 
 def before_the_end(family: PoseFamily, inside: Array, end: Array) -> list[Singularity]:
-    """Singular poses between the last pose that was looked at and the end of reach, (e, k) each."""
+    """Singular poses between the last pose that was looked at and the end of reach, (e, k) each.
+
+    Parameters
+    ----------
+    family : PoseFamily
+        Whose ranks are known.
+    inside, end : (e, k)
+        Parameters of both, m and rad.
+    """
     count = len(inside)
     # at the end itself the motion cannot be taken any more
     last = inside + (1.0 - BEFORE) * (end - inside)
@@ -316,7 +367,20 @@ def before_the_end(family: PoseFamily, inside: Array, end: Array) -> list[Singul
 def singular_pose(
     family: PoseFamily, parameters: Array, kind: Kind, placement: Placement, reason: str = ""
 ) -> Singularity:
-    """One singular pose, with what is lost there."""
+    """One singular pose, with what is lost there.
+
+    Parameters
+    ----------
+    family : PoseFamily
+        Whose ranks are known, else nothing is named as lost.
+    parameters : (k,)
+        Of the pose, m and rad.
+    kind : Kind
+        What it is.
+    placement : Placement
+    reason : str
+        Of an end of reach.
+    """
     known = family.known
     lost = (
         None

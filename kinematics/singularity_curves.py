@@ -91,7 +91,7 @@ class SingularPlane:
         The grid, m and rad.
     reach : (n, m) of bool
     parallel, serial : (n, m)
-        Distances of the poses of the grid as in `Distance`; NaN out of reach.
+        Distances of the poses of the grid as in `Distance`, no unit; NaN out of reach.
     curves : tuple of SingularCurve
         Nearest to home first.
     points : tuple of Singularity
@@ -140,9 +140,9 @@ def singularities_in_plane(
     family : PoseFamily
         Of two parameters.
     axes : ((n,), (m,))
-        Increasing.
+        Values of both parameters, m and rad, increasing.
     home : (2,)
-        Nearest to what is told first.
+        What is nearest to it comes first, m and rad.
     progress : callable, optional
 
     Raises

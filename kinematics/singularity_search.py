@@ -40,6 +40,7 @@ class Refined:
     Parameters
     ----------
     parameters : (m, k)
+        m or rad.
     placement : Placement
     space : ToolDriveSpace
     index : (m,)
@@ -58,28 +59,70 @@ class Refined:
 
 
 def minor(space: ToolDriveSpace, part: Part) -> Array:
-    """Signed minor of the tool's or the drives' part, (p,)."""
+    """Signed minor of the tool's or the drives' part, (p,).
+
+    Parameters
+    ----------
+    space : ToolDriveSpace
+        At p poses.
+    part : Part
+        "drives" or "tool".
+    """
     return space.drive_minor() if part == "drives" else space.tool_minor()
 
 
 def has_minor(space: ToolDriveSpace, part: Part) -> bool:
-    """Whether singular poses of a part are where one determinant changes its sign."""
+    """Whether singular poses of a part are where one determinant changes its sign.
+
+    Parameters
+    ----------
+    space : ToolDriveSpace
+        Of the machine, at any poses.
+    part : Part
+        "drives", "tool" or "passive".
+    """
     return {"drives": space.square, "tool": space.square_tool, "passive": False}[part]
 
 
 def least(space: ToolDriveSpace, part: Part) -> Array:
-    """The singular value that is zero at singular poses, (p,)."""
+    """The singular value that is zero at singular poses, (p,).
+
+    Parameters
+    ----------
+    space : ToolDriveSpace
+        At p poses.
+    part : Part
+        "drives", "tool" or "passive".
+    """
     return {"drives": space.parallel, "tool": space.serial, "passive": space.passive}[part]
 
 
 def edge_senses(looked: Looked, edges: Indices) -> Array:
-    """`sense` of the two ends' spaces on edges (e, 2) whose ends are both reached, (e,)."""
+    """`sense` of the spaces at both ends of edges, (e,).
+
+    Parameters
+    ----------
+    looked : Looked
+        p poses of a net.
+    edges : (e, 2) of int
+        Pairs of poses that are both reached.
+    """
     a, b = looked.index[edges].T
     return looked.space[a].sense(looked.space[b])
 
 
 def sign_changes(looked: Looked, edges: Indices, part: Part) -> Mask:
-    """Edges, both ends of which are reached, on which a minor changes its sign, (e,)."""
+    """Edges, both ends of which are reached, on which a minor changes its sign, (e,).
+
+    Parameters
+    ----------
+    looked : Looked
+        p poses of a net.
+    edges : (e, 2) of int
+        Pairs of poses.
+    part : Part
+        Whose minor; "passive" has none, and no changes.
+    """
     if not has_minor(looked.space, part) or not len(edges):
         return np.zeros(len(edges), dtype=bool)
     values = minor(looked.space, part)[looked.index[edges]]
@@ -94,6 +137,9 @@ def refine_zeros(family: PoseFamily, start: Array, end: Array, part: Part) -> Re
     family : PoseFamily
         Whose ranks are known.
     start, end : (e, k)
+        Parameters of both ends of the edges, m and rad.
+    part : Part
+        "drives" or "tool".
 
     Returns
     -------
@@ -135,8 +181,9 @@ def refine_least(family: PoseFamily, start: Array, spacing: Array, part: Part) -
     ----------
     family : PoseFamily
     start : (m, k)
+        Parameters, m and rad.
     spacing : (k,)
-        Of the net; a pose that goes further than one and a half of it is given up.
+        Of the net, m and rad; a pose that goes further than one and a half of it is given up.
     part : Part
     """
     at = start.copy()

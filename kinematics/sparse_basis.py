@@ -1,4 +1,4 @@
-"""A basis with many zeros, so that parts can be told apart."""
+"""A basis with many zeros, so that parts can be distinguished."""
 
 from __future__ import annotations
 
@@ -11,9 +11,14 @@ Array = NDArray[Any]
 
 
 def sparse_basis(vectors: Array) -> Array:
-    """Another basis of the columns' span with many zeros, so that parts can be told apart.
+    """Another basis (n, k) of the columns' span with many zeros: parts can be distinguished.
 
     Gauss-Jordan elimination with complete pivoting; each vector's largest entry is one.
+
+    Parameters
+    ----------
+    vectors : (n, k)
+        Independent columns, all entries of one unit, whichever.
     """
     rows = np.array(vectors.T, dtype=float)
     for k in range(len(rows)):

@@ -31,11 +31,11 @@ class Spins:
     body : (s,)
         Indices of the bodies.
     line : (s, 3)
-        Their lines at home.
+        Their lines at home, unit vectors.
     column : (c,)
         Turns of joints about z among the joint coordinates.
     axis : (c, 3)
-        Of those joints at home.
+        Of those joints at home, unit vectors.
     between : (c, 2)
         Bodies of those joints, −1 for the ground.
     """
@@ -51,6 +51,13 @@ class Spins:
         """Those of a linkage; None where no coordinate follows another or nothing spins.
 
         The body whose pose is asked for is none of them: its turn is counted by its pose.
+
+        Parameters
+        ----------
+        joints : JointMotion
+            Of the linkage.
+        asked : int
+            Number of the body whose pose is asked for; −1 for none.
         """
         linkage = joints.linkage
         if not linkage.ties:
@@ -78,7 +85,15 @@ class Spins:
         )
 
     def others(self, bodies: BodyPoses, change: Array) -> Array:
-        """A change of the bodies (p, b, 6) without their spins."""
+        """A change of the bodies without their spins, (p, b, 6).
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
+        change : (p, b, 6)
+            Translation, in any unit, then rotation vector, rad.
+        """
         line = np.einsum("psij,sj->psi", bodies.rotation[:, self.body], self.line)
         left = change.copy()
         turn = np.einsum("psi,psi->ps", line, change[:, self.body, 3:])
@@ -86,7 +101,15 @@ class Spins:
         return left
 
     def foreseen(self, bodies: BodyPoses, change: Array) -> Array:
-        """By how much a change of the bodies (p, b, 6) turns the counted joints, (p, c)."""
+        """By how much a change of the bodies turns the counted joints, (p, c), rad.
+
+        Parameters
+        ----------
+        bodies : BodyPoses
+            At p poses.
+        change : (p, b, 6)
+            Translation, in any unit, then rotation vector, rad.
+        """
         still = np.zeros((len(change), 1, 3))
         turn = np.concatenate([change[..., 3:], still], axis=1)
         same = np.broadcast_to(np.eye(3), (len(change), 1, 3, 3))

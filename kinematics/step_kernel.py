@@ -121,9 +121,28 @@ def _apply(s, a, order, position, rotation):  # type: ignore[no-untyped-def]
 def newton_step(s, asks, rows, rules, position, rotation, good, error):  # type: ignore[no-untyped-def]
     """Newton's method from each of p poses of the bodies, which are moved in place.
 
-    `asks`: whether a pose, some directions or nothing is asked of the tool; which directions; its
-    rotation at home; their targets; the pose's place and rotation. `rules`: as in `leg_newton`, and
-    how open rows may stay that are not solved for.
+    Parameters
+    ----------
+    s : RowSystem
+        The linkage.
+    asks : tuple
+        What is asked of the tool: 0 for nothing, `POSE` or `TASK`; which directions (t,); its
+        rotation at home (3, 3); their targets (p, t), m and rad; the pose's place (p, 3), m, and
+        rotation (p, 3, 3).
+    rows : (p, 6 b) of int
+        Rows that are solved for: held ones, then what is asked.
+    rules : tuple
+        How much a correction must shrink and may be at most, when gaps count as closed and as
+        rounding, the correction before which they are believed, the most corrections, how open rows
+        may stay that are not solved for; lengths over L, rad.
+    position : (p, b, 3)
+        Reference points of the bodies, m; moved.
+    rotation : (p, b, 3, 3)
+        Of the bodies from home; moved.
+    good : (p,) of bool
+        Set where it converges on the same branch; false before.
+    error : (p,)
+        Filled: largest gap, over L or rad.
     """
     shrink, farthest, closed, rounding, believed, most, otherwise = rules
     kind, asked = asks[0], asks[1]

@@ -30,7 +30,13 @@ class TaskSurface(Protocol):
         """Directions of the tool that the surface gives."""
 
     def task(self, points: Array) -> tuple[dict[str, Array], Array]:
-        """Coordinates of points (m, 2), (m,) each, m and rad, and their derivatives (m, t, 2)."""
+        """Task coordinates and their derivatives: (m,) each, m and rad, and (m, t, 2).
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the parameters, m or rad.
+        """
 
 
 @dataclass(frozen=True)
@@ -69,7 +75,13 @@ class Plane:
         return self.parameters
 
     def task(self, points: Array) -> tuple[dict[str, Array], Array]:
-        """The two coordinates."""
+        """The two coordinates, (m,) each, and their derivatives, (m, 2, 2).
+
+        Parameters
+        ----------
+        points : (m, 2)
+            Values of the parameters, m or rad.
+        """
         rates = np.broadcast_to(np.eye(2), (len(points), 2, 2))
         return {name: points[:, k] for k, name in enumerate(self.parameters)}, rates
 
@@ -101,7 +113,13 @@ class Dome:
         return ("x", "y", "z") if self.orientation == "vertical" else ("x", "y", "z", "rx", "ry")
 
     def task(self, points: Array) -> tuple[dict[str, Array], Array]:
-        """Coordinates x, y, z and, for the normal orientation, rx and ry."""
+        """Coordinates x, y, z, if normal rx and ry, (m,) each, and their derivatives (m, t, 2).
+
+        Parameters
+        ----------
+        points : (m, 2)
+            x and y, m.
+        """
         z, slope, bend = self.height(points)
         found = {"x": points[:, 0], "y": points[:, 1], "z": z}
         flat = np.broadcast_to(np.eye(2), (len(points), 2, 2))

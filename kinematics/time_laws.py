@@ -29,7 +29,7 @@ class TimeLaw:
     share : callable
         From u, 0 to 1, (p,), to s, s′ and s″, (3, p).
     breaks : tuple of float
-        Where a higher derivative jumps, 0 and 1 among them.
+        Shares of the time where a higher derivative jumps, 0 and 1 among them.
     """
 
     share: Callable[[Array], Array]

@@ -1,4 +1,4 @@
-"""Motions of a mechanism as its tool and its drives see them: one space a pose, with one sense."""
+"""Motions of a mechanism as its tool and drives see them: one space per pose, with one sense."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Freedoms:
     tool : int
         Independent motions of the tool.
     task : tuple of int
-        Directions of the tool that tell its motions apart, as many as `tool`.
+        Directions of the tool that distinguish its motions, as many as `tool`.
     """
 
     rank: int
@@ -63,9 +63,10 @@ class ToolDriveSpace:
     Parameters
     ----------
     basis : (p, 6 + a, f)
+        Orthonormal columns.
     passive : (p,)
-        Least singular value of the passive rows that counts, each row of unit size: zero where
-        the rows lose rank, at a singularity of the configuration space.
+        Least singular value of the passive rows that counts, each row of unit size, no unit: zero
+        where the rows lose rank, at a singularity of the configuration space.
     length : float
         L, m.
     driven : tuple of (joint, direction)
@@ -158,11 +159,22 @@ class ToolDriveSpace:
 
         Its sign says whether both bases have one sense, its size how near the spaces are: 1 for
         the same space, 0 for spaces of which one holds a motion at right angles to the other.
+
+        Parameters
+        ----------
+        other : ToolDriveSpace
+            Of the same machine, at as many poses or one.
         """
         return np.asarray(np.linalg.det(np.swapaxes(self.basis, -1, -2) @ other.basis))
 
     def aligned(self, other: ToolDriveSpace) -> ToolDriveSpace:
-        """The same spaces in the basis that is nearest to another's: smooth along a way."""
+        """The same spaces in the basis that is nearest to another's: smooth along a way.
+
+        Parameters
+        ----------
+        other : ToolDriveSpace
+            Of the same machine, at as many poses or one.
+        """
         u, _, v = np.linalg.svd(np.swapaxes(self.basis, -1, -2) @ other.basis)
         return ToolDriveSpace(
             self.basis @ (u @ v), self.passive, self.length, self.driven, self.known
@@ -214,7 +226,17 @@ def tool_drive_space(
 
 
 def passive_matrix(linkage: Linkage, placement: Placement, length: float) -> Array:
-    """Rows of the passive joints on (v, L ω) of all bodies, each of unit size, (p, r, 6 b)."""
+    """Rows of the passive joints on (v, L ω) of all bodies, each of unit size, (p, r, 6 b).
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With b moving bodies.
+    placement : Placement
+        At p poses.
+    length : float
+        L, m.
+    """
     select = linkage.elastic_or_locked() & ~linkage.driven_mask()
     rows = constraint_rows(linkage, placement, select).on_bodies() / _columns(linkage, length)
     norm = np.linalg.norm(rows, axis=-1, keepdims=True)
@@ -222,7 +244,17 @@ def passive_matrix(linkage: Linkage, placement: Placement, length: float) -> Arr
 
 
 def drive_matrix(linkage: Linkage, placement: Placement, length: float) -> Array:
-    """Rates of the drives, m/s or L rad/s, by (v, L ω) of all bodies, (p, a, 6 b)."""
+    """Rates of the drives, m/s or L rad/s, by (v, L ω) of all bodies, (p, a, 6 b).
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With b moving bodies and a driven directions.
+    placement : Placement
+        At p poses.
+    length : float
+        L, m.
+    """
     rows = constraint_rows(linkage, placement, linkage.driven_mask())
     size = np.where(rows.direction < 3, 1.0, length)[:, None]
     return np.asarray(size * rows.on_bodies() / _columns(linkage, length))
@@ -289,6 +321,13 @@ def _ranks(parts: list[_Rows], drives: int) -> Freedoms:
 
 def check_driven(linkage: Linkage, length: ArrayLike | None = None) -> None:
     """Check that a linkage has a tool that can move, drives, and a length that is one.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool.
+    length : (), optional
+        L, m.
 
     Raises
     ------

@@ -54,7 +54,13 @@ class Trajectory:
         return float(self.times[-1] - self.times[0])
 
     def at(self, times: ArrayLike) -> tuple[Array, Array, Array]:
-        """Values, rates and second derivatives at times, (p, t) each."""
+        """Values, rates and second derivatives at times, (p, t) each, m and rad over s and s².
+
+        Parameters
+        ----------
+        times : (p,) or ()
+            s.
+        """
         found = self.curve(np.atleast_1d(np.asarray(times, dtype=float)))
         return found[0], found[1], found[2]
 
@@ -77,7 +83,13 @@ class Trajectory:
 
 
 def lobatto(count: int) -> tuple[Array, Array]:
-    """Nodes and weights of the Gauss-Lobatto rule on −1 to 1 (Abramowitz and Stegun 25.4.32)."""
+    """Nodes and weights (n,) of the Gauss-Lobatto rule on −1 to 1 (Abramowitz and Stegun 25.4.32).
+
+    Parameters
+    ----------
+    count : int
+        Number of nodes, both ends among them.
+    """
     legendre = np.polynomial.legendre.Legendre.basis(count - 1)
     inner = np.sort(legendre.deriv().roots().real)
     nodes = np.concatenate([[-1.0], inner, [1.0]])
@@ -104,7 +116,7 @@ def sampled(
     values : (k, t)
         m and rad, of rotation vectors and turns without jumps by whole turns.
     rates, changes : (k, t), optional
-        First and second derivatives, both or none.
+        First and second derivatives, m and rad over s and s², both or none.
 
     Raises
     ------
@@ -170,8 +182,8 @@ class Roughness:
     time : float
         s.
     share : float
-        By which accelerations from all samples and from every other differ there, over the
-        largest.
+        Share of the largest acceleration by which accelerations from all samples and from every
+        other differ there.
     """
 
     label: str
@@ -193,11 +205,20 @@ def roughness(
     The second derivative of the spline through all samples, beside that through every other
     one: on a smooth path that is sampled densely enough they agree.
 
+    Parameters
+    ----------
+    coordinates : Coordinates
+        t of them.
+    times : (k,)
+        s, ascending.
+    values : (k, t)
+        m and rad.
+
     Returns
     -------
     tuple of Roughness
         One for each coordinate whose accelerations differ by more than `ROUGH`; empty for fewer
-        than twelve samples, which do not tell.
+        than twelve samples, which are too few.
     """
     t, x = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
     if len(t) < 2 * QUINTIC:

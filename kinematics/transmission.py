@@ -101,7 +101,7 @@ def velocity_ellipsoids(
     Raises
     ------
     ModelError
-        Weights that are not positive or not one a drive.
+        Weights that are not positive or not one per drive.
     """
     tool, drives = _parts(space, weights)
     return _ellipsoids(space.length, part, others, tool, drives)
@@ -116,7 +116,7 @@ def amplifications(tool: Array, drives: Array, used: int) -> Array:
     Parameters
     ----------
     tool : (p, 6, f)
-        (v, L ω)
+        (v, L ω), m/s.
     drives : (p, a, f)
         m/s and L rad/s.
     used : int

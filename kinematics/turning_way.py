@@ -43,7 +43,7 @@ class Turns:
     Parameters
     ----------
     share : (e,)
-        Of the given direction, from the start.
+        Share of the given direction, from the start.
     placement : Placement
     found : (e,) of bool
         The others left the way or did not turn.

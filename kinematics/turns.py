@@ -17,7 +17,13 @@ SMALL_TURN = 1e-4
 
 
 def rotation_matrix(vector: Array) -> Array:
-    """Rotation about a vector by its length in rad, (..., 3) to (..., 3, 3) (Rodrigues)."""
+    """Rotation about a vector by its length in rad, (..., 3) to (..., 3, 3) (Rodrigues).
+
+    Parameters
+    ----------
+    vector : (..., 3)
+        rad.
+    """
     turn = np.linalg.norm(vector, axis=-1)[..., None, None]
     k = cross_matrix(vector)
     # sin t / t and (1 − cos t) / t², finite at zero
@@ -26,7 +32,13 @@ def rotation_matrix(vector: Array) -> Array:
 
 
 def rotation_vector(matrix: Array) -> Array:
-    """Axis times angle, 0 to π, of rotations, (..., 3, 3) to (..., 3)."""
+    """Axis times angle, 0 to π, of rotations, (..., 3, 3) to (..., 3).
+
+    Parameters
+    ----------
+    matrix : (..., 3, 3)
+        Rotation matrices.
+    """
     flat = np.reshape(matrix, (-1, 3, 3))
     if np.abs(flat - np.eye(3)).max(initial=0.0) < SMALL_TURN:
         # sin t times the axis; of arcsin t the two terms that doubles can tell
@@ -45,6 +57,11 @@ def vector_rates(vector: Array) -> Array:
 
     ω is in the axes in which the rotation acts, R' = [ω]× R. Inverse of the left Jacobian of
     SO(3): 1 − [v]×/2 + (1/t² − (1 + cos t)/(2 t sin t)) [v]×², t = |v| (Solà et al. 2018, eq. 146).
+
+    Parameters
+    ----------
+    vector : (..., 3)
+        rad, shorter than a whole turn.
     """
     t = np.linalg.norm(vector, axis=-1)[..., None, None]
     k = cross_matrix(vector)
@@ -60,6 +77,13 @@ def velocity_rates(vector: Array, rate: Array) -> Array:
 
     That matrix is the left Jacobian of SO(3), 1 + b [v]× + c [v]×², b = (1 − cos t)/t²,
     c = (t − sin t)/t³, t = |v| (Solà et al. 2018, eq. 145).
+
+    Parameters
+    ----------
+    vector : (..., 3)
+        rad.
+    rate : (..., 3)
+        Its time derivative, rad/s.
     """
     t = np.linalg.norm(vector, axis=-1)
     small = t < 1.0

@@ -20,8 +20,7 @@ from strutwork.kinematics.turns import rotation_matrix, rotation_vector, vector_
 Array = NDArray[Any]
 Indices = NDArray[np.intp]
 
-#: Each correction of a step is at most this share of the one before (Deuflhard 2011: 1/4 to 1/2);
-#: from a few lengths of rounding on, nothing is asked.
+#: Largest share of a correction in the one before (Deuflhard 2011: 1/4 to 1/2), but for rounding.
 SHRINK = 0.3
 #: Largest first correction of a step: turn, rad, and shift as a share of the machine's size.
 FARTHEST = 0.6
@@ -134,7 +133,12 @@ class Walk:
         return QuickStep.of(self.joints, self.rotation, self.length, rules)
 
     def go(self, poses: Indices) -> None:
-        """Walk until each of some poses has arrived or its way has ended."""
+        """Walk until each of some poses has arrived or its way has ended.
+
+        Parameters
+        ----------
+        poses : (k,) of int
+        """
         for _ in range(MOST):
             at = poses[self.active[poses]]
             if not at.size:
@@ -231,7 +235,12 @@ class Walk:
     ) -> tuple[Array, Array]:
         """What is open, lengths over L, and its rates by (v / L, ω), (k, r) and (k, r, 6b).
 
-        Turns are counted on from those of `near`, (k, c), by default of the last step.
+        Parameters
+        ----------
+        at : (k,) of int
+        bodies : BodyPoses
+        share : (k,), no unit
+        near : (k, c), m and rad, from which turns count on; those of the last step by default
         """
         near = self.coordinates[at] if near is None else near
         positions, frames, gaps = self.joints.place(bodies)

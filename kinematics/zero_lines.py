@@ -27,6 +27,7 @@ def roots_between(functions: Functions, low: Array, high: Array) -> Array:
     functions : callable
         One for every way.
     low, high : (r, 2)
+        Values of the parameters at the ends, in their units.
 
     Returns
     -------
@@ -69,7 +70,7 @@ def zero_lines(functions: Functions, values: Array, u: Array, v: Array) -> list[
     values : (k, l, n)
         Of every function at the grid's points; not a number where there is none.
     u, v : (k,), (l,)
-        Ascending.
+        Values of the parameters, in their units, ascending.
 
     Returns
     -------

@@ -35,6 +35,8 @@ class Alizade3PRPS(ThreeLegs):
         and one stroke.
     pole_height : float
         m. Not in the paper; calibrated to Table 4.
+    ball_neutral : float
+        As `ThreeLegs`, rad.
     """
 
     middle_length: float = 0.216
@@ -78,7 +80,13 @@ class Alizade3PRPS(ThreeLegs):
         )
 
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """Length and elevation of the line from the hinge to the joint centre."""
+        """Length and elevation of the line from the hinge to the joint centre.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
         hinge = seats.at(self.base_radius, 0.0)
         span = seats.points - hinge
         square = dot(span, span)

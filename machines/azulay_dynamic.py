@@ -80,13 +80,30 @@ class Platform:
 
     @classmethod
     def steel_disc(cls, radius: float, thickness: float, centre: float = 0.0) -> Platform:
-        """A solid disc of AISI 1018."""
+        """A solid disc of AISI 1018.
+
+        Parameters
+        ----------
+        radius, thickness : float
+            m.
+        centre : float
+            Height of its centre of mass above the plane of the spherical joints, m.
+        """
         density = AISI_1018.density or 0.0
         mass = density * pi * radius**2 * thickness
         return cls(mass=mass, radius=radius, thickness=thickness, centre=centre)
 
     def point_mass(self, node: str, height: float, axes: tuple[str, str, str]) -> PointMass:
-        """The disc carried by a node that stands `height` above the joints' plane."""
+        """The disc carried by a node.
+
+        Parameters
+        ----------
+        node : str
+        height : float
+            Of the node above the plane of the spherical joints, m.
+        axes : (str, str, str)
+            Nodes that carry the disc's axes, as `PointMass.axes`.
+        """
         across = self.mass * (self.radius**2 / 4 + self.thickness**2 / 12)
         about = self.mass * self.radius**2 / 2
         inertia = ((across, 0.0, 0.0), (0.0, across, 0.0), (0.0, 0.0, about))
@@ -106,7 +123,7 @@ class VibratingLegs:
         Height e of the tool, the platform's centre point, above the plane of the spherical
         joints, m.
     elements : int
-        Beam elements a link. Eight bring every frequency of the four machines that decides a
+        Beam elements per link. Eight bring every frequency of the four machines that decides a
         minimum within 0.1 % of its limit; with four the Alizade's along z is 0.11 % high.
 
     Raises
@@ -157,7 +174,13 @@ class VibratingLegs:
         return [*self.base.skeleton(), *((TOOL, seat(i)) for i in (1, 2, 3))]
 
     def place(self, poses: Poses) -> Placement:
-        """The base's inverse kinematics below the tool."""
+        """The base's inverse kinematics below the tool.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
+        """
         rise = self.tool_offset * poses.rotation[..., :, 2]
         placed = self.base.place(Poses(poses.position - rise, poses.rotation))
         positions: Any = placed.positions.copy()
@@ -249,7 +272,15 @@ def dynamic_machine(name: str, which: DynamicSet = "calibrated") -> VibratingLeg
 def models_for_statics_and_vibration(
     name: str, machine: Callable[[], ThreeLegs]
 ) -> tuple[Variant, ...]:
-    """A machine of the comparison as its static tables have it, and as it vibrates."""
+    """A machine of the comparison as its static tables have it, and as it vibrates.
+
+    Parameters
+    ----------
+    name : str
+        In the catalogue.
+    machine : callable
+        Makes the machine of the static tables.
+    """
     return (
         Variant("static", "true spherical joints, drives with their stiffness", machine),
         Variant(

@@ -49,7 +49,7 @@ class Biglide:
     turning. With the legs' length L, ρ₁ = x − √(L² − y²) and ρ₂ = y − √(L² − x²).
 
     The paper gives the legs' length of one, the rails and the parallelograms, and nothing of what
-    makes the machine stiff or heavy: that is ours, and so are the places of the pins, which do
+    makes the machine stiff or heavy: that is assumed, and so are the places of the pins, which do
     not matter to its motion.
 
     Parameters
@@ -57,15 +57,15 @@ class Biglide:
     leg_length : float
         L, m (section 3.3: one).
     pin_distance : float
-        Between the two rods of a leg, m. Ours.
+        Between the two rods of a leg, m. Assumed.
     seat_distance : float
-        Of the middle of a leg's pins from the tool, against its rail's direction, m. Ours.
+        Of the middle of a leg's pins from the tool, against its rail's direction, m. Assumed.
     drive_stiffness : float or None
         Of a carriage's drive, N/m; None holds it rigidly.
     carriage_mass, platform_mass : float
-        kg, with drive or spindle. Ours.
+        kg, with drive or spindle. Assumed.
     material, section : Material, Section
-        Of the rods. Ours; the section's y lies in the plane, its z along the pins.
+        Of the rods. Assumed; the section's y lies in the plane, its z along the pins.
 
     Raises
     ------
@@ -135,7 +135,13 @@ class Biglide:
 
     @staticmethod
     def poses(x: ArrayLike, y: ArrayLike = 0.0) -> Poses:
-        """Poses in the plane: the tool at (x, y), m; broadcast."""
+        """Poses in the plane; broadcast.
+
+        Parameters
+        ----------
+        x, y : (...)
+            Place of the tool, m.
+        """
         x, y = np.broadcast_arrays(np.asarray(x, dtype=float), np.asarray(y, dtype=float))
         return Poses.of(np.stack([x, y, np.zeros_like(x)], axis=-1), np.eye(3))
 
@@ -152,6 +158,11 @@ class Biglide:
 
         Analytic in the pose, which may carry a complex step; what of it lies outside the motions
         of the machine moves no drive.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
 
         Returns
         -------

@@ -20,32 +20,76 @@ RODS = ("a", "b")
 
 
 def rail(i: int) -> str:
-    """Node of the ground on a rail, where the carriage stands."""
+    """Node of the ground on a rail, where the carriage stands.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    """
     return f"rail{i}"
 
 
 def carriage(i: int, part: str) -> str:
-    """Node of a carriage: "slide", and "a" and "b" or "pin" where rods begin."""
+    """Node of a carriage.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    part : str
+        "slide", and "a" and "b" or "pin" where rods begin.
+    """
     return f"carriage{i}/{part}"
 
 
 def guide(i: int) -> str:
-    """Driven joint of a carriage."""
+    """Driven joint of a carriage.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    """
     return f"carriage{i}/guide"
 
 
 def rod(i: int, which: str = "", part: str = "") -> str:
-    """A rod; with "foot" or "end" its node there, and the joint in it."""
+    """A rod, or its node and the joint at one end.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    which : str
+        "a" or "b"; empty for the third leg's.
+    part : str
+        "foot" or "end"; empty for the rod itself.
+    """
     return f"rod{i}{which}/{part}" if part else f"rod{i}{which}"
 
 
 def seat(i: int, which: str) -> str:
-    """Node of the platform where a rod ends."""
+    """Node of the platform where a rod ends.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    which : str
+        "a" or "b".
+    """
     return f"{PLATFORM}/P{i}{which}"
 
 
 def bodies(turning: bool) -> tuple[Body, ...]:
-    """Ground, carriages, rods and platform; where the tool turns, its arm and the third leg."""
+    """Ground, carriages, rods and platform; where the tool turns, its arm and the third leg.
+
+    Parameters
+    ----------
+    turning : bool
+        Whether a third leg turns the tool.
+    """
     seats = tuple(seat(i, r) for i in LEGS for r in RODS)
     hinge = (f"{PLATFORM}/hinge",) if turning else (TOOL,)
     legs = (*LEGS, THIRD) if turning else LEGS
@@ -63,7 +107,15 @@ def bodies(turning: bool) -> tuple[Body, ...]:
 
 
 def joints(turning: bool, drive: float | None) -> Iterable[Joint]:
-    """Guides and pins, leg by leg; drives are elastic where a stiffness, N/m, is given."""
+    """Guides and pins, leg by leg.
+
+    Parameters
+    ----------
+    turning : bool
+        Whether a third leg turns the tool.
+    drive : float or None
+        Stiffness of each drive, N/m; None holds it rigidly.
+    """
     elastic = {} if drive is None else {"z": drive}
 
     def prismatic(i: int) -> Joint:
@@ -85,7 +137,14 @@ def joints(turning: bool, drive: float | None) -> Iterable[Joint]:
 
 
 def beams(material: Material, section: Section) -> tuple[Beam, ...]:
-    """The rods of the parallelograms; their local z is the pins' direction."""
+    """The rods of the parallelograms; their local z is the pins' direction.
+
+    Parameters
+    ----------
+    material : Material
+    section : Section
+        Of every rod.
+    """
     return tuple(
         Beam(
             rod(i, r),
@@ -100,7 +159,14 @@ def beams(material: Material, section: Section) -> tuple[Beam, ...]:
 
 
 def turning_beams(material: Material, arm: Section, third: Section) -> tuple[Beam, ...]:
-    """The arm and the third rod; their local z is the axis about which the tool turns."""
+    """The arm and the third rod; their local z is the axis about which the tool turns.
+
+    Parameters
+    ----------
+    material : Material
+    arm, third : Section
+        Of the arm and of the third rod.
+    """
     ends = rod(THIRD, part="foot"), rod(THIRD, part="end")
     across = (0.0, 1.0, 0.0)
     return (
@@ -115,7 +181,13 @@ def hub() -> Body:
 
 
 def lines(turning: bool) -> tuple[tuple[str, str], ...]:
-    """Pairs of nodes that a drawing connects."""
+    """Pairs of nodes that a drawing connects.
+
+    Parameters
+    ----------
+    turning : bool
+        Whether a third leg turns the tool.
+    """
     plane = (
         *((rod(i, r, "foot"), rod(i, r, "end")) for i in LEGS for r in RODS),
         *((carriage(i, "a"), carriage(i, "b")) for i in LEGS),

@@ -51,9 +51,9 @@ class BiglideThirdLeg(Biglide):
     third_length : float
         L₂ = |A₃B₃|, m: 1.8 L₁, where the paper has the range largest (Fig. 8).
     arm_section, third_section : Section
-        Of the arm and the third rod. Ours.
+        Of the arm and the third rod. Assumed.
     arm_mass : float
-        Of what turns at the hinge beside the arm's beam, as the spindle, kg. Ours.
+        Of what turns at the hinge beside the arm's beam, as the spindle, kg. Assumed.
     """
 
     arm_length: float = 1.7
@@ -88,7 +88,15 @@ class BiglideThirdLeg(Biglide):
 
     @staticmethod
     def poses(x: ArrayLike, y: ArrayLike = 0.0, turn: ArrayLike = 0.0) -> Poses:
-        """Poses of the tool at (x, y), m, turned by β about y, rad; broadcast."""
+        """Poses of the tool; broadcast.
+
+        Parameters
+        ----------
+        x, y : (...)
+            Its place in the plane, m.
+        turn : (...)
+            β about y, rad.
+        """
         x, y, turn = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (x, y, turn)))
         return Poses(np.stack([x, y, np.zeros_like(x)], axis=-1), rotation_y(turn))
 
@@ -146,7 +154,13 @@ class BiglideThirdLeg(Biglide):
 
 
 def models_by_legs(report: str) -> tuple[Variant, ...]:
-    """The machine in its plane, and with the leg that turns its tool, which has its own report."""
+    """The machine in its plane, and with the leg that turns its tool, which has its own report.
+
+    Parameters
+    ----------
+    report : str
+        What writes the turning machine's report, as `Variant.report`.
+    """
     turning = {"x": (0.4, 5), "y": (0.4, 5), "ry": (radians(60.0), 5)}
     words = "a third drive across the plane turns the tool"
     return (

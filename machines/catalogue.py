@@ -55,6 +55,9 @@ class Machine(Mechanism, Protocol):
 class CatalogueEntry:
     """A machine of the literature.
 
+    Its report, tolerances and scale are references to `papers`, see
+    `strutwork.machines.paper_reference.resolve`.
+
     Parameters
     ----------
     name : str
@@ -67,23 +70,18 @@ class CatalogueEntry:
     factory : callable
         Makes the machine with the paper's dimensions; takes other dimensions by name.
     report : str
-        What writes its report: given its name and what tells the progress, returns title,
+        What writes its report: given its name and a callable for the progress, returns title,
         subtitle and chapters.
     tolerances : str
         What makes its `strutwork.studies.TolerancedMachine`; empty where nobody has stated
         tolerances.
     scale : str
         What `strutwork scale` runs; empty where no study of its size exists.
-
     around_home : mapping of direction to (float, int)
         What its maps and report look over, where nothing else is asked: so far to either side of
         home, m or rad, in so many points. Our choice, not its paper's.
-
     models : tuple of Variant
         Its models, the first that of `factory`; empty of one that has no other.
-
-    Report, tolerances and scale are references to `papers`, see
-    `strutwork.machines.paper_reference.resolve`.
     """
 
     name: str
@@ -258,6 +256,10 @@ CATALOGUE: Mapping[str, CatalogueEntry] = MappingProxyType({e.name: e for e in _
 
 def get(name: str) -> CatalogueEntry:
     """The catalogue's entry for a machine.
+
+    Parameters
+    ----------
+    name : str
 
     Raises
     ------

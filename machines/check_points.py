@@ -16,8 +16,13 @@ Array = NDArray[Any]
 def hemisphere_normals(lattice: int = 10) -> Array:
     """Outward normals of a unit hemisphere about z, (n, 3).
 
-    The points of the integer lattice i² + j² ≤ lattice², scaled to the unit disc and projected
-    up: 317 for 10, the number of the paper (section 3.3.1), whose own points are not printed.
+    The points of an integer lattice, i² + j² ≤ lattice², scaled to the unit disc and projected up:
+    317 for 10, the number of the paper (section 3.3.1), whose own points are not printed.
+
+    Parameters
+    ----------
+    lattice : int
+        Steps of the lattice from the pole to the rim.
     """
     if lattice < 1:
         raise ModelError("hemisphere", f"lattice is {lattice}.", "Give at least one.")
@@ -31,7 +36,13 @@ def hemisphere_normals(lattice: int = 10) -> Array:
 
 
 def roll_angles(steps: int = 24) -> Array:
-    """Rolls γ over the third of a turn after which the legs repeat, rad, (steps,)."""
+    """Rolls γ over the third of a turn after which the legs repeat, rad, (steps,).
+
+    Parameters
+    ----------
+    steps : int
+        At least one.
+    """
     if steps < 1:
         raise ModelError("hemisphere", f"{steps} roll steps.", "Give at least one.")
     return np.arange(steps) * (2.0 * np.pi / 3.0 / steps)

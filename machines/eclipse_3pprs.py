@@ -40,6 +40,8 @@ class Eclipse3PPRS(ThreeLegs):
     stroke : float
         Range of the hinge's height, m (Table 3, which does not say from where; our choice: half
         to each side of home).
+    ball_neutral : float
+        As `ThreeLegs`, rad.
     """
 
     link_length: float = 0.216
@@ -84,7 +86,13 @@ class Eclipse3PPRS(ThreeLegs):
         )
 
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """The hinge stands below the joint centre; the link leans over the guide's plane."""
+        """The hinge stands below the joint centre; the link leans over the guide's plane.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
 
         def along(top: Array, hinge: Array) -> dict[str, Array]:
             foot = seats.at(self.base_radius, top - self.column_length)

@@ -12,15 +12,19 @@ class EclipseMachine(EclipsePrototype):
     """All columns rise from the guide and all links descend to the platform (Kim 2001, VII).
 
     The paper prints the diameters of the guide's bearings and no other dimension: all others are
-    those of the prototype, enlarged as its guide is (ours), so that nothing here is a
+    those of the prototype, enlarged as its guide is (assumed), so that nothing here is a
     prediction of the machine that was built.
 
     Parameters
     ----------
     base_radius : float
         R_b, m: between the bearings of 2400 and 2600 mm in diameter (section VII).
+    platform_radius, link_length, tool_below, pole_height, link_radius, column_radius : float
+        m. As `EclipsePrototype`, enlarged by 1.25/0.275.
     below : (bool, bool, bool)
         No carriage stands below its joint centre.
+    platform_mass : float
+        kg. As `EclipsePrototype`, enlarged by the cube of that.
     """
 
     base_radius: float = 1.25

@@ -65,7 +65,7 @@ class EclipsePrototype(ThreeLegs):
         Of a solid round column as stiff as the prototype's rectangular one, m. Calibrated to
         Table II.
     shortest_column : float
-        A column is never modelled shorter than this, m (ours).
+        A column is never modelled shorter than this, m (assumed).
     below : (bool, bool, bool)
         Whether the carriage of a leg stands below its joint centre.
     drives : "6", "7a", "7b" or "8"
@@ -73,8 +73,14 @@ class EclipsePrototype(ThreeLegs):
     platform_mass : float
         With its spindle, kg. Assumed: the paper does not give it.
     ball_range : float
-        Section II: 55 degrees to each side; from where is not said, and here it is counted from
-        the link's direction at home.
+        rad. Section II: 55 degrees to each side; from where is not said, and here it is counted
+        from the link's direction at home.
+    guide_stiffness : float or None
+        N/m; None, as the paper prints none: rigid.
+    drive_stiffness : float or None
+        N/m; None, as the paper prints none: rigid.
+    material : Material
+        Of links and columns. Assumed.
     """
 
     pole_height: float = -0.0912
@@ -217,7 +223,13 @@ class EclipsePrototype(ThreeLegs):
         return Poses.of(position, tangent_rotation(normal, roll))
 
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """Eqs. 1 to 3; the height of a hinge is P_z − L sin φ, whatever the sign of φ."""
+        """Eqs. 1 to 3; the height of a hinge is P_z − L sin φ, whatever the sign of φ.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
 
         def along(top: Array, hinge: Array) -> dict[str, Array]:
             short = np.abs(top.real) < self.shortest_column
@@ -229,7 +241,13 @@ class EclipsePrototype(ThreeLegs):
 
 
 def models_by_drives(machine: type[EclipsePrototype]) -> tuple[Variant, ...]:
-    """The machine with six, seven or eight drives."""
+    """The machine with six, seven or eight drives.
+
+    Parameters
+    ----------
+    machine : type
+        `EclipsePrototype` or a class of its kind.
+    """
     words: dict[Drives, str] = {
         "6": "carriages and columns are driven",
         "7a": "the hinge of leg 1 is driven as well",

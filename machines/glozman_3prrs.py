@@ -38,6 +38,8 @@ class Glozman3PRRS(ThreeLegs):
         bent and the machine soft along z (0.5 N/µm at 174 mm), a higher one stretches the legs.
     apparent_pole_height : float
         m. The same for `apparent`, whose clamped links do not bend at the elbow alone.
+    ball_neutral : float
+        As `ThreeLegs`, rad.
     """
 
     link_length: float = 0.130
@@ -83,7 +85,13 @@ class Glozman3PRRS(ThreeLegs):
         )
 
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """Two equal links: the elbow stands on the middle normal of shoulder and seat."""
+        """Two equal links: the elbow stands on the middle normal of shoulder and seat.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
         inward, rise = self.base_radius - seats.radius, seats.height
         square = inward * inward + rise * rise
         none = np.asarray(square.real < 1e-18)

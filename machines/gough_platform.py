@@ -68,13 +68,13 @@ class GoughPlatform(SixLegs):
         From the plate's centre to the tool centre point, in the plate's axes, m. The paper's box
         of tools is not legible: the plate's centre here.
     cylinder_length : float
-        Of the part of a leg at the base, m. Ours.
+        Of the part of a leg at the base, m. Assumed.
     plate_mass : float
-        kg. Ours.
+        kg. Assumed.
     material : Material
-        Ours.
+        Assumed.
     cylinder, rod : Section
-        Ours.
+        Assumed.
 
     Raises
     ------
@@ -142,7 +142,13 @@ class GoughPlatform(SixLegs):
         return {"z": (self.shortest_leg, self.longest_leg)}
 
     def slide_at(self, length: Array) -> Array:
-        """At the end of the cylinder, whatever the leg's length."""
+        """At the end of the cylinder, whatever the leg's length: (...), m.
+
+        Parameters
+        ----------
+        length : (...)
+            Of the leg, m.
+        """
         return np.broadcast_to(np.asarray(self.cylinder_length, length.dtype), length.shape)
 
     @cached_property
@@ -186,7 +192,13 @@ class GoughPlatform(SixLegs):
         return self.at_plate(np.array([0.0, 0.0, self.plate_height]))
 
     def at_plate(self, centre: Array) -> Poses:
-        """Level poses with the plate's centre at places (..., 3), m."""
+        """Level poses by the place of the plate's centre.
+
+        Parameters
+        ----------
+        centre : (..., 3)
+            m.
+        """
         return Poses.of(np.asarray(centre) + np.asarray(self.tool))
 
     def skeleton(self) -> Sequence[tuple[str, str]]:

@@ -118,7 +118,17 @@ class HexelHexapod(SixLegs):
 
     @staticmethod
     def poses(x: ArrayLike, a: ArrayLike = 0.0, z: ArrayLike = LEVEL) -> Poses:
-        """Poses with the tool tip at (x, 0, z), m, tilted by a about x, rad; broadcast."""
+        """Poses with the tool tip at (x, 0, z), tilted by a about x; broadcast.
+
+        Parameters
+        ----------
+        x : (...)
+            m.
+        a : (...)
+            rad.
+        z : (...)
+            m, over the work table.
+        """
         x, a, z = np.broadcast_arrays(*(np.asarray(v, dtype=float) for v in (x, a, z)))
         return Poses(np.stack([x, np.zeros_like(x), z], axis=-1), rotation_x(a))
 
@@ -127,7 +137,13 @@ class HexelHexapod(SixLegs):
         return self.poses(0.0)
 
     def pose_grid(self, steps: int = 10) -> PoseGrid:
-        """Fig. 29-(b), 0.4 m over the table: 2 · steps + 1 places along x, as many tilts a."""
+        """Fig. 29-(b), 0.4 m over the table: 2 · steps + 1 places along x, as many tilts a.
+
+        Parameters
+        ----------
+        steps : int
+            To each side of the middle.
+        """
         x, a = (np.linspace(-end, end, 2 * steps + 1) for end in (MAP_REACH, MAP_TILT))
         return PoseGrid(self.poses(x).position, rotation_x(a), a, "a")
 

@@ -51,7 +51,13 @@ class Leg:
     lines: tuple[tuple[str, str], ...] = ()
 
     def numbered(self, number: int) -> Leg:
-        """The leg with the names it has in the machine; `number` counts from one."""
+        """The leg with the names it has in the machine.
+
+        Parameters
+        ----------
+        number : int
+            Counted from one.
+        """
 
         def node(name: str) -> str:
             return name if name == CENTRE else seat(number) if name == SEAT else full(number, name)
@@ -103,19 +109,40 @@ class LegPlacement:
 
 
 def full(number: int, name: str) -> str:
-    """Name of a leg's part in the machine."""
+    """Name of a leg's part in the machine.
+
+    Parameters
+    ----------
+    number : int
+        Of the leg, counted from one.
+    name : str
+        Within the leg.
+    """
     return f"leg{number}/{name}"
 
 
 def seat(number: int) -> str:
-    """Name of the joint centre of a leg on the platform."""
+    """Name of the joint centre of a leg on the platform.
+
+    Parameters
+    ----------
+    number : int
+        Of the leg, counted from one.
+    """
     return f"platform/P{number}"
 
 
 def square_root(square: Array, scale: float) -> tuple[Array, NDArray[np.bool_]]:
-    """Root of `square`, and where there is none; there the root is `scale`.
+    """Root of a square, and where there is none, (...) each; there the root is `scale`.
 
     Works on complex arguments with a small imaginary part.
+
+    Parameters
+    ----------
+    square : (...)
+        m².
+    scale : float
+        m.
     """
     missing = np.asarray(square.real <= 0.0)
     return np.sqrt(np.where(missing, scale**2, square)), missing
@@ -138,7 +165,7 @@ def hinge_on_column(
     length : float
         Of the link from the hinge to the platform, m.
     upward : (3,) or float
-        One where a link rises to its joint centre, minus one where it descends.
+        One where a link rises to its joint centre, minus one where it descends; no unit.
     along : callable
         Given height (..., 3) and place (..., 3, 3) of the hinge, m, the nodes below it. The nodes
         `centre`, `root` and `end` are set here.

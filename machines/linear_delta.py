@@ -47,12 +47,27 @@ LEVEL = 1e-9
 
 
 def leg(i: int, part: str) -> str:
-    """Node or joint of a leg: "rail", "carriage", "slide"; "top", "root", "end" and a side."""
+    """Node or joint of a leg.
+
+    Parameters
+    ----------
+    i : int
+    part : str
+        "rail", "carriage", "slide"; "top", "root", "end" and a side.
+    """
     return f"leg{i}/{part}"
 
 
 def seat(i: int, side: str) -> str:
-    """Node of the platform in the middle of a rod's ball."""
+    """Node of the platform in the middle of a rod's ball.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    side : str
+        Of the parallelogram.
+    """
     return f"{PLATFORM}/P{i}{side}"
 
 
@@ -76,13 +91,13 @@ class LinearDelta:
         Of the cube about home that the tool moves in, m (Fig. 5). The carriages' stroke is what
         it needs: none is printed.
     drive_stiffness : float or None
-        Of a drive along its rail, N/m; None: rigid. Ours, 120 N/µm: a ball screw of usual size.
+        Of a drive along its rail, N/m; None: rigid. Assumed, 120 N/µm: a ball screw of usual size.
     platform_mass, carriage_mass : float
-        kg. Ours.
+        kg. Assumed.
     material : Material
-        Of the rods. Ours.
+        Of the rods. Assumed.
     section : Section
-        Of the rods. Ours: the paper wants them stiff enough for cutting forces and prints none.
+        Of the rods. Assumed: the paper wants them stiff enough for cutting forces and prints none.
 
     Raises
     ------
@@ -129,7 +144,13 @@ class LinearDelta:
         return self.base_radius - self.platform_radius
 
     def rise(self, level: Array) -> tuple[Array, NDArray[np.bool_]]:
-        """The platform ahead of the carriages at places (..., 3), (..., 3), m; missing rods."""
+        """The platform ahead of each carriage, (..., 3), m, and where rods do not reach, (..., 3).
+
+        Parameters
+        ----------
+        level : (..., 3)
+            Place of the tool, m.
+        """
         across = level[..., None, :2] - self.reach * OUTWARD[:, :2]
         square = across[..., 0] ** 2 + across[..., 1] ** 2
         return square_root(self.rod_length**2 - square, self.rod_length)
@@ -224,6 +245,11 @@ class LinearDelta:
         """Inverse kinematics, batch first: q_i = z − √(L² − |a_i|²) (eqs. 1 to 4, squared).
 
         Analytic in the position, which may carry a complex step.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
 
         Returns
         -------

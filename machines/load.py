@@ -62,6 +62,11 @@ def load(name: str | Path) -> Model:
 def load_heavy(name: str | Path) -> Model:
     """As `load`, a machine that can vibrate.
 
+    Parameters
+    ----------
+    name : str or Path
+        As `load`.
+
     Raises
     ------
     ModelError

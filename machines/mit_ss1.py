@@ -79,8 +79,8 @@ class MitSS1:
     block_radial_stiffness, block_axial_stiffness : float or None
         Of one bearing in a moving block, N/m; None: as in the housing.
     preload_factor : float
-        Stiffness of the far bearings, where the preload nuts sit with little interference
-        (section 11), over that of the near ones.
+        Stiffness of the far bearings, where the preload nuts sit with little interference (section
+        11), over that of the near ones: a ratio.
     drive_stiffness : float or None
         Of a block's drive, N/m. None holds it rigidly, as section 6.2 takes it.
     guide_stiffness : float or None
@@ -93,7 +93,7 @@ class MitSS1:
         Of the struts. Our choice: the thesis gives neither. The section's y lies in the plane,
         its z along the pins.
     elements : int
-        Beam elements a strut.
+        Beam elements per strut.
     housing_mass : float
         kg, without a spindle, in the middle of the three joints. Calibrated: 118.3 kg of struts
         and housing, of which a spindle of 7.1 kg is about 6 % (section 9.1), parted so that the
@@ -239,7 +239,15 @@ class MitSS1:
 
     @staticmethod
     def poses(x: ArrayLike, z: ArrayLike = 0.0, b: ArrayLike = 0.0) -> Poses:
-        """Poses in the plane: tool tip at (x, z), m, tilted by b about y, rad; broadcast."""
+        """Poses in the plane; broadcast.
+
+        Parameters
+        ----------
+        x, z : (...)
+            Place of the tool tip, m.
+        b : (...)
+            Tilt about y, rad.
+        """
         x, z, b = np.broadcast_arrays(
             np.asarray(x, dtype=float), np.asarray(z, dtype=float), np.asarray(b, dtype=float)
         )
@@ -250,7 +258,13 @@ class MitSS1:
         return self.poses(0.0)
 
     def pose_grid(self, steps: int = 10) -> PoseGrid:
-        """The nominal workspace at height zero: 2 · steps + 1 places along x, as many tilts b."""
+        """The nominal workspace at height zero: 2 · steps + 1 places along x, as many tilts b.
+
+        Parameters
+        ----------
+        steps : int
+            To each side of the middle.
+        """
         x, b = (
             np.linspace(*ends, 2 * steps + 1) for ends in (NOMINAL_X, (-NOMINAL_TILT, NOMINAL_TILT))
         )
@@ -265,6 +279,11 @@ class MitSS1:
 
         Analytic in the pose, which may carry a complex step; what of it lies outside the plane
         moves no drive.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
 
         Returns
         -------

@@ -29,12 +29,24 @@ CUTOFF = 900.0
 
 
 def mount(i: int) -> str:
-    """Node of the granite in the middle of a mount's footing."""
+    """Node of the granite in the middle of a mount's footing.
+
+    Parameters
+    ----------
+    i : int
+        1 to 4.
+    """
     return f"granite/mount{i}"
 
 
 def rail_foot(i: int) -> str:
-    """Node of the granite in the middle of a rail's footing."""
+    """Node of the granite in the middle of a rail's footing.
+
+    Parameters
+    ----------
+    i : int
+        1 to 3.
+    """
     return f"granite/rail{i}"
 
 

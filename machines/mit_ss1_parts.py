@@ -20,35 +20,78 @@ SIDES = ("near", "far")
 
 
 def block(i: int, part: str) -> str:
-    """Node of a moving block: "slide", "near" or "far"."""
+    """Node of a moving block: "slide", "near" or "far".
+
+    Parameters
+    ----------
+    i : int
+        1 to 3.
+    part : str
+        "slide", "near" or "far".
+    """
     return f"block{i}/{part}"
 
 
 def strut(i: int, end: str, part: str) -> str:
     """Node of a strut, and name of the joint of its bearing there.
 
-    `end` is one of `ENDS`; `part` one of `SIDES`, or "end" for the middle of the pin.
+    Parameters
+    ----------
+    i : int
+        1 to 3.
+    end : str
+        One of `ENDS`.
+    part : str
+        One of `SIDES`, or "end" for the middle of the pin.
     """
     return f"strut{i}/{end} {part}"
 
 
 def seat(i: int, side: str) -> str:
-    """Node of the spindle housing in the middle of a bearing."""
+    """Node of the spindle housing in the middle of a bearing.
+
+    Parameters
+    ----------
+    i : int
+        Of the strut.
+    side : str
+        One of `SIDES`.
+    """
     return f"{HOUSING}/P{i} {side}"
 
 
 def rail(i: int) -> str:
-    """Node of the ground on a guide, where the block stands."""
+    """Node of the ground on a guide, where the block stands.
+
+    Parameters
+    ----------
+    i : int
+        Of the block.
+    """
     return f"rail{i}"
 
 
 def guide(i: int) -> str:
-    """Driven joint of a moving block."""
+    """Driven joint of a moving block.
+
+    Parameters
+    ----------
+    i : int
+        Of the block.
+    """
     return f"block{i}/guide"
 
 
 def pin(i: int, end: str) -> str:
-    """Joint of a pin taken as one ideal revolute joint."""
+    """Joint of a pin taken as one ideal revolute joint.
+
+    Parameters
+    ----------
+    i : int
+        Of the strut.
+    end : str
+        One of `ENDS`.
+    """
     return f"strut{i}/{end} pin"
 
 
@@ -76,16 +119,27 @@ def bodies() -> tuple[Body, ...]:
 
 
 def guide_joints(drive: float | None, guides: float | None) -> Iterable[Joint]:
-    """Driven prismatic joints along z; elastic in z and x where a stiffness, N/m, is given."""
+    """Driven prismatic joints along z.
+
+    Parameters
+    ----------
+    drive : float or None
+        Stiffness along z, N/m; None: rigid.
+    guides : float or None
+        Stiffness along x, N/m; None: rigid.
+    """
     elastic = {d: k for d, k in (("z", drive), ("x", guides)) if k is not None}
     for i in STRUTS:
         yield Joint(guide(i), "prismatic", (rail(i), block(i, "slide")), elastic, driven=("z",))
 
 
 def bearing_joints(stiffness: Callable[[str, str], Mapping[str, float]]) -> Iterable[Joint]:
-    """Two bearings a pin: they hold three translations and turn freely.
+    """Two bearings per pin: they hold three translations and turn freely.
 
-    `stiffness` takes the end of the strut and the side, and gives N/m by direction.
+    Parameters
+    ----------
+    stiffness : callable
+        Takes the end of the strut and the side, and gives N/m by direction.
     """
     for i in STRUTS:
         for side in SIDES:
@@ -97,14 +151,22 @@ def bearing_joints(stiffness: Callable[[str, str], Mapping[str, float]]) -> Iter
 
 
 def pin_joints() -> Iterable[Joint]:
-    """One ideal revolute joint a pin."""
+    """One ideal revolute joint per pin."""
     for i in STRUTS:
         yield Joint(pin(i, "block"), "revolute", (block(i, "near"), strut(i, "block", "near")))
         yield Joint(pin(i, "housing"), "revolute", (strut(i, "housing", "near"), seat(i, "near")))
 
 
 def beams(material: Material, section: Section, elements: int) -> tuple[Beam, ...]:
-    """A beam along the middle of each strut; its local z is the pins' direction."""
+    """A beam along the middle of each strut; its local z is the pins' direction.
+
+    Parameters
+    ----------
+    material : Material
+    section : Section
+    elements : int
+        Per strut.
+    """
     return tuple(
         Beam(
             f"strut{i}",
@@ -128,9 +190,16 @@ def shafts() -> tuple[Body, ...]:
 
 
 def housing_mass(mass: float, inertia: float, height: float) -> PointMass:
-    """The spindle housing's mass, kg, on the tool axis at a height above the tool tip, m.
+    """The spindle housing's mass on the tool axis.
 
-    `inertia`, kg m², is the same about every axis.
+    Parameters
+    ----------
+    mass : float
+        kg.
+    inertia : float
+        The same about every axis, kg·m².
+    height : float
+        Above the tool tip, m.
     """
     rows = ((inertia, 0.0, 0.0), (0.0, inertia, 0.0), (0.0, 0.0, inertia))
     axes = (seat(1, "near"), seat(2, "near"), seat(1, "far"))
@@ -138,7 +207,13 @@ def housing_mass(mass: float, inertia: float, height: float) -> PointMass:
 
 
 def end_masses(masses: Iterable[float]) -> tuple[PointMass, ...]:
-    """Half of what each strut weighs beside its beam, kg, at either end."""
+    """Half of what each strut weighs beside its beam, at either end.
+
+    Parameters
+    ----------
+    masses : iterable of three float
+        What each strut weighs beside its beam, kg.
+    """
     return tuple(
         PointMass(strut(i, end, "end"), mass / 2.0)
         for i, mass in zip(STRUTS, masses, strict=True)

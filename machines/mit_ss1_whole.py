@@ -28,12 +28,24 @@ FRAME = "granite"
 
 
 def floor(i: int) -> str:
-    """Node of the ground under a mount."""
+    """Node of the ground under a mount.
+
+    Parameters
+    ----------
+    i : int
+        1 to 4.
+    """
     return f"floor/mount{i}"
 
 
 def mount_joint(i: int) -> str:
-    """Joint of a mount."""
+    """Joint of a mount.
+
+    Parameters
+    ----------
+    i : int
+        1 to 4.
+    """
     return f"mount{i}"
 
 
@@ -156,7 +168,15 @@ class MitSS1Whole:
         return joint_limits(self.linkage)
 
     def poses(self, x: ArrayLike, z: ArrayLike = 0.0, b: ArrayLike = 0.0) -> Poses:
-        """As `MitSS1.poses`."""
+        """As `MitSS1.poses`.
+
+        Parameters
+        ----------
+        x, z : (...)
+            Place of the tool tip, m.
+        b : (...)
+            Tilt about y, rad.
+        """
         return self.machine.poses(x, z, b)
 
     def home(self) -> Poses:
@@ -168,7 +188,13 @@ class MitSS1Whole:
         return self.machine.skeleton()
 
     def place(self, poses: Poses) -> Placement:
-        """As `MitSS1.place`, in its axes, with the granite and the mounts beside it."""
+        """As `MitSS1.place`, in its axes, with the granite and the mounts beside it.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...), in the machine's axes.
+        """
         inner = self.machine.place(poses)
         still = self._still
         batch = inner.batch

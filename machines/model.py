@@ -33,9 +33,9 @@ class Damping:
     Parameters
     ----------
     modal_ratio : float or None
-        Viscous ratio ζ of every mode.
+        Viscous ratio ζ of every mode, no unit.
     loss_factor : float or None
-        Structural loss factor η; at resonance η = 2 ζ.
+        Structural loss factor η, no unit; at resonance η = 2 ζ.
     rayleigh : (float, float) or None
         α in 1/s and β in s of C = α M + β K.
     """
@@ -68,7 +68,7 @@ class Model:
     damping : Damping or None
     tolerances : tuple of Tolerance
     tolerance_costs : mapping of tolerance name to float
-        Weights of an allocation.
+        Weights of an allocation, any unit.
     force_limits : mapping of (joint name, kind of quantity) to float
         Greatest forces and moments that joints may bear, N and N·m.
     preload : str or None
@@ -82,7 +82,7 @@ class Model:
     drives : tuple of Drive
         What the drives can do.
     rotation : (3, 3)
-        Of the tool in this placement.
+        Rotation matrix of the tool in this placement.
     closed_form : callable or None
         Placement at poses of the tool, where the machine has formulas for it.
     solids : tuple of SolidElement
@@ -162,6 +162,10 @@ class Model:
 
     def case(self, name: str) -> LoadCase:
         """A load case by its name.
+
+        Parameters
+        ----------
+        name : str
 
         Raises
         ------

@@ -337,12 +337,22 @@ def _bodies(
 
 
 def support_name(node: str) -> str:
-    """Name of the joint that supports a node."""
+    """Name of the joint that supports a node.
+
+    Parameters
+    ----------
+    node : str
+    """
     return f"support {node}"
 
 
 def ground_name(node: str) -> str:
-    """Name of the ground node under a supported node."""
+    """Name of the ground node under a supported node.
+
+    Parameters
+    ----------
+    node : str
+    """
     return f"{node} (ground)"
 
 

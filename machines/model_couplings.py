@@ -14,6 +14,10 @@ from strutwork.machines.model_schema import ModelTable
 def couplings_of(tables: ModelTable) -> tuple[Coupling, ...]:
     """The couplings of a file.
 
+    Parameters
+    ----------
+    tables : ModelTable
+
     Raises
     ------
     ModelError

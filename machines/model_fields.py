@@ -25,13 +25,13 @@ class Quantity:
     ----------
     dimension : Dimension
     low : float or None
-        The least value.
+        The least value, in SI as the others: whichever unit the dimension has, any unit.
     above : float or None
-        A bound the value must exceed.
+        A bound the value must exceed, any unit.
     high : float or None
-        The greatest value.
+        The greatest value, any unit.
     below : float or None
-        A bound the value must stay under.
+        A bound the value must stay under, any unit.
     """
 
     dimension: Dimension
@@ -59,7 +59,13 @@ class Quantity:
         return {"anyOf": [number, text], "description": words if unit else self.dimension.name}
 
     def read(self, value: object) -> float:
-        """Value in SI units."""
+        """Value in SI units.
+
+        Parameters
+        ----------
+        value : float or str
+            A number in SI, or text with its unit.
+        """
         try:
             number = units.quantity(value, self.dimension, "")
         except UnitError as error:

@@ -22,6 +22,12 @@ Coordinate = tuple[str, str]
 def home_values(tables: ModelTable, joints: Sequence[Joint]) -> dict[Coordinate, float]:
     """Joint coordinates in the configuration of the file, m and rad.
 
+    Parameters
+    ----------
+    tables : ModelTable
+    joints : sequence of Joint
+        Those of the file.
+
     Raises
     ------
     ModelError
@@ -54,6 +60,10 @@ def _shown(direction: str, value: float) -> str:
 def task_of(tables: ModelTable) -> tuple[str, ...]:
     """Directions in which the tool is to move; empty where the file does not say.
 
+    Parameters
+    ----------
+    tables : ModelTable
+
     Raises
     ------
     ModelError
@@ -71,6 +81,12 @@ def task_of(tables: ModelTable) -> tuple[str, ...]:
 
 def workspace_of(tables: ModelTable, task: Sequence[str]) -> TaskGrid | None:
     """The poses that maps and reports look at.
+
+    Parameters
+    ----------
+    tables : ModelTable
+    task : sequence of str
+        Directions of the task; empty where it has none.
 
     Raises
     ------
@@ -99,7 +115,13 @@ def workspace_of(tables: ModelTable, task: Sequence[str]) -> TaskGrid | None:
 
 
 def drives_of(tables: ModelTable, joints: Mapping[str, Joint]) -> tuple[Drive, ...]:
-    """What drives can do, one entry a driven direction.
+    """What drives can do, one entry per driven direction.
+
+    Parameters
+    ----------
+    tables : ModelTable
+    joints : mapping of str to Joint
+        Those of the file, by name.
 
     Raises
     ------

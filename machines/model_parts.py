@@ -36,19 +36,39 @@ SHEAR_TOLERANCE = 0.01
 def by_direction(
     table: StiffnessTable | DampingByDirection | Displacement,
 ) -> dict[str, float]:
-    """The directions that a table names, in order."""
+    """The directions that a table names, in order, with their values in SI.
+
+    Parameters
+    ----------
+    table : StiffnessTable, DampingByDirection or Displacement
+    """
     named = {direction: getattr(table, direction) for direction in DIRECTIONS}
     return {direction: value for direction, value in named.items() if value is not None}
 
 
 def unknown(part: str, kind: str, name: str, known: Mapping[str, object]) -> ModelError:
-    """The error for a name that stands for nothing."""
+    """The error for a name that stands for nothing.
+
+    Parameters
+    ----------
+    part : str
+        What names it.
+    kind : str
+        What it should be: "joint", "node".
+    name : str
+    known : mapping of str
+        Names that exist; the remedy lists them.
+    """
     remedy = choices("Known", name, known, 8) if known else f"The file defines no {kind}."
     return ModelError(part, f'names the unknown {kind} "{name}".', remedy)
 
 
 def beams_of(tables: ModelTable) -> tuple[Beam, ...]:
     """All beams, with their materials and sections.
+
+    Parameters
+    ----------
+    tables : ModelTable
 
     Raises
     ------
@@ -81,6 +101,11 @@ def beams_of(tables: ModelTable) -> tuple[Beam, ...]:
 
 def material_of(name: str, table: MaterialTable) -> Material:
     """A material; where both are given, the shear modulus counts, not Poisson's ratio.
+
+    Parameters
+    ----------
+    name : str
+    table : MaterialTable
 
     Raises
     ------
@@ -116,6 +141,11 @@ def material_of(name: str, table: MaterialTable) -> Material:
 def section_of(name: str, table: SectionTable) -> Section:
     """A section of any shape.
 
+    Parameters
+    ----------
+    name : str
+    table : RodTable, TubeTable, RectangleTable, BoxTable or PropertiesTable
+
     Raises
     ------
     ModelError
@@ -140,6 +170,10 @@ def section_of(name: str, table: SectionTable) -> Section:
 
 def joint_of(table: JointTable) -> Joint:
     """A joint of the file.
+
+    Parameters
+    ----------
+    table : JointTable
 
     Raises
     ------
@@ -187,6 +221,10 @@ def _limits(table: JointTable) -> dict[str, tuple[float, float]]:
 def springs_of(tables: ModelTable) -> tuple[Spring, ...]:
     """All springs; one without a name is called by its nodes.
 
+    Parameters
+    ----------
+    tables : ModelTable
+
     Raises
     ------
     ModelError
@@ -213,7 +251,12 @@ def springs_of(tables: ModelTable) -> tuple[Spring, ...]:
 
 
 def masses_of(tables: ModelTable) -> tuple[PointMass, ...]:
-    """Masses at nodes, and those of rigid bodies, carried by their first node."""
+    """Masses at nodes, and those of rigid bodies, carried by their first node.
+
+    Parameters
+    ----------
+    tables : ModelTable
+    """
     zero = ((0.0,) * 3,) * 3
     masses = [PointMass(t.node, t.mass, t.inertia or zero) for t in tables.masses]
     for body in tables.bodies:

@@ -28,7 +28,15 @@ def targets(
     task: Mapping[str, ArrayLike],
     joints: Mapping[Coordinate, ArrayLike],
 ) -> dict[str, ArrayLike]:
-    """Task coordinates with those that are not named and can be held, at home.
+    """Task coordinates, (...) each, with those at home that are not named and can be held.
+
+    Parameters
+    ----------
+    model : Model
+    task : mapping of direction to (...)
+        Of the tool, m and rad.
+    joints : mapping of (joint, direction) to (...)
+        Joint coordinates, m and rad.
 
     Raises
     ------
@@ -53,6 +61,7 @@ def walked(
     task : mapping of direction to (...)
         Of the tool, m and rad.
     joints : mapping of (joint, direction) to (...)
+        Joint coordinates, m and rad.
 
     Raises
     ------
@@ -83,6 +92,7 @@ def moved(
     task : mapping of direction to (...)
         Of the tool, m and rad; what is not named stays, where it can.
     joints : mapping of (joint, direction) to (...)
+        Joint coordinates, m and rad.
 
     Returns
     -------
@@ -148,6 +158,7 @@ def at_pose(
     task : mapping of direction to float
         Of the tool, m and rad; what is not named stays, where it can.
     joints : mapping of (joint, direction) to float
+        Joint coordinates, m and rad.
 
     Raises
     ------
@@ -175,7 +186,15 @@ def at_pose(
 
 
 def pose_words(task: Mapping[str, float], joints: Mapping[Coordinate, float]) -> str:
-    """`x = 20 mm, ram1:z = 310 mm`."""
+    """A pose in words: `x = 20 mm, ram1:z = 310 mm`.
+
+    Parameters
+    ----------
+    task : mapping of direction to float
+        m and rad.
+    joints : mapping of (joint, direction) to float
+        Joint coordinates, m and rad.
+    """
     words = []
     for name, value in [*task.items(), *((f"{j}:{d}", v) for (j, d), v in joints.items())]:
         turns = name.rpartition(":")[2].startswith("r")

@@ -37,7 +37,7 @@ class SolidElement:
         The nodes of the file; the others are monitors.
     materials : tuple of str
     loss_factor : float or None
-        Structural loss factor of the material.
+        Structural loss factor of the material, no unit.
     surface : (p,) int
         Field nodes on the outer surface.
     points : (p, 3)
@@ -98,7 +98,13 @@ class SolidElement:
         return np.asarray(self.reduced.positions @ self.rotation.T + self.translation)
 
     def scaled(self, factor: float) -> SolidElement:
-        """The same solid of the same material, `factor` times as large, from the same origin."""
+        """The same solid of the same material in another size, from the same origin.
+
+        Parameters
+        ----------
+        factor : float
+            No unit, positive.
+        """
         return replace(
             self,
             reduced=self.reduced.scaled(factor),
@@ -107,15 +113,33 @@ class SolidElement:
         )
 
     def stiffness(self, at: PlacedStructure) -> Array:
-        """Stiffness in global axes, (..., 6 k, 6 k)."""
+        """Stiffness in global axes, (..., 6k, 6k), N/m, N, N·m/rad.
+
+        Parameters
+        ----------
+        at : PlacedStructure
+            The structure in which it stands.
+        """
         return self._turned(self._stiffness, at)
 
     def mass(self, at: PlacedStructure) -> Array:
-        """Mass in global axes, (..., 6 k, 6 k)."""
+        """Mass in global axes, (..., 6k, 6k), kg, kg·m, kg·m².
+
+        Parameters
+        ----------
+        at : PlacedStructure
+            The structure in which it stands.
+        """
         return self._turned(self._mass, at)
 
     def points_at(self, placed: PlacedStructure) -> Array:
-        """`points` where the solid's body stands in a placement of one pose, (p, 3), m."""
+        """`points` where the solid's body stands in a placement, (p, 3), m.
+
+        Parameters
+        ----------
+        placed : PlacedStructure
+            At one pose.
+        """
         first = placed.structure.mesh_index[self.nodes[0]]
         turn = np.asarray(placed.turn_of(self.nodes[0]))
         arms = self.points - self.positions[0]
@@ -127,7 +151,7 @@ class SolidElement:
         Parameters
         ----------
         nodes : (..., k, 6)
-            Displacements and rotations of `self.nodes`, global axes.
+            Displacements and rotations of `self.nodes`, global axes, m and rad.
         placed : PlacedStructure
             One pose.
 

@@ -56,13 +56,24 @@ KEYS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
 
 
 def field_of(table: SolidTable) -> str:
-    """Path of a solid's table in messages."""
+    """Path of a solid's table in messages.
+
+    Parameters
+    ----------
+    table : SolidTable
+    """
     return f"solids.{table.name}"
 
 
 @contextmanager
 def at_field(field: str) -> Iterator[None]:
-    """Errors of deeper floors, told as errors of a field of the file."""
+    """Errors of lower packages, raised as errors of a field of the file.
+
+    Parameters
+    ----------
+    field : str
+        Its path in the file, as in `solids.frame.mesh`.
+    """
     try:
         yield
     except StrutworkError as error:
@@ -71,6 +82,10 @@ def at_field(field: str) -> Iterator[None]:
 
 def check_source(table: SolidTable) -> str:
     """The source of a solid's mesh: mesh, step, surface, or the name of its shape.
+
+    Parameters
+    ----------
+    table : SolidTable
 
     Raises
     ------
@@ -192,6 +207,15 @@ def part_file(name: str, folder: Path, field: str) -> Path:
 
     A model file may come from elsewhere; it reaches nothing that does not lie with it.
 
+    Parameters
+    ----------
+    name : str
+        As the model file writes it.
+    folder : Path
+        That of the model file.
+    field : str
+        For messages.
+
     Raises
     ------
     ModelError
@@ -223,7 +247,14 @@ def part_file(name: str, folder: Path, field: str) -> Path:
 
 
 def patch_name(table: SolidTable, index: int) -> str:
-    """Name of the patch of an interface: the file's, or that of its box."""
+    """Name of the patch of an interface: the file's, or that of its box.
+
+    Parameters
+    ----------
+    table : SolidTable
+    index : int
+        Of the interface in the table, counted from zero.
+    """
     named = table.interfaces[index].patch
     return f"interface {index + 1}" if named is None else named
 

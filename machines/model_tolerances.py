@@ -26,7 +26,7 @@ class ModelTolerances:
     tolerances : tuple of Tolerance
         In the order of the file.
     costs : mapping of tolerance name to float
-        Weights of the allocation; 1 where the file names none.
+        Weights of the allocation, any unit; 1 where the file names none.
     limits : mapping of (joint name, kind of quantity) to float
         Greatest forces and moments, N and N·m.
     """
@@ -153,6 +153,11 @@ def _add_limits(
 
 
 def carries(joint: Joint) -> tuple[str, ...]:
-    """Kinds of quantity that a joint can carry."""
+    """Kinds of quantity that a joint can carry.
+
+    Parameters
+    ----------
+    joint : Joint
+    """
     held = {d for d, s in zip(DIRECTIONS, joint.states, strict=True) if s != State.FREE}
     return tuple(kind for kind, directions, _ in KINDS if held.intersection(directions))

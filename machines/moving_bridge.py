@@ -35,6 +35,7 @@ class MovingBridge(MitSS1):
     text carries. The planar machine keeps its dimensions; the bridge is rigid, its way too, since
     nothing of them is printed, and its travel has no end. In statics the machine is therefore as
     stiff as the planar machine alone.
+    All parameters that are not named here are those of `MitSS1`.
 
     Parameters
     ----------
@@ -43,8 +44,6 @@ class MovingBridge(MitSS1):
         no mode, since drive and way are rigid.
     bridge_stiffness : float or None
         Of the bridge's drive along y, N/m. None: rigid; the thesis prints none.
-
-    All others are those of `MitSS1`.
     """
 
     bridge_mass: float = 400.0
@@ -87,6 +86,11 @@ class MovingBridge(MitSS1):
         """Inverse kinematics: the bridge takes y, the planar machine the rest; batch first.
 
         Analytic in the pose, as that of `MitSS1`.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
         """
         y = poses.position[..., 1]
         aside = y[..., None] * np.array([0.0, 1.0, 0.0])

@@ -70,6 +70,11 @@ class NamedMachine:
 def variants(name: str) -> Mapping[str, Variant]:
     """The models of a machine of the catalogue by their names, its own first.
 
+    Parameters
+    ----------
+    name : str
+        In the catalogue.
+
     Raises
     ------
     ModelError
@@ -81,12 +86,21 @@ def variants(name: str) -> Mapping[str, Variant]:
 
 
 def is_machine(text: str) -> bool:
-    """Whether a name stands for a machine of the catalogue, with or without a variant."""
+    """Whether a name stands for a machine of the catalogue, with or without a variant.
+
+    Parameters
+    ----------
+    text : str
+    """
     return text.partition(MARK)[0] in CATALOGUE
 
 
 def named_machine(text: str) -> NamedMachine:
     """The machine that `NAME` or `NAME:VARIANT` stands for; without a variant the first.
+
+    Parameters
+    ----------
+    text : str
 
     Raises
     ------
@@ -109,6 +123,10 @@ def named_machine(text: str) -> NamedMachine:
 def require_mass(found: NamedMachine) -> NamedMachine:
     """Return the machine itself if its structure can vibrate.
 
+    Parameters
+    ----------
+    found : NamedMachine
+
     Raises
     ------
     ModelError
@@ -125,7 +143,12 @@ def require_mass(found: NamedMachine) -> NamedMachine:
 
 
 def heavy_variants(found: NamedMachine) -> tuple[str, ...]:
-    """Names of the models to ask how a machine vibrates; none where it can be asked itself."""
+    """Names of the models to ask how a machine vibrates; none where it can be asked itself.
+
+    Parameters
+    ----------
+    found : NamedMachine
+    """
     if found.machine.structure.masses or found.variant.name == "own":
         return ()
     name = found.entry.name

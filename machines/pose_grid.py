@@ -21,7 +21,7 @@ class PoseGrid:
     positions : (n, 3)
         m.
     rotations : (q, 3, 3)
-        A rotation a tilt.
+        Rotation matrices of the tool, one per tilt.
     tilts : (q,)
         rad.
     tilt : str
@@ -54,4 +54,10 @@ class GridMachine(Protocol):
     """A machine that is looked at over x and a tilt, not over a hemisphere."""
 
     def pose_grid(self, steps: int = 10) -> PoseGrid:
-        """2 · steps + 1 places along x, as many tilts."""
+        """2 · steps + 1 places along x, as many tilts.
+
+        Parameters
+        ----------
+        steps : int
+            To each side of the middle.
+        """

@@ -92,7 +92,13 @@ class Proposed3PPRS(ThreeLegs):
         )
 
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """Eqs. 2 to 5 of the paper."""
+        """Eqs. 2 to 5 of the paper.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
         reach, missing = square_root(self.link_length**2 - seats.height**2, self.link_length)
         slider = seats.radius + reach
         overhang = slider - self.base_radius

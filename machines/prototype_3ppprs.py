@@ -79,7 +79,13 @@ class Prototype3PPPRS(ThreeLegs):
     platform : Platform
         A steel disc. Our choice.
     elements : int
-        Beam elements a link.
+        Beam elements per link.
+    shear : bool
+        Timoshenko beams. Our choice.
+    ball_range : float
+        Of the spherical joint to each side of its neutral direction, rad. Our choice.
+    ball_neutral : float
+        As `ThreeLegs`, rad. Our choice.
     """
 
     base_radius: float = 0.150
@@ -147,11 +153,24 @@ class Prototype3PPPRS(ThreeLegs):
         return replace(self, guides="locked")
 
     def beam(self, name: str, first: str, second: str) -> Beam:
-        """A beam of the machine's tube, divided."""
+        """A beam of the machine's tube, divided.
+
+        Parameters
+        ----------
+        name : str
+        first, second : str
+            Its nodes.
+        """
         return replace(super().beam(name, first, second), elements=self.elements)
 
     def guide(self, node: str) -> Joint:
-        """The curvilinear stage, a drive or locked."""
+        """The curvilinear stage, a drive or locked.
+
+        Parameters
+        ----------
+        node : str
+            Of the carriage.
+        """
         joint = super().guide(node)
         if self.guides == "locked":
             return Joint(joint.name, "revolute", joint.between, joint.stiffness, locks=("rz",))
@@ -217,7 +236,13 @@ class Prototype3PPPRS(ThreeLegs):
         return (*joint_limits(self.linkage), *balls)
 
     def radial(self, points: Array) -> Radial:
-        """Joint centres in the axes of the curvilinear stages, which do not follow the platform."""
+        """Joint centres in the axes of the curvilinear stages, which do not follow the platform.
+
+        Parameters
+        ----------
+        points : (..., 3, 3)
+            One for each leg, m.
+        """
         deviation = np.asarray(self.stage_angles, dtype=float)
         turn = np.arange(3) * (2.0 * pi / 3.0) + deviation
         zero = np.zeros(3)
@@ -234,7 +259,13 @@ class Prototype3PPPRS(ThreeLegs):
         )
 
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """The tangential stage goes abreast of the joint centre, the radial one behind it."""
+        """The tangential stage goes abreast of the joint centre, the radial one behind it.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
         rise = seats.height - self.hinge_height
         reach, missing = square_root(self.link_length**2 - rise * rise, self.link_length)
         abreast = dot(seats.points, seats.tangent)

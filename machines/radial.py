@@ -40,7 +40,13 @@ class Radial:
 
     @classmethod
     def of(cls, points: Array) -> Radial:
-        """Cylindrical coordinates of points, (..., 3, 3)."""
+        """Cylindrical coordinates of points.
+
+        Parameters
+        ----------
+        points : (..., 3, 3)
+            One for each leg, m.
+        """
         x, y, z = points[..., 0], points[..., 1], points[..., 2]
         square = x * x + y * y
         on_axis = np.asarray(square.real < 1e-18)
@@ -54,7 +60,7 @@ class Radial:
 
     @property
     def up(self) -> Array:
-        """The global z axis, shaped like `outward`."""
+        """The global z axis, (..., 3, 3)."""
         return np.broadcast_to(np.array([0.0, 0.0, 1.0]), self.outward.shape)
 
     @property
@@ -64,11 +70,20 @@ class Radial:
 
     @property
     def hinge_frame(self) -> Array:
-        """Axes outward, down, tangent: a positive turn about z lifts a link that points inward."""
+        """Axes outward, down, tangent as columns, (..., 3, 3, 3).
+
+        A positive turn about z lifts a link that points inward.
+        """
         return frame(self.outward, -self.up, self.tangent)
 
     def at(self, radius: Array | float, height: Array | float) -> Array:
-        """Points in the legs' planes at a radius and height, (..., 3, 3)."""
+        """Points in the legs' planes, (..., 3, 3), m.
+
+        Parameters
+        ----------
+        radius, height : (..., 3) or float
+            m.
+        """
         r, h = np.broadcast_arrays(radius, height)
         # the third coordinate of outward is zero, that of up one
         return vector(r * self.outward[..., 0], r * self.outward[..., 1], h)

@@ -206,7 +206,7 @@ class SerialFiveAxis:
         Parameters
         ----------
         tool_axis : (..., 3)
-            From the tip upwards, of any length.
+            From the tip upwards, of any length: no unit.
         """
         q = np.asarray(tool_axis)
         x, y, z = q[..., 0], q[..., 1], q[..., 2]
@@ -224,6 +224,11 @@ class SerialFiveAxis:
 
         Analytic in the pose, which may carry a complex step, but for a tool along the first
         rotary axis.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
 
         Returns
         -------

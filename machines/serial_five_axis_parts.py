@@ -50,12 +50,24 @@ _NODES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 
 def node(body: str, place: str) -> str:
-    """Node of a body at a place."""
+    """Node of a body at a place.
+
+    Parameters
+    ----------
+    body : str
+    place : str
+    """
     return f"{body}/{place}"
 
 
 def place_of(name: str) -> str:
-    """Place at which a node stands."""
+    """Place at which a node stands.
+
+    Parameters
+    ----------
+    name : str
+        Of the node.
+    """
     place = name.rpartition("/")[2]
     return PIVOT if place in ("second", "nose") else place
 
@@ -74,7 +86,17 @@ def nodes() -> tuple[str, ...]:
 
 
 def slide_joints(drive: float, across: float, tilting: float) -> Iterable[Joint]:
-    """Three driven prismatic joints; stiffnesses in N/m and N m/rad."""
+    """Three driven prismatic joints.
+
+    Parameters
+    ----------
+    drive : float
+        Stiffness along the slide, N/m.
+    across : float
+        Stiffness across it, N/m.
+    tilting : float
+        Stiffness about every axis, N·m/rad.
+    """
     held = {"x": across, "y": across, "z": drive, "rx": tilting, "ry": tilting, "rz": tilting}
     pairs = {
         "x": (node(GROUND, FOOT), node("column", FOOT)),
@@ -94,7 +116,19 @@ def slide_joints(drive: float, across: float, tilting: float) -> Iterable[Joint]
 
 
 def rotary_joints(axes: str, drive: float, bearing: float, tilting: float) -> Iterable[Joint]:
-    """Two driven rotary axes, and the spindle, whose bearings belong to the second."""
+    """Two driven rotary axes, and the spindle, whose bearings belong to the second.
+
+    Parameters
+    ----------
+    axes : str
+        "ac" or "ab".
+    drive : float
+        Stiffness about the axis, N·m/rad.
+    bearing : float
+        Stiffness in each direction, N/m.
+    tilting : float
+        Stiffness across the axis, N·m/rad.
+    """
     held = {"x": bearing, "y": bearing, "z": bearing, "rx": tilting, "ry": tilting, "rz": drive}
     pairs = (
         (node("ram", PIVOT), node(FORK, PIVOT)),
@@ -114,7 +148,16 @@ def rotary_joints(axes: str, drive: float, bearing: float, tilting: float) -> It
 
 
 def beams(material: Material, column: Section, ram: Section, elements: int) -> tuple[Beam, ...]:
-    """Column up to the saddle, ram from the saddle to its end, neck down to the pivot."""
+    """Column up to the saddle, ram from the saddle to its end, neck down to the pivot.
+
+    Parameters
+    ----------
+    material : Material
+    column, ram : Section
+        The neck is of the ram's.
+    elements : int
+        Of each beam.
+    """
     sides = (0.0, 0.0, 1.0)
     return (
         Beam(
@@ -147,7 +190,15 @@ def beams(material: Material, column: Section, ram: Section, elements: int) -> t
 def masses(
     carriage: float, saddle: float, fork: float, housing: float, spindle: float, length: float
 ) -> tuple[PointMass, ...]:
-    """Masses of the rigid parts, kg; the spindle's centre is halfway to the tool tip."""
+    """Masses of the rigid parts; the spindle's centre is halfway to the tool tip.
+
+    Parameters
+    ----------
+    carriage, saddle, fork, housing, spindle : float
+        kg.
+    length : float
+        From the tool tip to the pivot, m.
+    """
     return (
         PointMass(node("column", FOOT), carriage, _inertia(carriage, LARGE)),
         PointMass(node("saddle", BACK), saddle, _inertia(saddle, LARGE)),

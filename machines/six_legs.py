@@ -22,17 +22,36 @@ LEGS = (1, 2, 3, 4, 5, 6)
 
 
 def foot(i: int) -> str:
-    """Node of the base where a leg stands or hangs."""
+    """Node of the base where a leg stands or hangs.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    """
     return f"base{i}"
 
 
 def seat(i: int) -> str:
-    """Node of the moving platform in the middle of a leg's ball."""
+    """Node of the moving platform in the middle of a leg's ball.
+
+    Parameters
+    ----------
+    i : int
+        Of the leg.
+    """
     return f"{PLATFORM}/P{i}"
 
 
 def leg(i: int, part: str) -> str:
-    """Node of a leg, "head", "slide", "rod" or "end"; name of its "universal", "ram" or "ball"."""
+    """Node or joint of a leg.
+
+    Parameters
+    ----------
+    i : int
+    part : str
+        Node "head", "slide", "rod" or "end", joint "universal", "ram" or "ball".
+    """
     return f"leg{i}/{part}"
 
 
@@ -66,7 +85,13 @@ class SixLegs(ABC):
         return {}
 
     def slide_at(self, length: Array) -> Array:
-        """Of a leg's length, (...), m, how far from its foot the two parts meet; the middle."""
+        """How far from a leg's foot its two parts meet, (...), m: in the middle.
+
+        Parameters
+        ----------
+        length : (...)
+            Of the leg, m.
+        """
         return 0.5 * length
 
     @cached_property
@@ -100,6 +125,11 @@ class SixLegs(ABC):
         """Inverse kinematics: lengths and directions of the legs, batch first.
 
         Analytic in the pose, which may carry a complex step.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
 
         Returns
         -------

@@ -60,7 +60,7 @@ class ThreeLegs(ABC):
     guide_stiffness : float or None
         Drive stiffness along the guide, N/m (section 3.3.1: 3 N/µm); None holds it rigidly.
     drive_stiffness : float or None
-        The same of the second drive of a leg along its axis.
+        The same of the second drive of a leg along its axis, N/m.
     material : Material
         AISI 1018 (section 3.3.1).
     section : Section
@@ -144,14 +144,33 @@ class ThreeLegs(ABC):
 
     @abstractmethod
     def place_legs(self, seats: Radial) -> LegPlacement:
-        """Inverse kinematics of the legs from their joint centres on the platform."""
+        """Inverse kinematics of the legs from their joint centres on the platform.
+
+        Parameters
+        ----------
+        seats : Radial
+            Joint centres on the platform.
+        """
 
     def beam(self, name: str, first: str, second: str) -> Beam:
-        """A beam of the machine's tube."""
+        """A beam of the machine's tube.
+
+        Parameters
+        ----------
+        name : str
+        first, second : str
+            Its nodes.
+        """
         return Beam(name, (first, second), self.material, self.section, shear=self.shear)
 
     def guide(self, node: str) -> Joint:
-        """The drive along the circular guide: a revolute joint at the guide's centre."""
+        """The drive along the circular guide: a revolute joint at the guide's centre.
+
+        Parameters
+        ----------
+        node : str
+            Of the carriage.
+        """
         elastic = {}
         if self.guide_stiffness is not None:
             # joint axes at the centre are outward, tangent, up: y moves the carriage along the
@@ -221,7 +240,13 @@ class ThreeLegs(ABC):
         return np.asarray(outward * np.cos(self.ball_neutral) + down)
 
     def radial(self, points: Array) -> Radial:
-        """Joint centres on the platform (..., 3, 3), m, as the legs see them."""
+        """Joint centres on the platform as the legs see them.
+
+        Parameters
+        ----------
+        points : (..., 3, 3)
+            One for each leg, m.
+        """
         return Radial.of(points)
 
     def apparent(self) -> Self:
@@ -243,6 +268,11 @@ class ThreeLegs(ABC):
 
         Joint ranges are not looked at: `strutwork.machines.check_limits` does. Every operation is
         analytic, so that poses may carry a complex step.
+
+        Parameters
+        ----------
+        poses : Poses
+            Of the tool, (...).
 
         Returns
         -------

@@ -52,7 +52,15 @@ class WorkTable:
         return np.stack([x, np.zeros_like(x), z], axis=-1)
 
     def drive_values(self, work: ArrayLike, a: ArrayLike) -> Array:
-        """θ₄, m, and θ₅, rad, (..., 2): eqs 46 and 47."""
+        """θ₄, m, and θ₅, rad, (..., 2): eqs 46 and 47.
+
+        Parameters
+        ----------
+        work : (..., 3)
+            Point of the workpiece at the tool tip, m; may carry a complex step.
+        a : (...)
+            Tilt of the table, rad.
+        """
         w, a = np.asarray(work), np.asarray(a)
         slide = -w[..., 1] * np.cos(a) - (w[..., 2] + self.table_height) * np.sin(a)
         slide, turn = np.broadcast_arrays(slide, -a)

@@ -30,7 +30,20 @@ MESH_WORDS = ("NODE", "ELEMENT", "NSET", "ELSET", "SURFACE", "INCLUDE", "PART", 
 
 @dataclass
 class Instance:
-    """A part placed in the assembly."""
+    """A part placed in the assembly.
+
+    Parameters
+    ----------
+    name, part : str
+        As first written.
+    where : str
+        Its line, for messages.
+    rows : list of list of float
+        Numbers of the lines that move it: a translation, then an axis by two points, in the file's
+        own unit, and an angle, deg.
+    has_mesh : bool
+        Whether it has nodes or elements of its own.
+    """
 
     name: str
     part: str
@@ -69,7 +82,17 @@ class Deck:
         self._read()
 
     def fail(self, where: str, problem: str, remedy: str) -> ModelError:
-        """An error at a line, or about the whole file where `where` is empty."""
+        """An error at a line, or about the whole file where `where` is empty.
+
+        Parameters
+        ----------
+        where : str
+            The line, as `DeckLines.where` names it; empty for the whole file.
+        problem : str
+            What is wrong there, without a full stop.
+        remedy : str
+            What to do about it.
+        """
         if where:
             return self.lines.error(problem, remedy, where)
         return ModelError(str(self.lines.path), f"{problem}.", remedy)
@@ -339,7 +362,13 @@ class Deck:
 
 
 def real(text: str) -> float:
-    """A number as decks have it: `1.5`, `1.D-3`, or nothing for zero."""
+    """A number as decks have it: `1.5`, `1.D-3`, or nothing for zero.
+
+    Parameters
+    ----------
+    text : str
+        The field, blanks around it allowed; ValueError where it is no number.
+    """
     text = text.strip()
     try:
         return float(text) if text else 0.0
@@ -348,5 +377,11 @@ def real(text: str) -> float:
 
 
 def split(text: str) -> list[str]:
-    """The fields of a keyword line: commas in quotes do not part."""
+    """The fields of a keyword line: commas in quotes do not part.
+
+    Parameters
+    ----------
+    text : str
+        The line without its end.
+    """
     return re.findall(r'(?:"[^"]*"|[^,"])+', text) or [""]

@@ -96,7 +96,17 @@ class DeckModel:
         return FileMesh(self.points, self.solids, sets, sections, helpers, faces, node_sets)
 
     def cells(self, scope: Scope, found: NamedSet, open_: tuple[str, ...]) -> Ints:
-        """Cells of an element set and of the sets that it names."""
+        """Cells of an element set and of the sets that it names, (k,), ascending.
+
+        Parameters
+        ----------
+        scope : Scope
+            Where the set stands.
+        found : NamedSet
+            The set.
+        open_ : tuple of str
+            Names of the sets that are being resolved, which it may not name.
+        """
         parts = []
         for piece in found.pieces:
             index = self._index(piece)
@@ -106,7 +116,17 @@ class DeckModel:
         return np.unique(np.concatenate(parts))
 
     def nodes(self, scope: Scope, found: NamedSet, open_: tuple[str, ...]) -> Ints:
-        """Nodes of a node set and of the sets that it names."""
+        """Nodes of a node set and of the sets that it names, (k,), ascending.
+
+        Parameters
+        ----------
+        scope : Scope
+            Where the set stands.
+        found : NamedSet
+            The set.
+        open_ : tuple of str
+            Names of the sets that are being resolved, which it may not name.
+        """
         parts = []
         for piece in found.pieces:
             if piece.of_elements:

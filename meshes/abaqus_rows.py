@@ -22,9 +22,9 @@ class CellRows:
     lines : DeckLines
     scope : Scope
     type_, kind : str
-        Abaqus' and ours.
+        Abaqus' and those of this package.
     count : callable
-        Told of each cell.
+        Named with each cell in a message.
     """
 
     def __init__(
@@ -36,7 +36,13 @@ class CellRows:
         scope.elements.append(self.block)
 
     def row(self, text: str) -> None:
-        """Take a line."""
+        """Take a line.
+
+        Parameters
+        ----------
+        text : str
+            The line without its end; part of an element where that takes several.
+        """
         width = self.block.size + 1
         try:
             values = list(map(int, text.rstrip(", \t").split(",")))
@@ -77,7 +83,13 @@ class CellRows:
 
 
 class OtherRows:
-    """Rows of points and lines: their numbers alone are kept."""
+    """Rows of points and lines: their numbers alone are kept.
+
+    Parameters
+    ----------
+    scope : Scope
+        Takes the numbers.
+    """
 
     def __init__(self, scope: Scope) -> None:
         self._others = scope.others
@@ -85,7 +97,13 @@ class OtherRows:
         self._goes_on = False
 
     def row(self, text: str) -> None:
-        """Take a line."""
+        """Take a line.
+
+        Parameters
+        ----------
+        text : str
+            The line without its end.
+        """
         head = text.split(",", 1)[0].strip()
         if not self._goes_on and re.fullmatch(r"\d{1,18}", head):
             self._others.append(int(head))
@@ -100,7 +118,13 @@ class OtherRows:
 
 
 def counted(lines: DeckLines) -> Callable[[], None]:
-    """What counts the cells of a deck, and stops at the limit."""
+    """What counts the cells of a deck, and stops at the limit.
+
+    Parameters
+    ----------
+    lines : DeckLines
+        Names the file where there are too many.
+    """
     found = 0
 
     def one() -> None:
@@ -113,7 +137,17 @@ def counted(lines: DeckLines) -> Callable[[], None]:
 
 
 def not_read(lines: DeckLines, text: str, wanted: str) -> ModelError:
-    """The error for a line that is not what its keyword asks for."""
+    """The error for a line that is not what its keyword asks for.
+
+    Parameters
+    ----------
+    lines : DeckLines
+        At that line.
+    text : str
+        The line, of which the beginning is shown.
+    wanted : str
+        What it should be, as in "an element: whole numbers".
+    """
     return lines.error(
         f"holds {text[:60]!r}; it should be {wanted}",
         "Check the line; where the file is cut short or damaged, export it again.",

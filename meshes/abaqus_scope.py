@@ -20,7 +20,21 @@ Fail = Callable[[str, str, str], ModelError]
 
 @dataclass
 class Elements:
-    """A block of elements: `rows` has the number and the nodes of each, one after another."""
+    """A block of elements: `rows` has the number and the nodes of each, one after another.
+
+    Parameters
+    ----------
+    type_ : str
+        As Abaqus names it.
+    kind : str
+        Of the cells.
+    size : int
+        Nodes of each.
+    where : str
+        Its line, for messages.
+    rows : array of int
+        Number and nodes of each element, one after another.
+    """
 
     type_: str
     kind: str
@@ -36,7 +50,25 @@ class Elements:
 
 @dataclass
 class Piece:
-    """One block of a set: numbers, ranges and names of other sets, as they stand."""
+    """One block of a set: numbers, ranges and names of other sets, as they stand.
+
+    Parameters
+    ----------
+    where : str
+        Its line, for messages.
+    scope : Scope
+        Where it stands.
+    numbers : array of int
+        Of nodes or elements.
+    ranges : list of (int, int, int)
+        First, last and step.
+    names : list of str
+        Of other sets.
+    of_elements : bool
+        Whether the numbers are of elements whose nodes are meant.
+    from_elements : bool
+        Whether it came with the elements themselves.
+    """
 
     where: str
     scope: Scope
@@ -51,7 +83,16 @@ class Piece:
 
 @dataclass
 class NamedSet:
-    """A set: its name as first written, and its blocks."""
+    """A set: its name as first written, and its blocks.
+
+    Parameters
+    ----------
+    name : str
+        As first written.
+    pieces : list of Piece
+    internal : bool
+        Whether the deck marks it as one that its program made.
+    """
 
     name: str
     pieces: list[Piece] = field(default_factory=list)
@@ -60,7 +101,19 @@ class NamedSet:
 
 @dataclass
 class Surface:
-    """A surface: its name, its type, and rows of owner, side and place in the file."""
+    """A surface: its name, its type, and rows of owner, side and place in the file.
+
+    Parameters
+    ----------
+    name : str
+        As first written.
+    type_ : str
+        `ELEMENT` or `NODE`, in capitals.
+    scope : Scope
+        Where it stands.
+    rows : list of (str, str, str)
+        Element or element set, side, place in the file.
+    """
 
     name: str
     type_: str
@@ -72,7 +125,24 @@ class Surface:
 class Scope:
     """A part, or the assembly, or a deck without parts.
 
-    Names are kept by their capitals: Abaqus does not tell `eall` from `EALL`.
+    Names are kept by their capitals: Abaqus does not distinguish `eall` from `EALL`.
+
+    Parameters
+    ----------
+    name : str
+        Empty for a deck without parts.
+    node_numbers : array of int
+    coordinates : array of float
+        x, y, z of each node, in the file's own unit.
+    elements : list of Elements
+    others : array of int
+        Numbers of points and lines, which are no cells.
+    node_sets, element_sets : dict of str to NamedSet
+        By the name in capitals.
+    sections : list of (str, str)
+        Element set and line of each section.
+    surfaces : dict of str to Surface
+        By the name in capitals.
     """
 
     name: str = ""
@@ -92,14 +162,36 @@ class Scope:
         return not self.elements
 
     def piece(self, sets: dict[str, NamedSet], name: str, piece: Piece, *, internal: bool) -> None:
-        """Add a block to the set of that name."""
+        """Add a block to the set of that name.
+
+        Parameters
+        ----------
+        sets : dict of str to NamedSet
+            `node_sets` or `element_sets` of this scope.
+        name : str
+            As written; capitals do not count.
+        piece : Piece
+            The block.
+        internal : bool
+            Whether the deck marks the set as one that its program made.
+        """
         found = sets.setdefault(name.upper(), NamedSet(name))
         found.internal |= internal
         found.pieces.append(piece)
 
 
 class Index:
-    """Numbers of a scope's nodes and elements; `offset` is the first of its nodes in the mesh."""
+    """Numbers of a scope's nodes and elements.
+
+    Parameters
+    ----------
+    scope : Scope
+        The part, read to its end.
+    offset : int
+        The first of its nodes in the mesh.
+    fail : callable
+        Makes the error of a place, a problem and a remedy.
+    """
 
     def __init__(self, scope: Scope, offset: int, fail: Fail) -> None:
         self.scope, self.offset = scope, offset
@@ -127,7 +219,7 @@ class Index:
         self._fail = fail
 
     def connectivity(self) -> Iterator[tuple[Elements, Ints]]:
-        """The nodes of each block, by their place in the mesh: solids, then faces."""
+        """The nodes of each block, (m, size), by their place in the mesh: solids, then faces."""
         for block in (*self.solids, *self.faces):
             table = block.table
             at, known = self.nodes.find(table[:, 1:])
@@ -143,7 +235,13 @@ class Index:
             yield block, at + self.offset
 
     def cells(self, piece: Piece) -> Ints:
-        """Cells of the numbers and ranges of a block; solids come before faces."""
+        """Cells of the numbers and ranges of a block, (k,), ascending; solids come before faces.
+
+        Parameters
+        ----------
+        piece : Piece
+            Of an element set.
+        """
         at, known = self.elements.find(np.frombuffer(piece.numbers, dtype=np.int64))
         self._check(piece, known, "element")
         found = [at, *(self._range(piece, r, self.elements, "element") for r in piece.ranges)]
@@ -151,7 +249,13 @@ class Index:
         return np.unique(cells[cells >= 0])
 
     def nodes_of(self, piece: Piece) -> Ints:
-        """Nodes of the numbers and ranges of a block."""
+        """Nodes of the numbers and ranges of a block, (k,), ascending.
+
+        Parameters
+        ----------
+        piece : Piece
+            Of a node set.
+        """
         at, known = self.nodes.find(np.frombuffer(piece.numbers, dtype=np.int64))
         self._check(piece, known, "node")
         found = [at, *(self._range(piece, r, self.nodes, "node") for r in piece.ranges)]

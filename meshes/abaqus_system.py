@@ -16,7 +16,15 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class System:
-    """A rectangular system: its origin and its axes, the columns of `axes`."""
+    """A rectangular system.
+
+    Parameters
+    ----------
+    origin : (3,)
+        In the file's own unit.
+    axes : (3, 3)
+        Its axes as columns, orthonormal.
+    """
 
     origin: Array = field(default_factory=lambda: np.zeros(3))
     axes: Array = field(default_factory=lambda: np.eye(3))
@@ -26,6 +34,11 @@ class System:
         """The system of *SYSTEM: origin and a point of the x axis, then one of the xy plane.
 
         Without rows it is the global one; without the third point z stays global.
+
+        Parameters
+        ----------
+        rows : sequence of sequence of float
+            Coordinates in the unit of the file, as *SYSTEM gives them on its lines.
 
         Raises
         ------
@@ -54,7 +67,16 @@ class System:
         return not self.origin.any() and bool((self.axes == np.eye(3)).all())
 
     def to_global(self, values: array[float], cylindrical: bool) -> array[float]:
-        """Coordinates (3 n) in the system, or radius, angle in degrees and height, as global."""
+        """Coordinates of a system as global ones, (3 n).
+
+        Parameters
+        ----------
+        values : (3 n,) array of float
+            x, y and z of each node, or radius, angle and height, in the unit of the file and
+            degrees.
+        cylindrical : bool
+            Whether they are the latter.
+        """
         places = np.array(values, dtype=float).reshape(-1, 3)
         if cylindrical:
             radius, angle = places[:, 0], np.radians(places[:, 1])
@@ -63,13 +85,15 @@ class System:
 
 
 def placed(points: Array, rows: Sequence[Sequence[float]]) -> Array:
-    """Points of an instance: translated, then turned about the axis through two points.
+    """Points of an instance, (n, 3): translated, then turned about the axis through two points.
 
     Parameters
     ----------
     points : (n, 3)
+        In any unit, that of the file.
     rows : sequence of sequence of float
-        The translation, then both points and the angle in degrees; either may be missing.
+        The translation, then both points, same unit, and the angle in degrees; either may be
+        missing.
 
     Raises
     ------

@@ -28,7 +28,13 @@ NODE_ORDER = {"hexahedron27": (*range(20), 26, 24, 23, 25, 21, 22, 20)}
 
 
 def kind_of(type_: str) -> str | None:
-    """Meshio's kind of an element type; empty for points and lines, None where unknown."""
+    """Meshio's kind of an element type; empty for points and lines, None where unknown.
+
+    Parameters
+    ----------
+    type_ : str
+        As in `C3D8R`; capitals do not count.
+    """
     name = type_.upper().strip()
     if match := SOLID.match(name):
         return SOLIDS.get(int(match[1]))

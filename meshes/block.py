@@ -34,7 +34,7 @@ def block(
     divisions : (3,) int
         Cells along each axis.
     grading : (3,)
-        Last cell over first along each axis; more than 1 is finer at the origin.
+        Ratio of the last cell to the first along each axis; more than 1 is finer at the origin.
     both : bool
         Grade both ends alike (`strutwork.meshes.grading.lines`).
     region, name : str
@@ -72,7 +72,11 @@ def hexahedral_block(
     corners : (8, 3)
         m, in the order of an eight-node hexahedron: four below counter-clockwise seen from
         above, then the four above them. The points inside are trilinear.
-    divisions, grading, region, name
+    divisions : (3,) int
+        As for `block`.
+    grading : (3,)
+        Ratios, as for `block`.
+    region, name : str
         As for `block`; the sides keep their names.
 
     Raises

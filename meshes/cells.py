@@ -112,7 +112,7 @@ class CellType:
 
     @cached_property
     def faces(self) -> Ints:
-        """Local nodes of each face, (faces, nodes of the face kind)."""
+        """Local nodes of each face, (faces, k)."""
         index = {frozenset(p): i for i, p in enumerate(self.parents)}
         parents = CELL_TYPES[self.face_kind].parents
         return np.array(
@@ -135,11 +135,23 @@ class CellType:
         return np.linalg.inv(_monomials(self.reference, self.exponents))
 
     def shape(self, at: Array) -> Array:
-        """Shape functions at reference coordinates `at` (q, dimension), (q, n)."""
+        """Shape functions at reference coordinates, (q, n).
+
+        Parameters
+        ----------
+        at : (q, dimension)
+            Reference coordinates, 0 to 1, no unit.
+        """
         return np.asarray(_monomials(at, self.exponents) @ self._coefficients)
 
     def gradient(self, at: Array) -> Array:
-        """Derivatives of the shape functions, (q, n, dimension)."""
+        """Derivatives of the shape functions, (q, n, dimension).
+
+        Parameters
+        ----------
+        at : (q, dimension)
+            Reference coordinates, 0 to 1, no unit.
+        """
         columns = []
         for axis in range(self.dimension):
             lowered = self.exponents.copy()
@@ -152,6 +164,11 @@ class CellType:
 
         Gauss-Legendre on squares and cubes; on simplices their image under the collapse of
         an edge, Gauss-Jacobi (Stroud 1971).
+
+        Parameters
+        ----------
+        degree : int
+            Of the polynomial in each reference coordinate.
         """
         count = degree // 2 + 1
         jacobi = [self.dimension - 1 - i if self.is_simplex else 0 for i in range(self.dimension)]
@@ -229,6 +246,13 @@ CELL_TYPES: dict[str, CellType] = {
 
 def cell_type(kind: str, part: str = "mesh") -> CellType:
     """The cell type of that name.
+
+    Parameters
+    ----------
+    kind : str
+        meshio's name.
+    part : str
+        Named in an error.
 
     Raises
     ------

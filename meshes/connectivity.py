@@ -66,7 +66,15 @@ class Connectivity:
 
 
 def connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
-    """How the cells hang together; `tolerance` is that of `strutwork.meshes.transform.merged`."""
+    """How the cells of a mesh hang together.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Any, also of several bodies.
+    tolerance : float, optional
+        Distance up to which points coincide, m; default as for `strutwork.meshes.transform.merged`.
+    """
     size = len(mesh.points)
     links = [
         (np.repeat(b.nodes[:, :1], b.type.size - 1, axis=1), b.nodes[:, 1:]) for b in mesh.blocks
@@ -105,6 +113,13 @@ def connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
 
 def check_connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
     """How the cells of a mesh that is one body hang together.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of one body.
+    tolerance : float, optional
+        As for `connectivity`, m.
 
     Raises
     ------

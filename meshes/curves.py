@@ -21,6 +21,11 @@ def is_straight(mesh: Mesh) -> bool:
     """Whether every middle node stands in the middle of its corners, so that `linear` keeps all.
 
     Nodes off by a millionth of their edge, the rounding of a file, count as in the middle.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of cells of any kind; linear ones are straight.
     """
     return not any(_bent(mesh.points, block).any() for block in mesh.blocks)
 
@@ -48,6 +53,11 @@ def straightened(mesh: Mesh, cells: Ints) -> Mesh:
 
 def unbent(mesh: Mesh) -> tuple[Mesh, Ints]:
     """The mesh with straight edges where curved ones would turn cells inside out.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of cells of any kind.
 
     Returns
     -------

@@ -78,11 +78,26 @@ class DeckLines:
         return f"{top.name}, line {top.number}" if top.name else f"line {top.number}"
 
     def error(self, problem: str, remedy: str, where: str = "") -> ModelError:
-        """An error about the last line, or about the line `where`."""
+        """An error about the last line, or about the line `where`.
+
+        Parameters
+        ----------
+        problem : str
+            What is wrong, after the place and without a full stop.
+        remedy : str
+            What to do about it.
+        where : str
+            The line as `where` names it; empty for the last line.
+        """
         return ModelError(str(self.path), f"{where or self.where} {problem}.", remedy)
 
     def include(self, name: str) -> None:
         """Go on with the file of that name.
+
+        Parameters
+        ----------
+        name : str
+            As the deck has it, from its folder.
 
         Raises
         ------
@@ -139,7 +154,13 @@ def _wrapped(content: bytes) -> io.TextIOWrapper:
 
 
 def encoding(content: bytes) -> str:
-    """Name of the encoding: by its mark, by zero bytes, UTF-8 where it is that, or Latin-1."""
+    """Name of the encoding: by its mark, by zero bytes, UTF-8 where it is that, or Latin-1.
+
+    Parameters
+    ----------
+    content : bytes
+        Of the file, all of it.
+    """
     for mark, name in MARKS:
         if content.startswith(mark):
             return name

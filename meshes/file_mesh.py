@@ -67,7 +67,7 @@ class FileMesh:
         ----------
         name : str
         scale : float
-            Metres in a unit of the file.
+            Of a unit of the file, m.
 
         Raises
         ------
@@ -117,20 +117,32 @@ class FileMesh:
 
 
 def unusable(kind: str) -> str:
-    """What a solid that cannot be analysed is, in words: `a wedge (pentahedron)`."""
+    """What a solid that cannot be analysed is, in words: `a wedge (pentahedron)`.
+
+    Parameters
+    ----------
+    kind : str
+        meshio's name of the cell type.
+    """
     found = [words for key, words in UNUSABLE.items() if kind.startswith(key)]
     return found[0] if found else f"a cell of type {kind!r}"
 
 
 def remedy_for(kind: str) -> str:
-    """What to do about a solid that cannot be analysed."""
+    """What to do about a solid that cannot be analysed.
+
+    Parameters
+    ----------
+    kind : str
+        meshio's name of the cell type.
+    """
     if kind == "voxel":
         return "Export hexahedra, VTK's type 12."
     return "Mesh with hexahedra or tetrahedra alone."
 
 
 def by_tag(tags: Ints, names: Mapping[int, str], what: str, first: int = 0) -> dict[str, Ints]:
-    """Cells by the number that each carries: named, or `region 4`; those of number 0 in none.
+    """Cells (k,) by the number that each carries: named, or `region 4`; those of number 0 in none.
 
     Parameters
     ----------

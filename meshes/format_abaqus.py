@@ -32,7 +32,13 @@ PER_LINE = 8
 
 
 def read(path: Path) -> FileMesh:
-    """What an .inp file holds."""
+    """What an .inp file holds.
+
+    Parameters
+    ----------
+    path : Path
+        .inp; what it includes lies in its folder.
+    """
     deck = Deck(path)
     model = DeckModel(deck)
     found = model.file_mesh()
@@ -41,7 +47,17 @@ def read(path: Path) -> FileMesh:
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
-    """Write nodes, elements by region, node sets and surfaces; no material, no step."""
+    """Write nodes, elements by region, node sets and surfaces; no material, no step.
+
+    Parameters
+    ----------
+    path : Path
+        Overwritten.
+    mesh : Mesh
+        Points, m, are written as they are.
+    groups : list of Group
+        As `to_groups` makes them.
+    """
     solids = [g for g in groups if g.dimension == 3]
     labels = _labels(mesh, groups)
     cells = sum(len(g.nodes) for g in solids)
@@ -131,7 +147,7 @@ def _sides(
 
 
 def _check_counts(path: Path, deck: Deck, points: int, cells: int) -> None:
-    """ModelError where a deck of ours lacks what its first line counts."""
+    """ModelError where a deck of this package lacks what its first line counts."""
     match = HEADER.match(deck.first_line)
     if match and (int(match[1]), int(match[2])) != (points, cells):
         raise ModelError(

@@ -24,7 +24,13 @@ WORDS = {3: "region", 2: "patch", 0: "nodes"}
 
 
 def read(path: Path) -> FileMesh:
-    """What a .msh file holds. An element of several groups is in each of them."""
+    """What a .msh file holds. An element of several groups is in each of them.
+
+    Parameters
+    ----------
+    path : Path
+        .msh of version 2 or 4.
+    """
     found = read_file(path)
     index = Numbered(found.numbers)
     twice = index.twice()
@@ -151,7 +157,17 @@ def _once(nodes: Ints, groups: dict[str, Ints]) -> tuple[Ints, dict[str, Ints]]:
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
-    """Write version 2.2, binary, which every Gmsh reads; a cell of two groups stands twice."""
+    """Write version 2.2, binary, which every Gmsh reads; a cell of two groups stands twice.
+
+    Parameters
+    ----------
+    path : Path
+        Overwritten.
+    mesh : Mesh
+        Points, m, are written as they are.
+    groups : list of Group
+        As `to_groups` makes them.
+    """
     import meshio  # noqa: PLC0415 - half a second that most commands never need
 
     groups = with_cell_sets(mesh, groups)

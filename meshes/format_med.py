@@ -25,7 +25,13 @@ LONGEST_NAME = 80
 
 
 def read(path: Path) -> FileMesh:
-    """What a .med file holds. A cell of several groups is in each of them."""
+    """What a .med file holds. A cell of several groups is in each of them.
+
+    Parameters
+    ----------
+    path : Path
+        .med.
+    """
     found = read_file(path)
     solids: list[Block] = []
     sets: dict[str, list[Ints]] = {}
@@ -59,7 +65,17 @@ def read(path: Path) -> FileMesh:
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
-    """Write each face once, in a family of the patches that hold it; nodes likewise."""
+    """Write each face once, in a family of the patches that hold it; nodes likewise.
+
+    Parameters
+    ----------
+    path : Path
+        Overwritten.
+    mesh : Mesh
+        Points, m, are written as they are.
+    groups : list of Group
+        As `to_groups` makes them.
+    """
     import meshio  # noqa: PLC0415 - half a second that most commands never need
 
     groups = with_cell_sets(mesh, groups)

@@ -29,7 +29,13 @@ CARDS = {
 
 
 def read(path: Path) -> FileMesh:
-    """What a .bdf file holds."""
+    """What a .bdf file holds.
+
+    Parameters
+    ----------
+    path : Path
+        .bdf; what it includes lies in its folder.
+    """
     bulk = BulkData(path)
     tables = bulk.tables()
     _check_counts(path, bulk, sum(len(p) for _, p, _ in tables))
@@ -61,7 +67,17 @@ def read(path: Path) -> FileMesh:
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
-    """Write regions and patches; names stand in comments, node sets are left out."""
+    """Write regions and patches; names stand in comments, node sets are left out.
+
+    Parameters
+    ----------
+    path : Path
+        Overwritten.
+    mesh : Mesh
+        Points, m, are written as they are.
+    groups : list of Group
+        As `to_groups` makes them.
+    """
     kept = [g for g in groups if g.dimension > 0]
     keys = list(dict.fromkeys((g.dimension, g.name) for g in kept))
     number = {key: i + 1 for i, key in enumerate(keys)}
@@ -95,7 +111,13 @@ def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
 
 
 def sixteen(value: float) -> str:
-    """A number in at most 16 characters, with as many digits as these hold."""
+    """A number in at most 16 characters, with as many digits as these hold.
+
+    Parameters
+    ----------
+    value : float
+        Finite, in any unit.
+    """
     plain = repr(value)
     if len(plain) <= 16:
         return plain.replace("e", "E") if "." in plain else plain.replace("e", ".E")
@@ -104,7 +126,7 @@ def sixteen(value: float) -> str:
 
 
 def _check_counts(path: Path, bulk: BulkData, elements: int) -> None:
-    """ModelError where a file of ours lacks what its first line counts."""
+    """ModelError where a file of this package lacks what its first line counts."""
     for match in filter(None, map(COUNTS.match, bulk.comments)):
         if (int(match[1]), int(match[2])) != (len(bulk.points), elements):
             raise ModelError(

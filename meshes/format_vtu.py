@@ -29,7 +29,13 @@ TAGS = ("region", "gmsh:physical", "mat_id", "MaterialIds", "CellEntityIds")
 
 
 def read(path: Path) -> FileMesh:
-    """What a .vtu file holds, all its pieces."""
+    """What a .vtu file holds, all its pieces.
+
+    Parameters
+    ----------
+    path : Path
+        .vtu.
+    """
     file = open_vtu(path)
     grid = file.root.find("UnstructuredGrid")
     pieces = [] if grid is None else grid.findall("Piece")
@@ -132,7 +138,17 @@ def _masks(block: VtkBlock, data: dict[str, Ints], prefix: str) -> dict[str, Int
 
 
 def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
-    """Write each cell once, with a mask for each name; a cell of two sets has two masks."""
+    """Write each cell once, with a mask for each name; a cell of two sets has two masks.
+
+    Parameters
+    ----------
+    path : Path
+        Overwritten.
+    mesh : Mesh
+        Points, m, are written as they are.
+    groups : list of Group
+        As `to_groups` makes them; its faces are used.
+    """
     import meshio  # noqa: PLC0415 - half a second that most commands never need
 
     faces = [g for g in groups if g.dimension == 2]

@@ -31,7 +31,7 @@ class GltfPart:
     ----------
     surface : Surface
     colours : (n, 3) or (3,) or None
-        Red, green and blue from 0 to 1 as on a screen (sRGB), at each vertex or for all.
+        Red, green and blue from 0 to 1 as on a screen (sRGB), no unit, at each vertex or for all.
     displacement : (n, 3) or None
         m at full swing: a mode shape or a deflection, drawn as a morph target.
     """
@@ -65,7 +65,15 @@ def write_gltf(parts: Sequence[GltfPart], path: Path | str, *, swings: bool = Tr
 
 
 def to_glb(parts: Sequence[GltfPart], *, swings: bool = True) -> bytes:
-    """The bytes of a .glb file; see `write_gltf`."""
+    """The bytes of a .glb file; see `write_gltf`.
+
+    Parameters
+    ----------
+    parts : sequence of GltfPart
+        At least one; drawn together.
+    swings : bool
+        Animate the displacement as a sine of two seconds.
+    """
     if not parts:
         raise ModelError("glTF scene", "holds nothing.", "Give at least one part.")
     buffer = _Buffer()

@@ -44,8 +44,18 @@ PHYSICAL = re.compile(r'^\s*(\d+)\s+(-?\d+)\s+"(.*)"\s*$')
 class Cells:
     """Elements of one type: their nodes by number, the groups of the block or of each element.
 
-    `physical` (m,) is the group of each element in version 2; `entity` the geometric entity of
-    the block in version 4, whose groups it has.
+    Parameters
+    ----------
+    kind : str
+        Of the cells.
+    numbers : (m,)
+        Of the elements.
+    nodes : (m, k)
+        Numbers of their nodes.
+    entity : (int, int)
+        Dimension and tag of the geometric entity, whose groups the block has; version 4.
+    physical : (m,) or None
+        Group of each element; version 2.
     """
 
     kind: str
@@ -61,10 +71,16 @@ class GmshFile:
 
     Parameters
     ----------
+    path : Path
     names : dict of (dimension, number) to str
         Physical groups.
     entities : dict of (dimension, tag) to tuple of int
         Physical groups of each geometric entity, version 4.
+    numbers : (n,)
+        Of the nodes.
+    points : (n, 3)
+        In the file's own unit.
+    cells : list of Cells
     """
 
     path: Path
@@ -77,6 +93,11 @@ class GmshFile:
 
 def read_file(path: Path) -> GmshFile:
     """Read a file.
+
+    Parameters
+    ----------
+    path : Path
+        .msh, of ordinary size.
 
     Raises
     ------

@@ -37,7 +37,13 @@ class Values:
         self.section = ""
 
     def open_text(self, name: str) -> None:
-        """Take the numbers of the section in which the cursor stands; text alone."""
+        """Take the numbers of the section in which the cursor stands; text alone.
+
+        Parameters
+        ----------
+        name : str
+            Of the section, without its `$`.
+        """
         self.section = name
         self._text, self._at = None, 0
         if self.binary:
@@ -60,7 +66,15 @@ class Values:
             ) from None
 
     def take(self, count: int, kind: str = "i") -> Array:
-        """The next numbers: `i` int, `d` double, `u` unsigned of 8 bytes, `U` of 4."""
+        """The next numbers, (count,).
+
+        Parameters
+        ----------
+        count : int
+            How many.
+        kind : str
+            `i` int, `d` double, `u` unsigned of 8 bytes, `U` of 4.
+        """
         if count < 0:
             raise self.cut()
         if self._text is not None:
@@ -75,7 +89,15 @@ class Values:
         )
 
     def records(self, type_: np.dtype[Any], count: int) -> Array:
-        """Binary records; none is made before the file is known to hold them."""
+        """Binary records, (count,); none is made before the file is known to hold them.
+
+        Parameters
+        ----------
+        type_ : dtype
+            Of one record, with its byte order.
+        count : int
+            How many.
+        """
         size = type_.itemsize * count
         if count < 0 or self.position + size > len(self.content):
             raise self.cut()
@@ -84,7 +106,13 @@ class Values:
         return found
 
     def whole(self, values: Array) -> Array:
-        """Numbers of a text as whole ones; ModelError where they are none."""
+        """Numbers of a text as whole ones, in the same shape; ModelError where they are none.
+
+        Parameters
+        ----------
+        values : any shape
+            As the text has them, no unit.
+        """
         # beyond 2**53 a float is no exact number; NaN fails the comparison too
         fits = (np.abs(values) < 2.0**53) & (values == np.round(values))
         if not fits.all():
@@ -96,7 +124,7 @@ class Values:
         return values.astype(np.int64)
 
     def left(self) -> Array:
-        """All numbers of a text section that are left."""
+        """All numbers of a text section that are left, (n,)."""
         if self._text is None:
             raise self.cut()
         found = self._text[self._at :]

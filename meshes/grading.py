@@ -25,8 +25,8 @@ def lines(length: float, divisions: int, ratio: float = 1.0, *, both: bool = Fal
     divisions : int
         Number of cells.
     ratio : float
-        Last cell over first cell, a geometric progression; 1 is uniform, more is finer at the
-        start.
+        Ratio of the last cell to the first, a geometric progression; 1 is uniform, more is finer at
+        the start.
     both : bool
         Grade both ends alike: `ratio` is the middle cell over an end cell.
 
@@ -62,7 +62,7 @@ def lines(length: float, divisions: int, ratio: float = 1.0, *, both: bool = Fal
 def lines_through(
     stops: Iterable[float], size: float, towards: Iterable[float] = (), ratio: float = 1.0
 ) -> Array:
-    """Mesh lines that fall on every stop, with no cell above `size`.
+    """Mesh lines (n,) that fall on every stop, with no cell above `size`.
 
     Parameters
     ----------
@@ -72,10 +72,10 @@ def lines_through(
     size : float
         Largest cell, m.
     towards : iterable of float
-        Stops towards which the cells beside them shrink; elsewhere they are uniform between
+        Stops towards which the cells beside them shrink, m; elsewhere they are uniform between
         two stops.
     ratio : float
-        Largest over smallest cell between two stops of which one is in `towards`.
+        Ratio of the largest to the smallest cell between two stops of which one is in `towards`.
 
     Raises
     ------

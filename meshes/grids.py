@@ -34,7 +34,7 @@ def grid(
 
     Parameters
     ----------
-    x, y, z : (n + 1,)
+    x, y, z : (nx + 1,), (ny + 1,), (nz + 1,)
         Coordinates of the lines, rising, m.
     keep : (nx, ny, nz) bool or None
         The cells to keep; all by default.

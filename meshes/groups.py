@@ -34,7 +34,13 @@ class Group:
 
 
 def to_groups(mesh: Mesh) -> list[Group]:
-    """The groups of a mesh: regions first, then patches, then node sets."""
+    """The groups of a mesh: regions first, then patches, then node sets.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its cell sets are left to `with_cell_sets`.
+    """
     found = [
         Group(name, 3, block.kind, block.nodes[block.region == index])
         for index, name in enumerate(mesh.regions)
@@ -56,6 +62,13 @@ def with_cell_sets(mesh: Mesh, groups: list[Group]) -> list[Group]:
     """The groups with those of the mesh's cell sets; cells of several sets stand in each.
 
     A set takes the place of a region of its name, which it holds.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose groups they are.
+    groups : list of Group
+        As `to_groups` makes them.
     """
     ends = np.cumsum([len(b.nodes) for b in mesh.blocks])[:-1]
     found = [g for g in groups if g.dimension == 3 and g.name not in mesh.cell_sets]

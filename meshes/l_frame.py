@@ -41,7 +41,8 @@ def l_frame(
     size : float
         Largest edge of a cell, m. Cells are uniform between two stops.
     corner_ratio : float
-        Largest over smallest cell on the way to the inner corner of the L; 1 is uniform.
+        Ratio of the largest to the smallest cell on the way to the inner corner of the L; 1 is
+        uniform.
     stops : mapping of "x", "y", "z" to coordinates, or None
         Where mesh lines must fall besides, m: the edges of mounts and rails.
     region, name : str

@@ -55,7 +55,17 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
 
 
 def check_size(path: Path | str, size: int, limit: int | None = None) -> None:
-    """ModelError where a file has more bytes than `limit`."""
+    """Refuse a file that is too large, by a ModelError.
+
+    Parameters
+    ----------
+    path : Path or str
+        Named in the error.
+    size : int
+        Bytes.
+    limit : int, optional
+        Bytes; default `LARGEST_FILE`.
+    """
     limit = LARGEST_FILE if limit is None else limit
     if size > limit:
         raise ModelError(
@@ -66,7 +76,15 @@ def check_size(path: Path | str, size: int, limit: int | None = None) -> None:
 
 
 def check_content(path: Path | str, size: int) -> None:
-    """ModelError where a compressed file would unpack to more bytes than the limit."""
+    """ModelError where a compressed file would unpack to more bytes than the limit.
+
+    Parameters
+    ----------
+    path : Path or str
+        Named in the error.
+    size : int
+        Bytes that it would unpack to.
+    """
     if size > LARGEST_CONTENT:
         raise ModelError(
             str(path),
@@ -76,7 +94,17 @@ def check_content(path: Path | str, size: int) -> None:
 
 
 def check_counts(path: Path | str, points: int, cells: int = 0) -> None:
-    """ModelError where a mesh has, or claims, more points or cells than the limits."""
+    """ModelError where a mesh has, or claims, more points or cells than the limits.
+
+    Parameters
+    ----------
+    path : Path or str
+        Named in the error.
+    points : int
+        Number of points.
+    cells : int
+        Number of cells.
+    """
     for count, limit, what in ((points, MOST_POINTS, "points"), (cells, MOST_CELLS, "cells")):
         if count > limit:
             raise ModelError(str(path), f"has {count} {what}; {limit} is the limit.", COARSER)

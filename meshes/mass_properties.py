@@ -92,7 +92,21 @@ def mass_properties(mesh: Mesh, density: float | Mapping[str, float]) -> MassPro
 def from_moments(
     volume: float, mass: float, origin: Array, first: Array, second: Array
 ) -> MassProperties:
-    """Mass properties from the first (3,) and second (3, 3) moments of mass about `origin`."""
+    """Mass properties from moments of mass about a point.
+
+    Parameters
+    ----------
+    volume : float
+        m³.
+    mass : float
+        kg.
+    origin : (3,)
+        The point, m.
+    first : (3,)
+        ∫ x dm, kg·m.
+    second : (3, 3)
+        ∫ x xᵀ dm, kg·m².
+    """
     arm = first / mass
     about = second - mass * np.outer(arm, arm)
     inertia = np.trace(about) * np.eye(3) - about

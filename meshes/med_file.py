@@ -38,6 +38,11 @@ class MedFile:
 
     Parameters
     ----------
+    path : Path
+    points : (n, 3)
+        In the file's own unit.
+    node_families : (n,)
+        Family of each node.
     cells : list of (kind, (m, k) int, (m,) int)
         Nodes from 0, and the family of each cell.
     names : dict of int to tuple of str
@@ -51,7 +56,13 @@ class MedFile:
     names: dict[int, tuple[str, ...]] = field(default_factory=dict)
 
     def members(self, families: Ints) -> dict[str, Ints]:
-        """Places of each group among cells or nodes of these families."""
+        """Places (k,) of each group among cells or nodes of these families.
+
+        Parameters
+        ----------
+        families : (m,) of int
+            Family of each cell or node.
+        """
         found: dict[str, list[Ints]] = {}
         for family in np.unique(families).tolist():
             own = np.flatnonzero(families == family)
@@ -62,6 +73,11 @@ class MedFile:
 
 def read_file(path: Path) -> MedFile:
     """Read a file.
+
+    Parameters
+    ----------
+    path : Path
+        .med, of ordinary size.
 
     Raises
     ------

@@ -54,7 +54,13 @@ class Faces:
 
 @dataclass(frozen=True, repr=False)
 class Patch:
-    """A part of a surface: faces of one or more kinds."""
+    """A part of a surface: faces of one or more kinds.
+
+    Parameters
+    ----------
+    faces : tuple of Faces
+        One entry for each kind.
+    """
 
     faces: tuple[Faces, ...]
 
@@ -183,11 +189,23 @@ class Mesh:
         return np.asarray(high - low)
 
     def patch(self, name: str) -> Patch:
-        """The patch of that name; ModelError lists those there are."""
+        """The patch of that name; ModelError lists those there are.
+
+        Parameters
+        ----------
+        name : str
+            One of `patches`.
+        """
         return self._named(self.patches, "patch", name)
 
     def node_set(self, name: str) -> Ints:
-        """The nodes of the set of that name; ModelError lists those there are."""
+        """The nodes (k,) of the set of that name; ModelError lists those there are.
+
+        Parameters
+        ----------
+        name : str
+            One of `node_sets`.
+        """
         return self._named(self.node_sets, "node set", name)
 
     @property
@@ -196,10 +214,15 @@ class Mesh:
         return np.concatenate([b.region for b in self.blocks])
 
     def region_cells(self, name: str) -> Ints:
-        """The cells of a cell set, or of a region where no set has the name, ascending.
+        """The cells of a cell set, or of a region where no set has the name, ascending, (k,).
 
         A file's group that lies partly in others is a region of the cells it has alone, and a
         cell set of all of them: here it is all.
+
+        Parameters
+        ----------
+        name : str
+            One of `cell_sets` or `regions`.
         """
         if name in self.cell_sets:
             return self.cell_sets[name]
@@ -207,7 +230,13 @@ class Mesh:
         return np.flatnonzero(self.cell_regions == self.regions.index(name))
 
     def region_nodes(self, name: str) -> Ints:
-        """The nodes of the cells of a region or of a cell set, ascending."""
+        """The nodes of the cells of a region or of a cell set, ascending, (k,).
+
+        Parameters
+        ----------
+        name : str
+            One of `cell_sets` or `regions`.
+        """
         chosen = np.zeros(self.cell_count, dtype=bool)
         chosen[self.region_cells(name)] = True
         ends = np.cumsum([len(b.nodes) for b in self.blocks])[:-1]
@@ -216,7 +245,13 @@ class Mesh:
         return np.unique(np.concatenate(used))
 
     def holders(self, region: str) -> tuple[str, ...]:
-        """The region and the cell sets that hold all of it, the smallest first."""
+        """The region and the cell sets that hold all of it, the smallest first.
+
+        Parameters
+        ----------
+        region : str
+            One of `regions`.
+        """
         self._named(dict.fromkeys(self.regions), "region", region)
         own = np.flatnonzero(self.cell_regions == self.regions.index(region))
         sets = sorted(self.cell_sets, key=lambda name: len(self.cell_sets[name]))

@@ -29,7 +29,17 @@ UNITS = {"m": 1.0, "mm": 1e-3}
 
 @dataclass(frozen=True)
 class Format:
-    """How one kind of file is read and written, and the kinds of cells that it holds."""
+    """How one kind of file is read and written, and the kinds of cells that it holds.
+
+    Parameters
+    ----------
+    read : callable
+        From the path to what the file holds.
+    write : callable
+        Given the path, the mesh and its groups.
+    kinds : frozenset of str
+        Kinds of cells that it holds.
+    """
 
     read: Callable[[Path], FileMesh]
     write: Callable[[Path, Mesh, list[Group]], object]

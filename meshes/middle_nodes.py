@@ -16,13 +16,14 @@ Ints = NDArray[np.int64]
 
 
 def filled(points: Array, blocks: Sequence[tuple[str, Ints]]) -> tuple[Array, list[Ints]]:
-    """Points and nodes of the blocks with the nodes that lack, which are -1.
+    """Points (p, 3) and nodes (m, k) of the blocks with the nodes that lack, which are -1.
 
     An edge has one middle node: that of a neighbour where one gives it, else a new one.
 
     Parameters
     ----------
     points : (n, 3)
+        In any unit, that of the file.
     blocks : sequence of (kind, (m, k) int)
     """
     made = [np.array(nodes) for _, nodes in blocks]

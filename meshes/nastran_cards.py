@@ -21,7 +21,17 @@ EXPONENT = re.compile(r"([-+]?[\d.]+)([dD][-+]?|[-+])(\d+)$")
 
 
 class Card(NamedTuple):
-    """A card: its name in capitals, its fields from the second on, its place in the file."""
+    """A card of the bulk data.
+
+    Parameters
+    ----------
+    name : str
+        In capitals, without the `*` of large fields.
+    fields : list of str
+        From the second on, blanks around them taken off.
+    where : str
+        Its place in the file.
+    """
 
     name: str
     fields: list[str]
@@ -102,7 +112,13 @@ def _check_follows(lines: DeckLines, name: str, head: str, label: str) -> None:
 
 
 def has_begin(lines: DeckLines) -> bool:
-    """Whether the file itself has BEGIN BULK."""
+    """Whether the file itself has BEGIN BULK.
+
+    Parameters
+    ----------
+    lines : DeckLines
+        At the beginning of the file.
+    """
     return any(BEGIN.match(line) for line in lines.peek())
 
 
@@ -152,12 +168,24 @@ def _fields(lines: DeckLines, text: str) -> tuple[str, list[str], str, bool]:
 
 
 def whole(text: str) -> int:
-    """A whole number; blank is zero. ValueError where it is none."""
+    """A whole number; blank is zero. ValueError where it is none.
+
+    Parameters
+    ----------
+    text : str
+        The field without blanks around it.
+    """
     return int(text) if text else 0
 
 
 def real(text: str) -> float:
-    """A real number as Nastran has it: `1.5`, `1.5-3`, `1.D+2`; blank is zero."""
+    """A real number as Nastran has it: `1.5`, `1.5-3`, `1.D+2`; blank is zero.
+
+    Parameters
+    ----------
+    text : str
+        The field without blanks around it; ValueError where it is no number.
+    """
     if not text:
         return 0.0
     try:

@@ -45,7 +45,15 @@ NEAR = {"CTRIA", "CQUAD", "CTRIAX", "CQUADX", "CTRIAX6", "CQUADX4", "CQUADX8", "
 
 @dataclass
 class Cells:
-    """Elements of one card name: element, property and nodes, zero where a node is left out."""
+    """Elements of one card name: element, property and nodes, zero where a node is left out.
+
+    Parameters
+    ----------
+    where : str
+        Their first line, for messages.
+    rows : array of int
+        Element, property and nodes of each, one after another.
+    """
 
     where: str
     rows: array[int] = field(default_factory=lambda: array("q"))

@@ -18,7 +18,21 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class Given:
-    """A system as its card gives it: by three points in another system, or by three grids."""
+    """A system as its card gives it: by three points in another system, or by three grids.
+
+    Parameters
+    ----------
+    shape : "R", "C" or "S"
+        Rectangular, cylindrical or spherical.
+    where : str
+        Its line, for messages.
+    reference : int
+        System in which the points are; 0 is the basic one.
+    points : (3, 3) or None
+        Origin, a point on z and one in the x-z plane, one per row, in the file's own unit.
+    grids : tuple of int
+        The three grids, instead of points.
+    """
 
     shape: str
     where: str
@@ -35,6 +49,8 @@ class Systems:
     ----------
     lines : DeckLines
         For messages.
+    given : dict of int to Given
+        Systems by their numbers, as their cards give them.
     """
 
     lines: DeckLines
@@ -42,7 +58,13 @@ class Systems:
     _made: dict[int, tuple[Array, Array]] = field(default_factory=dict)
 
     def add(self, card: Card) -> None:
-        """Take a card; ValueError where its numbers are none."""
+        """Take a card; ValueError where its numbers are none.
+
+        Parameters
+        ----------
+        card : Card
+            One of CORD1R to CORD2S.
+        """
         shape = card.name[-1]
         fields = [*card.fields, *[""] * 16]
         if card.name[4] == "2":
@@ -67,7 +89,17 @@ class Systems:
             )
 
     def to_global(self, numbers: Numbered, systems: Ints, places: Array) -> Array:
-        """Global places (n, 3) of grid points given in their systems (n,)."""
+        """Global places of grid points, (n, 3).
+
+        Parameters
+        ----------
+        numbers : Numbered
+            Of the grid points.
+        systems : (n,) of int
+            In which each is given; 0 for the global one.
+        places : (n, 3)
+            As given there: in the unit of the file, angles in degrees.
+        """
         found = np.array(places, dtype=float)
         done = systems == 0
         for system in np.unique(systems).tolist():

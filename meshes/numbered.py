@@ -35,7 +35,13 @@ class Numbered:
         return np.stack([self._order[same], self._order[same + 1]], axis=1)
 
     def find(self, wanted: Ints) -> tuple[Ints, NDArray[np.bool_]]:
-        """Place of each wanted number, and whether there is one."""
+        """Place of each wanted number, and whether there is one, of the same shape as `wanted`.
+
+        Parameters
+        ----------
+        wanted : any shape, of int
+            Numbers.
+        """
         wanted = np.asarray(wanted, dtype=np.int64)
         if not len(self._sorted):
             return np.zeros(wanted.shape, dtype=np.int64), np.zeros(wanted.shape, dtype=bool)
@@ -43,7 +49,17 @@ class Numbered:
         return self._order[at], self._sorted[at] == wanted
 
     def between(self, first: int, last: int, step: int) -> Ints:
-        """Places whose number is one of first, first + step, …, up to last."""
+        """Places (k,) whose number is one of first, first + step, …, up to last.
+
+        Parameters
+        ----------
+        first : int
+            The first number.
+        last : int
+            None is greater.
+        step : int
+            From one number to the next, positive.
+        """
         low, high = np.searchsorted(self._sorted, [first, last + 1])
         inside = slice(int(low), max(int(low), int(high)))
         own = (self._sorted[inside] - first) % step == 0

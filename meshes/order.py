@@ -75,7 +75,13 @@ def quadratic(mesh: Mesh, *, serendipity: bool = False) -> Mesh:
 
 
 def linear(mesh: Mesh) -> Mesh:
-    """The mesh with its corner nodes alone; curved edges become straight."""
+    """The mesh with its corner nodes alone; curved edges become straight.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of cells of any kind.
+    """
     corners = {k: t.corners for k, t in CELL_TYPES.items()}
     lowered = replace(
         mesh,
@@ -94,7 +100,13 @@ def linear(mesh: Mesh) -> Mesh:
 
 
 def without_orphans(mesh: Mesh) -> Mesh:
-    """The mesh without points that no cell uses; they leave the node sets too."""
+    """The mesh without points that no cell uses; they leave the node sets too.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of cells of any kind.
+    """
     used = np.zeros(len(mesh.points), dtype=bool)
     for block in mesh.blocks:
         used[block.nodes] = True

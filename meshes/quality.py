@@ -32,8 +32,8 @@ class Quality:
         quadratic cell that is inverted at a point of integration, det J there over the largest
         of those products.
     aspect_ratio : (m,)
-        Longest over shortest edge of a hexahedron; of a tetrahedron its longest edge over
-        2√6 times the radius of the inscribed sphere. 1 is best; infinite when flat.
+        Ratio of the longest to the shortest edge of a hexahedron; of a tetrahedron its longest edge
+        over 2√6 times the radius of the inscribed sphere. 1 is best; infinite when flat.
     volume : (m,)
         m³; negative where a cell is inside out.
     centres : (m, 3)
@@ -64,7 +64,13 @@ class Quality:
         return np.flatnonzero(~(self.scaled_jacobian > FLAT))
 
     def below(self, limit: float) -> NDArray[np.int64]:
-        """Cells whose scaled Jacobian is below `limit`, (k,)."""
+        """Cells whose scaled Jacobian is below `limit`, (k,).
+
+        Parameters
+        ----------
+        limit : float
+            Of the scaled Jacobian, at most 1, no unit.
+        """
         return np.flatnonzero(self.scaled_jacobian < limit)
 
     def to_dict(self) -> dict[str, Any]:
@@ -82,7 +88,13 @@ class Quality:
 
 
 def quality(mesh: Mesh) -> Quality:
-    """The quality of every cell."""
+    """The quality of every cell.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of m cells of any kind.
+    """
     parts = [
         _block_quality(mesh.points, CellBlock(b.kind, b.nodes[part], b.region[part]))
         for b in mesh.blocks
@@ -98,7 +110,7 @@ def check_quality(mesh: Mesh, least: float = FLAT) -> Quality:
     ----------
     mesh : Mesh
     least : float
-        Least scaled Jacobian to accept.
+        Least scaled Jacobian to accept, no unit.
 
     Raises
     ------
@@ -124,7 +136,13 @@ def check_quality(mesh: Mesh, least: float = FLAT) -> Quality:
 
 
 def cell_volumes(mesh: Mesh) -> Array:
-    """Volume of each cell, blocks one after another, m³, (m,); negative when inside out."""
+    """Volume of each cell, blocks one after another, m³, (m,); negative when inside out.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of m cells of any kind.
+    """
     return np.concatenate([_volumes(mesh.points, block) for block in mesh.blocks])
 
 

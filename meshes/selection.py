@@ -27,7 +27,7 @@ TURN = np.pi / 12
 
 
 def in_box(mesh: Mesh, low: Corner = OPEN, high: Corner = OPEN) -> NDArray[np.int64]:
-    """Nodes in a box, walls included, ascending.
+    """Nodes in a box, walls included, ascending, (k,).
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def patch(
     low, high : (3,) of float or None
         Corners of the box that must hold all nodes of a face, m; None is open.
     normal : (3,) or None
-        Outward direction that a face must have within `angle` at its centre.
+        Outward direction that a face must have within `angle` at its centre; any length, no unit.
     where : callable or None
         Takes the centres of faces (f, 3) and returns which of them to keep (f,).
     angle : float
@@ -75,7 +75,7 @@ def patch(
 
 
 def patches(mesh: Mesh, boxes: Mapping[str, Box]) -> Mesh:
-    """The mesh with several further patches; the surface is found once.
+    """The mesh with several further patches; the surface is computed once.
 
     Parameters
     ----------
@@ -126,6 +126,15 @@ def _chosen(
 
 def node_set(mesh: Mesh, name: str, low: Corner = OPEN, high: Corner = OPEN) -> Mesh:
     """The mesh with a further node set: the nodes in a box.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Stays as it is.
+    name : str
+        Name of the set; one of that name is replaced.
+    low, high : (3,) of float or None
+        Corners of the box, m; None is open.
 
     Raises
     ------

@@ -31,6 +31,11 @@ def check_simple(surface: Surface) -> None:
     An edge that pierces a triangle with which it shares no point is a crossing. Surfaces that
     touch at a vertex, and triangles that overlap in one plane, are not looked for.
 
+    Parameters
+    ----------
+    surface : Surface
+        Closed or open.
+
     Raises
     ------
     ModelError

@@ -15,12 +15,28 @@ DEGREE = 6
 
 
 def face_centres(points: Array, faces: Faces) -> Array:
-    """Mean of the corners of each face, m, (f, 3)."""
+    """Mean of the corners of each face, m, (f, 3).
+
+    Parameters
+    ----------
+    points : (n, 3)
+        Of the mesh, m.
+    faces : Faces
+        f of them.
+    """
     return np.asarray(points[faces.nodes[:, : faces.type.corners]].mean(axis=1))
 
 
 def face_normals(points: Array, faces: Faces) -> Array:
-    """Outward unit normal at the middle of each face, (f, 3); zero where a face has no area."""
+    """Outward unit normal at the middle of each face, (f, 3); zero where a face has no area.
+
+    Parameters
+    ----------
+    points : (n, 3)
+        Of the mesh, m.
+    faces : Faces
+        f of them.
+    """
     middle = faces.type.reference[: faces.type.corners].mean(axis=0, keepdims=True)
     vectors = _area_vectors(points, faces, middle)[:, 0]
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
@@ -28,13 +44,29 @@ def face_normals(points: Array, faces: Faces) -> Array:
 
 
 def face_areas(points: Array, faces: Faces) -> Array:
-    """Area of each face, m², (f,)."""
+    """Area of each face, m², (f,).
+
+    Parameters
+    ----------
+    points : (n, 3)
+        Of the mesh, m.
+    faces : Faces
+        f of them.
+    """
     at, weights = faces.type.quadrature(DEGREE)
     return np.asarray(np.linalg.norm(_area_vectors(points, faces, at), axis=-1) @ weights)
 
 
 def patch_area(mesh: Mesh, patch: Patch) -> float:
-    """Area of a patch, m²."""
+    """Area of a patch, m².
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose points count.
+    patch : Patch
+        Of this mesh.
+    """
     return float(sum(face_areas(mesh.points, f).sum() for f in patch.faces))
 
 
@@ -44,6 +76,13 @@ def nodal_areas(mesh: Mesh, patch: Patch) -> tuple[NDArray[np.int64], Array]:
     A constant pressure p gives the force p ∫ N dA at a node along the normal of a plane
     patch. The shares add up to the area; those of corners of eight-node quadrilaterals are
     negative and those of six-node triangles zero, as is consistent with their functions.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose points count.
+    patch : Patch
+        Of this mesh.
 
     Returns
     -------
@@ -58,6 +97,13 @@ def nodal_areas(mesh: Mesh, patch: Patch) -> tuple[NDArray[np.int64], Array]:
 
 def nodal_area_vectors(mesh: Mesh, patch: Patch) -> tuple[NDArray[np.int64], Array]:
     """∫ N n dA with the outward normal n: minus the nodal forces of a unit pressure.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose points count.
+    patch : Patch
+        Of this mesh.
 
     Returns
     -------
@@ -102,5 +148,11 @@ _TRIANGLES = {
 
 
 def corner_triangles(faces: Faces) -> NDArray[np.int64]:
-    """The faces cut into flat triangles between their nodes, outwards, (t, 3)."""
+    """The faces cut into flat triangles between their nodes, outwards, (t, 3).
+
+    Parameters
+    ----------
+    faces : Faces
+        Of any kind.
+    """
     return np.asarray(faces.nodes[:, np.array(_TRIANGLES[faces.kind])].reshape(-1, 3))

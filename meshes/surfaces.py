@@ -133,7 +133,15 @@ def read_surface(path: Path | str, unit: str = "m") -> Surface:
 
 
 def write_surface(surface: Surface, path: Path | str, unit: str = "m") -> Path:
-    """Write a surface as .stl (binary) or .obj; for glTF use `strutwork.meshes.gltf.write_gltf`."""
+    """Write a surface as .stl (binary) or .obj; for glTF use `strutwork.meshes.gltf.write_gltf`.
+
+    Parameters
+    ----------
+    surface : Surface
+    path : Path or str
+    unit : str
+        Of the coordinates in the file: `m` or `mm`.
+    """
     path = Path(path)
     scale = _scale(path, unit)
     kind = path.suffix.lower().removeprefix(".")
@@ -149,6 +157,12 @@ def surface_of(mesh: Mesh, patch: Patch) -> Surface:
     """A patch as triangles on the nodes that it uses; quadratic faces are split at them.
 
     The triangles' points are `mesh.points[patch.nodes]`, in that order.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    patch : Patch
+        Of this mesh.
     """
     nodes = patch.nodes
     triangles = np.concatenate([corner_triangles(faces) for faces in patch.faces])
@@ -158,7 +172,11 @@ def surface_of(mesh: Mesh, patch: Patch) -> Surface:
 def welded(surface: Surface, tolerance: float | None = None) -> Surface:
     """The surface with coincident points merged and triangles without area dropped.
 
-    `tolerance` in m; by default 3e-7 of the diagonal, single precision.
+    Parameters
+    ----------
+    surface : Surface
+    tolerance : float, optional
+        Distance up to which points coincide, m; default 3e-7 of the diagonal, single precision.
     """
     reach = SAME_VERTEX * float(np.linalg.norm(np.ptp(surface.points, axis=0)))
     pairs = cKDTree(surface.points).query_pairs(
@@ -174,7 +192,12 @@ def welded(surface: Surface, tolerance: float | None = None) -> Surface:
 
 
 def flipped(surface: Surface) -> Surface:
-    """The surface with its inside out."""
+    """The surface with its inside out.
+
+    Parameters
+    ----------
+    surface : Surface
+    """
     return replace(surface, triangles=surface.triangles[:, ::-1])
 
 
@@ -182,6 +205,10 @@ def check_closed(surface: Surface) -> None:
     """Pass a surface that bounds a volume: closed, of one orientation, outwards.
 
     Self-intersections are not looked for: `strutwork.meshes.self_intersections.check_simple`.
+
+    Parameters
+    ----------
+    surface : Surface
 
     Raises
     ------
@@ -262,6 +289,10 @@ def surface_properties(surface: Surface, density: float) -> MassProperties:
 
 def check_one_body(surface: Surface) -> None:
     """Pass a closed surface of one body, with or without cavities.
+
+    Parameters
+    ----------
+    surface : Surface
 
     Raises
     ------

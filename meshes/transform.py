@@ -162,7 +162,15 @@ def merged(mesh: Mesh, tolerance: float | None = None) -> Mesh:
 
 
 def coincident_groups(mesh: Mesh, tolerance: float | None = None) -> Ints:
-    """The group of coincident points that each point belongs to, (n,)."""
+    """The group of coincident points that each point belongs to, (n,).
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of n points.
+    tolerance : float, optional
+        Distance up to which points coincide, m; default 1e-9 of the diagonal.
+    """
     reach = COINCIDENT * float(np.linalg.norm(mesh.extent)) if tolerance is None else tolerance
     if not (np.isfinite(reach) and reach >= 0):
         raise ModelError(
@@ -175,7 +183,17 @@ def coincident_groups(mesh: Mesh, tolerance: float | None = None) -> Ints:
 
 
 def renumbered(mesh: Mesh, points: Array, number: Ints) -> Mesh:
-    """The mesh on other points: `number` (n,) is the new number of each old one."""
+    """The mesh on other points.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Of n points.
+    points : (k, 3)
+        The new points, m.
+    number : (n,) of int
+        New number of each old point.
+    """
     return replace(
         mesh,
         points=points,

@@ -33,7 +33,16 @@ SOLIDS = {
 
 @dataclass(frozen=True)
 class VtkBlock:
-    """Cells of one kind: their place among all cells of the file, (m,), and nodes (m, k)."""
+    """Cells of one kind.
+
+    Parameters
+    ----------
+    kind : str
+    cells : (m,)
+        Their places among all cells of the file.
+    nodes : (m, k)
+        Their nodes.
+    """
 
     kind: str
     cells: Ints

@@ -39,6 +39,8 @@ class VtuFile:
         Without the text of AppendedData.
     appended : bytes
         From the character after the underscore.
+    is_raw : bool
+        Whether these are bytes as they are; else base64.
     unpacked : int
         Bytes that arrays have taken so far.
     """
@@ -60,7 +62,15 @@ class VtuFile:
         return self.root.get("compressor", "")
 
     def error(self, problem: str, remedy: str = DAMAGED) -> ModelError:
-        """An error about the file."""
+        """An error about the file.
+
+        Parameters
+        ----------
+        problem : str
+            What is wrong.
+        remedy : str
+            What to do about it.
+        """
         return ModelError(str(self.path), problem, remedy)
 
     def values(self, element: ET.Element, count: int | None = None) -> Array:
@@ -184,6 +194,11 @@ def _unpacked(data: bytes, size: int, compressor: str) -> bytes:
 
 def open_vtu(path: Path) -> VtuFile:
     """Read the XML of a file.
+
+    Parameters
+    ----------
+    path : Path
+        .vtu, of ordinary size.
 
     Raises
     ------

@@ -30,8 +30,8 @@ class Beam:
     material : Material
     section : Section
     orientation : (3,) or str or None
-        A vector in global axes, or the name of a joint whose z axis is taken at every pose.
-        None: global z, or global y for a beam along z.
+        A vector in global axes, no unit, or the name of a joint whose z axis is taken at every
+        pose. None: global z, or global y for a beam along z.
     shear : bool
         Timoshenko (True) or Euler-Bernoulli (False).
     elements : int
@@ -103,7 +103,7 @@ def beam_axes(
     start, end : (..., b, 3)
         Ends of the beams, m.
     orientation : (..., b, 3)
-        A vector in each local x-z plane; NaN for the default.
+        A vector in each local x-z plane, no unit; NaN for the default.
     names : sequence of b str
         Named in an error.
 
@@ -157,7 +157,7 @@ def local_stiffness(length: Array, properties: Sequence[Any] | Array) -> Array:
     length : (...)
         m.
     properties : sequence of six numbers or (...) arrays
-        As `Beam.properties`.
+        As `Beam.properties`: N, N·m² and m².
 
     Returns
     -------
@@ -207,7 +207,7 @@ def fixed_end_loads(
     length : (...)
         m.
     properties : sequence of six numbers or (...) arrays
-        As `Beam.properties`.
+        As `Beam.properties`: N, N·m² and m².
     first, second : (..., 3)
         Load per length at the two ends in local axes, N/m.
 
@@ -233,7 +233,15 @@ def fixed_end_loads(
 
 
 def to_global(axes: Array, matrix: Array) -> Array:
-    """Turn a (..., 12, 12) matrix from local axes, rows of `axes` (..., 3, 3), to global."""
+    """Turn a matrix of beam ends from local to global axes, (..., 12, 12).
+
+    Parameters
+    ----------
+    axes : (..., 3, 3)
+        Local x, y, z as rows, no unit.
+    matrix : (..., 12, 12)
+        Stiffness or mass: N/m, N, N·m/rad, or kg, kg·m, kg·m².
+    """
     batch = np.broadcast_shapes(axes.shape[:-2], matrix.shape[:-2])
     blocks = matrix.reshape(*matrix.shape[:-2], 4, 3, 4, 3)
     turned = np.einsum("...ki,...akbl,...lj->...aibj", axes, blocks, axes, optimize=True)

@@ -67,6 +67,10 @@ def stretched_parts(structure: Structure) -> tuple[str, ...]:
 
     In statics and vibration they end at the other side's node at every pose; as rigid bodies
     they keep the mass that they have at home.
+
+    Parameters
+    ----------
+    structure : Structure
     """
     linkage = structure.linkage
     still = linkage.still_mask()

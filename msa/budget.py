@@ -27,9 +27,9 @@ class ComplianceBudget:
     parts : tuple of str
         "beam …", "joint …:direction", "drive …:direction", "spring …", "element …".
     shares : (..., q)
-        Shares of the strain energy; they add to one.
+        Shares of the strain energy, no unit; they add to one.
     deflection : (...)
-        Deflection of the tool in the sense of the wrench per unit of it, wᵀ C w.
+        Of the tool in the sense of the wrench, wᵀ C w: J, twice the strain energy.
     wrench : (6,)
         N and N·m.
     """

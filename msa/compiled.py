@@ -48,7 +48,13 @@ def available() -> bool:
 
 
 def program_of(system: System) -> Program | None:
-    """The program of the system's structure, made once and kept with the structure."""
+    """The program of the system's structure, made once and kept with the structure.
+
+    Parameters
+    ----------
+    system : System
+        On whose poses the dependent coordinates of closed loops are chosen.
+    """
     structure: Structure = system.placed.structure
     # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
     kept = structure.__dict__

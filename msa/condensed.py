@@ -30,7 +30,14 @@ Array = NDArray[Any]
 
 
 def legs_of(stiffness: Array, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]:
-    """Groups of coordinates that fall apart when the kept ones are removed."""
+    """Groups of coordinates that fall apart when the kept ones are removed, (k,) each.
+
+    Parameters
+    ----------
+    stiffness : (p, c, c)
+        On joint coordinates, N/m, N, N·m/rad; only where it is zero matters.
+    kept : (c,)
+    """
     inner = np.flatnonzero(~kept)
     if not len(inner):
         return []
@@ -42,7 +49,15 @@ def legs_of(stiffness: Array, kept: NDArray[np.bool_]) -> list[NDArray[np.intp]]
 def solve_condensed(system: System, load: Array, gaps: Array) -> Unknowns:
     """Condense every leg to the kept coordinates, solve those, and go back.
 
-    Parameters, returns and errors as `solve_saddle_point`.
+    Returns and errors as `solve_saddle_point`.
+
+    Parameters
+    ----------
+    system : System
+    load : (p, n, m)
+        F on the unknowns, N and N·m.
+    gaps : (p, r, m)
+        g, the misfits of the constraint rows, m and rad.
     """
     rows = orthonormal_rows(system)
     check_consistent(system, rows, gaps)

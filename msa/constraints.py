@@ -31,13 +31,13 @@ class Rows:
     Parameters
     ----------
     basis : (p, r, n)
-        Vᵀ; zero where the rank of a pose is smaller.
+        Vᵀ, no unit; zero where the rank of a pose is smaller.
     values : (p, r)
-        S⁻¹; zero where the rank is smaller.
+        S⁻¹, no unit; zero where the rank is smaller.
     left : (p, r, r)
-        U.
+        U, no unit.
     size : (p, r)
-        Size of the rows of A D before scaling.
+        Size of the rows of A D before scaling: no unit, or 1/m of a locked rotation.
     rank : (p,)
     """
 
@@ -53,20 +53,37 @@ class Rows:
         return Rows(*(part[poses] for part in parts))
 
     def right_side(self, gaps: Array) -> Array:
-        """Right-hand side of the orthonormal rows, (p, r, m), from misfits (p, r, m)."""
+        """Right-hand side of the orthonormal rows, (p, r, m).
+
+        Parameters
+        ----------
+        gaps : (p, r, m)
+            Misfits of the rows of A, m and rad.
+        """
         scaled = gaps / self.size[..., None]
         return np.asarray(self.values[..., None] * (np.swapaxes(self.left, -1, -2) @ scaled))
 
     def multipliers(self, reduced: Array) -> Array:
-        """Multipliers of the rows of A, the least ones in balance with `reduced`, (p, r, m)."""
+        """Multipliers of the rows of A, the least ones in balance with `reduced`, (p, r, m).
+
+        Parameters
+        ----------
+        reduced : (p, r, m)
+            Multipliers of the orthonormal rows, N.
+        """
         return np.asarray(self.left @ (self.values[..., None] * reduced)) / self.size[..., None]
 
 
 def scales(system: System) -> Array:
-    """Scales D of the unknowns, (p, n): one for translations, 1/length for rotations.
+    """Scales D of the unknowns, (p, n): one for translations, 1/length for rotations, 1/m.
 
-    Every pose has its own length, so that the forces of redundant joints, which depend on
-    it, do not depend on the other poses of a batch.
+    Every pose has its own length, so that the forces of redundant joints, which depend on it, do
+    not depend on the other poses of a batch.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with n unknowns.
     """
     turn = np.repeat(1.0 / characteristic_lengths(system.placed.placement)[:, None], 3, axis=1)
     block = np.concatenate([np.ones_like(turn), turn], axis=1)
@@ -74,9 +91,13 @@ def scales(system: System) -> Array:
 
 
 def orthonormal_rows(system: System) -> Rows:
-    """Find the rank of the constraint rows and an orthonormal basis of them, per pose.
+    """Rank of the constraint rows and an orthonormal basis of them, per pose.
 
     Rank is decided on rows of unit size, at `strutwork.kinematics.mobility.RANK_TOLERANCE`.
+
+    Parameters
+    ----------
+    system : System
     """
     scaled = system.rows * scales(system)[:, None]
     size = np.linalg.norm(scaled, axis=-1)
@@ -104,6 +125,14 @@ def orthonormal_rows(system: System) -> Rows:
 
 def check_consistent(system: System, rows: Rows, gaps: Array) -> None:
     """Check that misfits of redundant rows do not contradict one another.
+
+    Parameters
+    ----------
+    system : System
+    rows : Rows
+        From `orthonormal_rows`.
+    gaps : (p, r, m)
+        Misfits of the rows of A, m and rad.
 
     Raises
     ------
@@ -134,6 +163,11 @@ def rigid_rows(system: System) -> Array:
     One row for every joint direction that resists, in the order of `constraint_rows`, then one
     for every direction of a spring; rotations in units of displacement at the pose's
     `characteristic_length`.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with b bodies.
     """
     structure, placement = system.placed.structure, system.placed.placement
     linkage = structure.linkage
@@ -161,9 +195,14 @@ def rigid_rows(system: System) -> Array:
 def free_unknowns(system: System) -> Array:
     """Motions that cost no energy and break no constraint, (p, n, k), orthonormal in D⁻¹u.
 
-    Found on the rigidified linkage: as only rigid motion of an element costs no energy, such
-    a motion moves every body as one and no locked, elastic or sprung direction. k is the
-    largest number over the poses; missing ones are zero columns.
+    Computed on the rigidified linkage: as only rigid motion of an element costs no energy, such a
+    motion moves every body as one and no locked, elastic or sprung direction. k is the largest
+    number over the poses; missing ones are zero columns.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with n unknowns.
     """
     structure = system.placed.structure
     linkage = structure.linkage

@@ -30,8 +30,9 @@ def check_held(system: System, free: Array, load: Array) -> None:
     ----------
     system : System
     free : (p, n, k)
-        From `free_unknowns`.
+        From `free_unknowns`, no unit.
     load : (p, n, m)
+        On the unknowns, N and N·m.
 
     Raises
     ------
@@ -57,7 +58,7 @@ def mechanisms_under(
     ----------
     system : System
     load_of : callable
-        Gives (p, n, m) of a system.
+        Loads (p, n, m), N and N·m, on the unknowns of a system that is given to it.
 
     Returns
     -------
@@ -80,7 +81,14 @@ def mechanisms_under(
 
 
 def mechanism_error(system: System, pose: int) -> StrutworkError:
-    """The error for a structure that moves freely under its load at `pose`."""
+    """The error for a structure that moves freely under its load at one pose.
+
+    Parameters
+    ----------
+    system : System
+    pose : int
+        Its place in the batch.
+    """
     placed = system.placed
     linkage = placed.structure.linkage
     found = mobility(linkage, placed.placement[pose])
@@ -108,6 +116,17 @@ def mechanism_error(system: System, pose: int) -> StrutworkError:
 
 def check_residual(residual: Array, size: Array, what: str, limit: float = 1e-8) -> None:
     """Withhold a solution whose residual is not small beside `size`.
+
+    Parameters
+    ----------
+    residual : (...)
+        Largest residual, N.
+    size : (...)
+        What it is small beside, N.
+    what : str
+        The part that the error names.
+    limit : float
+        Largest share of `size`, no unit.
 
     Raises
     ------

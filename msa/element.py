@@ -27,4 +27,10 @@ class Element(Protocol):
         """The k nodes it connects; all on one body of the linkage."""
 
     def stiffness(self, at: PlacedStructure) -> Array:
-        """Stiffness in global axes at a batch of poses, (..., 6 k, 6 k)."""
+        """Stiffness in global axes at a batch of poses, (..., 6k, 6k), N/m, N, N·m/rad.
+
+        Parameters
+        ----------
+        at : PlacedStructure
+            The structure in which the element stands.
+        """

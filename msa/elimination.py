@@ -17,12 +17,27 @@ LARGEST = 20_000_000
 
 
 def ints(values: Any) -> Ints:
-    """Contiguous 64-bit integers."""
+    """Contiguous 64-bit integers, of the same shape.
+
+    Parameters
+    ----------
+    values : array of int
+        Of any shape, which is kept.
+    """
     return np.ascontiguousarray(values, dtype=np.int64)
 
 
 def elimination_order(count: int, groups: list[list[int]], last: list[int]) -> list[int]:
-    """Minimum degree order with the coordinates of `last` at the end."""
+    """Minimum degree order with the coordinates of `last` at the end, (count,).
+
+    Parameters
+    ----------
+    count : int
+        Number of coordinates.
+    groups : list of list of int
+        Coordinates that couple with one another, a group each part.
+    last : list of int
+    """
     neighbours: list[set[int]] = [set() for _ in range(count)]
     for group in groups:
         for c in group:
@@ -44,7 +59,15 @@ def elimination_order(count: int, groups: list[list[int]], last: list[int]) -> l
 
 
 def symbolic_factor(count: int, pattern: set[tuple[int, int]]) -> list[list[int]] | None:
-    """Rows below the diagonal of each column of the factor; None where it is too large."""
+    """Rows below the diagonal of each column of the factor; None where it is too large.
+
+    Parameters
+    ----------
+    count : int
+        Number of coordinates.
+    pattern : set of (int, int)
+        Rows and columns of the matrix that are not zero; only those below the diagonal count.
+    """
     columns: list[set[int]] = [set() for _ in range(count)]
     for i, j in pattern:
         if i > j:
@@ -63,7 +86,18 @@ def symbolic_factor(count: int, pattern: set[tuple[int, int]]) -> list[list[int]
 def elimination_tape(
     factor: list[list[int]], entries: list[tuple[int, int]]
 ) -> tuple[Ints, Ints, Ints, Ints, Ints, Ints, int]:
-    """`fill`, `column_start`, `column_row`, `column_slot`, `update_start`, `update` and `slots`."""
+    """`fill`, `column_start`, `column_row`, `column_slot`, `update_start`, `update` and `slots`.
+
+    (e,), (n + 1,), (l,), (l,), (n + 1,), (u, 3) and an int: of e entries of the matrix in n
+    columns, l entries of the factor below the diagonal, and u updates.
+
+    Parameters
+    ----------
+    factor : list of list of int
+        From `symbolic_factor`.
+    entries : list of (int, int)
+        Row and column of every slot of the matrix, on or below the diagonal.
+    """
     slot: dict[tuple[int, int], int] = {}
     for j, column in enumerate(factor):
         for i in (j, *column):

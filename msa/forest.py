@@ -34,7 +34,7 @@ class Step:
     joint : int
         Index of the carrying joint, -1 for a root.
     sign : float
-        +1 where the cluster is the joint's second side, −1 where it is the first.
+        +1 where the cluster is the joint's second side, −1 where it is the first; no unit.
     free : tuple of int
         Directions of the joint that are not locked: one coordinate each.
     start : int
@@ -73,7 +73,12 @@ class Forest:
 
 
 def spanning_forest(structure: Structure) -> Forest:
-    """Choose carriers so that joints with most locked directions carry (Kruskal)."""
+    """Choose carriers so that joints with most locked directions carry (Kruskal).
+
+    Parameters
+    ----------
+    structure : Structure
+    """
     linkage = structure.linkage
     states = linkage.states()
     locked = (states == State.LOCKED).sum(axis=1)

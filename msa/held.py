@@ -13,7 +13,11 @@ if TYPE_CHECKING:
 
 
 def check_held(structure: Structure) -> None:
-    """A flexible body must be one piece, else the rigidified linkage is another machine.
+    """Check that every flexible body is one piece, else the rigidified linkage is another machine.
+
+    Parameters
+    ----------
+    structure : Structure
 
     Raises
     ------

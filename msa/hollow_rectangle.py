@@ -39,9 +39,9 @@ class HollowRectangle:
     Parameters
     ----------
     torsion_constant : float
-        m⁴.
+        J, m⁴.
     shear_y, shear_z : (float, float)
-        a and b of Cowper's coefficient (1 + ν)/(a + b ν) along y and z.
+        a and b of Cowper's coefficient (1 + ν)/(a + b ν) along y and z, no unit.
     """
 
     torsion_constant: float
@@ -49,7 +49,13 @@ class HollowRectangle:
     shear_z: tuple[float, float]
 
     def coefficients(self, nu: float) -> tuple[float, float]:
-        """Shear coefficients along y and z for Poisson's ratio ν."""
+        """Shear coefficients along y and z.
+
+        Parameters
+        ----------
+        nu : float
+            Poisson's ratio, no unit.
+        """
         y, z = self.shear_y, self.shear_z
         return (1.0 + nu) / (y[0] + y[1] * nu), (1.0 + nu) / (z[0] + z[1] * nu)
 

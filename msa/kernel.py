@@ -193,12 +193,13 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
     positions : (q, n, 3)
         Mesh nodes, m.
     frames : (q, j, 3, 3)
-        Of the joints, then of the bodies where these carry axes.
+        Of the joints, then of the bodies where these carry axes; no unit.
     start, stop : int
+        Range of the poses.
     compliance : (q, 6, 6)
-        Filled.
+        Filled; m/N, 1/N, rad/(N·m).
     quality : (q, 4)
-        Filled: smallest pivot as a share of its diagonal entry, error share, and of the
+        Filled, no unit: smallest pivot as a share of its diagonal entry, error share, and of the
         loops' rows, which are of order one, the smallest pivot and what redundant ones keep.
     """
     nodes, joints = positions.shape[1], frames.shape[1]
@@ -275,5 +276,18 @@ def run(p, positions, frames, start, stop, compliance, quality):  # type: ignore
 def run_program(
     program: Program, positions: Array, frames: Array, compliance: Array, quality: Array
 ) -> None:
-    """Typed door to the compiled `run` over all poses of the arrays."""
+    """Call the compiled `run` over all poses of the arrays, with types.
+
+    Parameters
+    ----------
+    program : Program
+    positions : (q, n, 3)
+        Mesh nodes, m.
+    frames : (q, j, 3, 3)
+        Of the joints, then of the bodies where these carry axes; no unit.
+    compliance : (q, 6, 6)
+        Filled; m/N, 1/N, rad/(N·m).
+    quality : (q, 4)
+        Filled as by `run`, no unit.
+    """
     run(program, positions, frames, 0, len(positions), compliance, quality)

@@ -10,7 +10,20 @@ from strutwork.msa.kernel_loops import LANES, parted
 
 @jit(contract=True)
 def axes_and_pivots(p, point, frame, axis, pivot):  # type: ignore[no-untyped-def]
-    """Direction and pivot of every coordinate: axis, pivot (c, 3, w)."""
+    """Direction and pivot of every coordinate.
+
+    Parameters
+    ----------
+    p : Program
+    point : (n, 3, w)
+        Mesh nodes, m.
+    frame : (j, 3, 3, w)
+        Axes of joints and bodies as columns, no unit.
+    axis : (c, 3, w)
+        Filled; unit vectors, no unit.
+    pivot : (c, 3, w)
+        Filled, m.
+    """
     for c in range(p.axis_joint.shape[0]):
         j, d, node = p.axis_joint[c], p.axis_direction[c], p.pivot_node[c]
         for k in range(3):
@@ -184,7 +197,21 @@ def _add_links(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def
 
 @jit(contract=True)
 def assemble(p, geometry, entry, matrix, work):  # type: ignore[no-untyped-def]
-    """Stiffness K on the independent coordinates, by slots, (k, w)."""
+    """Stiffness K on the independent coordinates, by slots, (k, w).
+
+    Parameters
+    ----------
+    p : Program
+    geometry : (point, frame, axis, pivot)
+        As `axes_and_pivots` takes and fills them.
+    entry : (x, w)
+        Loop entries, from `close_loops`; no unit, m/rad or rad/m.
+    matrix : (k, w)
+        Filled; N/m, N, N·m/rad.
+    work : tuple of arrays
+        Overwritten: ends (2, 3, w), axes (3, 3, w), length (w), strains (t, 6, w) and (i, 6, w) of
+        an element with t touches and i independent coordinates, stress (6, w).
+    """
     point, frame, axis, pivot = geometry
     ends, local, length, strain, reduced, stress = work
     matrix[:] = 0.0

@@ -2,7 +2,7 @@
 
 Every loop's rows, dependent columns first, are turned by Householder reflections (Golub and Van
 Loan 2013, section 5.2), which need no pivoting: redundant rows become zero, and how far they are
-from it is told.
+from it is reported.
 """
 
 from __future__ import annotations
@@ -24,7 +24,15 @@ CANCELLED = 1e-14
 
 @jit()
 def told(value, instead):  # type: ignore[no-untyped-def]
-    """The value, or `instead` of NaN, which would hide in comparisons."""
+    """The value, or `instead` of NaN, which would hide in comparisons.
+
+    Parameters
+    ----------
+    value : float
+        Any unit.
+    instead : float
+        In the unit of `value`.
+    """
     return instead if np.isnan(value) else value
 
 
@@ -32,9 +40,22 @@ def told(value, instead):  # type: ignore[no-untyped-def]
 def parted(p, c, ends, nodes, joint, geometry, strain):  # type: ignore[no-untyped-def]
     """Motion of a second node against a first per unit of coordinate c, (6, w).
 
-    `ends` says whether the coordinate moves them. In the axes of a joint, or global ones for −1.
-    What would cancel but for rounding is zero: a rod's spin does not move
-    the rod's end.
+    What would cancel but for rounding is zero: a rod's spin does not move the rod's end.
+
+    Parameters
+    ----------
+    p : Program
+    c : int
+    ends : (2,)
+        1 where the coordinate moves the first, the second node.
+    nodes : (2,)
+        Mesh nodes, −1 for ground.
+    joint : int
+        In whose axes the motion is; −1 for global ones.
+    geometry : (point, frame, axis, pivot)
+        (n, 3, w) in m, (j, 3, 3, w), (c, 3, w), (c, 3, w) in m.
+    strain : (6, w)
+        Filled: no unit, m/rad and rad/rad.
     """
     point, frame, axis, pivot = geometry
     strain[:] = 0.0
@@ -134,10 +155,23 @@ def _reflect(rows, height, known, width, factor, pivots, pivot, rest):  # type: 
 
 @jit(contract=True)
 def close_loops(p, geometry, store, entry, work, smallest, rest):  # type: ignore[no-untyped-def]
-    """Shares of independent in dependent coordinates, by entries (x, w).
+    """Shares of independent in dependent coordinates, by entries.
 
-    Fills `smallest` (w) with the smallest pivot and `rest` (w) with the largest entry that the
-    redundant rows keep, of rows and coordinates of order one.
+    Parameters
+    ----------
+    p : Program
+    geometry : (point, frame, axis, pivot)
+        As `parted`.
+    store : (s, w)
+        Filled with the rows of all loops on scaled coordinates; of order one, no unit.
+    entry : (x, w)
+        Filled; no unit, m/rad or rad/m.
+    work : tuple of arrays
+        Overwritten: rows (r, c, w), pivots (c, w), factor (w), largest (w), strain (6, w).
+    smallest : (w,)
+        Filled with the smallest pivot, of rows and coordinates of order one; no unit.
+    rest : (w,)
+        Filled with the largest entry that the redundant rows keep, no unit.
     """
     q = p.loops
     rows, pivots, factor, largest, strain = work
@@ -180,9 +214,23 @@ def close_loops(p, geometry, store, entry, work, smallest, rest):  # type: ignor
 
 @jit(contract=True)
 def loops_residual(p, store, entry, x, share, total, size):  # type: ignore[no-untyped-def]
-    """Raise `share` (w) to the largest miss of a closing row, of the largest terms of its loop.
+    """Raise `share` to the largest miss of a closing row, of the largest terms of its loop.
 
-    Completes x (c, w) by the dependent coordinates.
+    Parameters
+    ----------
+    p : Program
+    store : (s, w)
+        Rows from `close_loops`, no unit.
+    entry : (x, w)
+        From `close_loops`; no unit, m/rad or rad/m.
+    x : (c, w)
+        Coordinates, m and rad; completed by the dependent ones.
+    share : (w,)
+        Raised in place, no unit.
+    total : (3, w)
+        Overwritten.
+    size : (w,)
+        Overwritten.
     """
     q = p.loops
     for b in range(q.loop_joint.shape[0] - 1):

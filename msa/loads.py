@@ -21,7 +21,7 @@ class LineLoad:
     ----------
     beam : str
     first, second : (3,)
-        Values at the beam's first and second end; they vary linearly between.
+        Values at the beam's first and second end, N/m; they vary linearly between.
     """
 
     beam: str

@@ -63,7 +63,7 @@ def closed_loops(
     length : float
         m, makes rotations comparable with translations.
     scale : (c,)
-        Coordinate per scaled coordinate: 1 of a translation, 1/length of a rotation.
+        Coordinate per scaled coordinate: 1 of a translation, 1/length of a rotation, 1/m.
     at_tool : list of int
         Coordinates that move the tool.
     """

@@ -29,7 +29,7 @@ def local_mass(length: Array, properties: Array, inertia: Array) -> Array:
     length : (...)
         m.
     properties : (6, ...)
-        As `Beam.properties`.
+        As `Beam.properties`: N, N·m² and m².
     inertia : (4, ...)
         ρA, ρ(Iy + Iz), ρIy, ρIz: kg/m and kg·m.
 
@@ -91,6 +91,11 @@ def _lumped(length: Array, inertia: Array) -> Array:
 def beam_inertia(placed: PlacedStructure) -> Array:
     """ρA, ρ(Iy + Iz), ρIy, ρIz of every beam, (4, b), kg/m and kg·m.
 
+    Parameters
+    ----------
+    placed : PlacedStructure
+        With b beams.
+
     Raises
     ------
     ModelError
@@ -113,7 +118,14 @@ def beam_inertia(placed: PlacedStructure) -> Array:
 
 
 def segment_mass(placed: PlacedStructure) -> Array:
-    """Mass of every beam element at its two mesh nodes, global axes, (..., s, 12, 12)."""
+    """Mass of every beam element at its two mesh nodes, global axes, (..., s, 12, 12).
+
+    In kg, kg·m and kg·m².
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    """
     structure = placed.structure
     length, axes = placed.beam_geometry
     beam = structure.segments[:, 0]
@@ -136,7 +148,17 @@ def segment_mass(placed: PlacedStructure) -> Array:
 
 
 def point_mass_matrix(mass: float, inertia: Array, offset: Array) -> Array:
-    """Mass of a rigid body at a node from which its centre stands off, (6, 6)."""
+    """Mass of a rigid body at a node from which its centre stands off, (6, 6), kg, kg·m, kg·m².
+
+    Parameters
+    ----------
+    mass : float
+        kg.
+    inertia : (3, 3)
+        About the centre, kg·m².
+    offset : (3,)
+        From the node to the centre, m.
+    """
     carried = rigid_map(offset)
     centre = np.zeros((6, 6))
     centre[:3, :3] = mass * np.eye(3)
@@ -145,7 +167,14 @@ def point_mass_matrix(mass: float, inertia: Array, offset: Array) -> Array:
 
 
 def mass_contributions(system: System) -> list[tuple[str, NDArray[np.intp], Array]]:
-    """Parts that have mass: name, mesh nodes (k,), mass (p, 6k, 6k) in global axes."""
+    """Parts that have mass: name, mesh nodes (k,), mass (p, 6k, 6k) in global axes.
+
+    In kg, kg·m and kg·m².
+
+    Parameters
+    ----------
+    system : System
+    """
     placed, structure = system.placed, system.placed.structure
     found: list[tuple[str, NDArray[np.intp], Array]] = []
     if structure.beams:
@@ -170,7 +199,13 @@ def mass_contributions(system: System) -> list[tuple[str, NDArray[np.intp], Arra
 
 
 def mass_matrix(system: System) -> Array:
-    """Mass on the unknowns of a system, dense, (p, n, n); made once and kept with the system."""
+    """Mass on the unknowns of a system, dense, (p, n, n); made once and kept with the system.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with n unknowns.
+    """
     kept = system.__dict__
     if "_mass" not in kept:
         n = system.topology.size
@@ -183,7 +218,13 @@ def mass_matrix(system: System) -> Array:
 
 
 def sparse_mass(system: System) -> sp.csc_array:
-    """Mass on the unknowns of a batch of one, sparse."""
+    """Mass on the unknowns of a batch of one, sparse, (n, n).
+
+    Parameters
+    ----------
+    system : System
+        At one pose.
+    """
     return system.sparse_sum(mass_contributions(system))
 
 
@@ -212,6 +253,10 @@ class MassProperties:
 def total_mass(placed: PlacedStructure) -> Array:
     """Total mass at a batch of poses, (...), kg; zero where there is none.
 
+    Parameters
+    ----------
+    placed : PlacedStructure
+
     Raises
     ------
     ModelError
@@ -234,6 +279,10 @@ def mass_properties(placed: PlacedStructure) -> MassProperties:
     """Total mass, centre and inertia, from the same matrices that vibrate.
 
     The one place where a structure is weighed: beams, superelements, bodies and point masses.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
 
     Raises
     ------

@@ -21,7 +21,7 @@ class Material:
     density : float or None
         kg/m³; needed only where mass is needed.
     loss_factor : float or None
-        Structural loss factor η, dimensionless.
+        Structural loss factor η, no unit.
     name : str
         For messages.
 
@@ -71,7 +71,21 @@ class Material:
         loss_factor: float | None = None,
         name: str = "material",
     ) -> Material:
-        """Material from Young's modulus and Poisson's ratio, G = E / (2 (1 + ν))."""
+        """Material from Young's modulus and Poisson's ratio, G = E / (2 (1 + ν)).
+
+        Parameters
+        ----------
+        youngs_modulus : float
+            E, Pa.
+        poissons_ratio : float
+            ν, no unit; above −1 and at most 0.5.
+        density : float or None
+            kg/m³; needed only where mass is needed.
+        loss_factor : float or None
+            Structural loss factor η, no unit.
+        name : str
+            For messages.
+        """
         if not (isfinite(poissons_ratio) and -1.0 < poissons_ratio <= 0.5):
             raise ModelError(
                 f"material {name}",

@@ -33,7 +33,7 @@ class MovableDirections:
     Parameters
     ----------
     basis : (p, 6, 6)
-        Orthonormal columns in scaled twists, rotations multiplied by `length`; zero columns
+        Orthonormal columns in scaled twists, m, rotations multiplied by `length`; zero columns
         where a pose has fewer.
     length : (p,)
         m; reach of the joints that hold the tool.
@@ -60,7 +60,13 @@ class MovableDirections:
         return twist_scale(self.length)
 
     def working_part(self, wrench: Array) -> Array:
-        """The part of a wrench (6,) that can do work, (p, 6); the joints take the rest alone."""
+        """The part of a wrench that can do work, (p, 6); the joints take the rest alone.
+
+        Parameters
+        ----------
+        wrench : (6,)
+            At the tool, N and N·m.
+        """
         scaled = wrench / self.scale
         kept = np.einsum("pik,pk->pi", self.basis, np.einsum("pik,pi->pk", self.basis, scaled))
         size = np.linalg.norm(scaled, axis=-1, keepdims=True)
@@ -68,10 +74,15 @@ class MovableDirections:
         return np.asarray(np.where(idle, 0.0, kept) * self.scale)
 
     def projected(self, compliance: Array) -> Array:
-        """Compliance (p, 6, 6) without what rounding adds in directions that cannot move.
+        """Compliance without what rounding adds in directions that cannot move, (p, 6, 6).
 
-        Formed as a Gram product, so that what rounding is left in an entry is small beside its
-        own row and column, not only beside the largest entry.
+        Formed as a Gram product, so that what rounding is left in an entry is small beside its own
+        row and column, not only beside the largest entry.
+
+        Parameters
+        ----------
+        compliance : (p, 6, 6)
+            At the tool, m/N, 1/N, rad/(N·m).
         """
         outer = self.scale[:, :, None] * self.scale[:, None, :]
         core = np.swapaxes(self.basis, -1, -2) @ (compliance * outer) @ self.basis
@@ -82,7 +93,13 @@ class MovableDirections:
 
 
 def twist_scale(length: Array) -> Array:
-    """Scales of a twist, (..., 6): one for translations, `length` for rotations."""
+    """Scales of a twist, (..., 6): one for translations, `length` for rotations.
+
+    Parameters
+    ----------
+    length : (...)
+        m.
+    """
     turn = np.asarray(length, dtype=float)[..., None]
     return np.concatenate([np.ones((*turn.shape[:-1], 3)), np.repeat(turn, 3, axis=-1)], axis=-1)
 
@@ -130,6 +147,11 @@ def tool_length(system: System) -> Array:
 
     The farthest joint or rigid cluster that holds the tool; where all stand at the tool itself,
     translations and rotations do not mix and any length does.
+
+    Parameters
+    ----------
+    system : System
+        At p poses.
     """
     held = _holding(system)
     structure = system.placed.structure
@@ -150,6 +172,10 @@ def always_movable(system: System) -> bool:
 
     True where the clusters that rows join to the tool form a tree without ground: then no row
     can depend on another, and the tool may go anywhere with the others following.
+
+    Parameters
+    ----------
+    system : System
     """
     held = _holding(system)
     if held.vertex < 0:

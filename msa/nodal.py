@@ -26,7 +26,7 @@ def beam_end_forces(system: System, displacements: Array) -> tuple[Array, Array]
     ----------
     system : System
     displacements : (p, n, 6, m)
-        Of the mesh nodes; in extended precision the forces are too.
+        Of the mesh nodes, m and rad; in extended precision the forces are too.
     """
     structure = system.placed.structure
     segments = structure.segments
@@ -54,10 +54,13 @@ def unbalanced(
     ----------
     system : System
     unknowns : (p, n, m)
-        Extended precision is kept.
+        m and rad; extended precision is kept.
     multipliers : (p, r, m)
+        Of the constraint rows, N and N·m.
     load : (p, n, m)
+        F on the unknowns, N and N·m.
     gaps : (p, r, m)
+        g, the misfits of the constraint rows, m and rad.
 
     Returns
     -------

@@ -30,6 +30,7 @@ def joint_coordinates(system: System, gaps: Array) -> tuple[Array, Array]:
     ----------
     system : System
     gaps : (p, r, m)
+        Misfits of the constraint rows, m and rad.
 
     Returns
     -------
@@ -74,7 +75,12 @@ def joint_coordinates(system: System, gaps: Array) -> tuple[Array, Array]:
 
 
 def closing_rows(system: System) -> NDArray[np.intp]:
-    """Indices of the constraint rows whose joints close a loop."""
+    """Indices of the constraint rows whose joints close a loop, (k,).
+
+    Parameters
+    ----------
+    system : System
+    """
     joint, _ = system.row_owner
     return np.flatnonzero(np.isin(joint, system.topology.forest.closing))
 
@@ -82,7 +88,15 @@ def closing_rows(system: System) -> NDArray[np.intp]:
 def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
     """Solve on the null space of the constraint rows; multipliers from the equilibrium.
 
-    Parameters, returns and errors as `solve_saddle_point`.
+    Returns and errors as `solve_saddle_point`.
+
+    Parameters
+    ----------
+    system : System
+    load : (p, n, m)
+        F on the unknowns, N and N·m.
+    gaps : (p, r, m)
+        g, the misfits of the constraint rows, m and rad.
     """
     rows = orthonormal_rows(system)
     check_consistent(system, rows, gaps)
@@ -110,7 +124,15 @@ def solve_null_space(system: System, load: Array, gaps: Array) -> Unknowns:
 
 
 def symmetric_product(basis: Array, matrix: Array) -> Array:
-    """Bᵀ M B, made exactly symmetric."""
+    """Bᵀ M B, made exactly symmetric, (p, c, c).
+
+    Parameters
+    ----------
+    basis : (p, n, c)
+        B, no unit, m/rad or rad/m.
+    matrix : (p, n, n)
+        M, symmetric: N/m, N, N·m/rad, or kg, kg·m, kg·m².
+    """
     picked = _selection(basis)
     if picked is not None:
         return np.ascontiguousarray(matrix[:, picked[:, None], picked])
@@ -133,9 +155,22 @@ def _selection(basis: Array) -> NDArray[np.intp] | None:
 def constrained_minimum(
     system: System, stiffness: Array, rows: Array, force: Array, target: Array
 ) -> Array:
-    """Coordinates s of least energy ½ sᵀKs − sᵀf with rows·s = target.
+    """Coordinates s of least energy ½ sᵀKs − sᵀf with rows·s = target, (p, c, m).
 
-    Redundant rows are found by rank per pose.
+    Redundant rows are recognised by rank per pose.
+
+    Parameters
+    ----------
+    system : System
+        For messages.
+    stiffness : (p, c, c)
+        K, symmetric, N/m, N, N·m/rad.
+    rows : (p, q, c)
+        No unit, m/rad or rad/m.
+    force : (p, c, m)
+        f, N and N·m.
+    target : (p, q, m)
+        m and rad.
 
     Raises
     ------
@@ -184,7 +219,16 @@ def _definite_solve(system: System, matrix: Array, right: Array) -> Array:
 
 
 def multipliers(system: System, displacements: Array, load: Array) -> Array:
-    """Multipliers that balance the structure: the least solution of Aᵀ λ = F − K u."""
+    """Multipliers that balance the structure, (p, r, m): the least solution of Aᵀ λ = F − K u.
+
+    Parameters
+    ----------
+    system : System
+    displacements : (p, n, m)
+        u, m and rad.
+    load : (p, n, m)
+        F, N and N·m.
+    """
     rows = orthonormal_rows(system)
     d = scales(system)[..., None]
     unbalanced = (load - system.stiffness @ displacements) * d

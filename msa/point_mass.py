@@ -15,7 +15,14 @@ Array = NDArray[Any]
 
 
 def mass_axes(mass: PointMass, placed: PlacedStructure) -> Array:
-    """Axes of inertia and offset as columns, (p, 3, 3), of a flat batch."""
+    """Axes of inertia and offset as columns, (p, 3, 3).
+
+    Parameters
+    ----------
+    mass : PointMass
+    placed : PlacedStructure
+        With one batch axis of p poses.
+    """
     positions, index = placed.positions, placed.structure.mesh_index
     if mass.axes is None:
         return np.broadcast_to(placed.turn_of(mass.node), (len(positions), 3, 3))
@@ -25,12 +32,28 @@ def mass_axes(mass: PointMass, placed: PlacedStructure) -> Array:
 
 
 def mass_arm(mass: PointMass, placed: PlacedStructure) -> Array:
-    """From its node to its centre, global axes, (p, 3), m."""
+    """From its node to its centre, global axes, (p, 3), m.
+
+    Parameters
+    ----------
+    mass : PointMass
+    placed : PlacedStructure
+        With one batch axis of p poses.
+    """
     return np.asarray(mass_axes(mass, placed) @ np.asarray(mass.offset, dtype=float))
 
 
 def mass_weight(mass: PointMass, gravity: ArrayLike, placed: PlacedStructure) -> Array:
-    """Wrench of its weight at its node, (p, 6), N and N·m; gravity (3,) in m/s²."""
+    """Wrench of its weight at its node, (p, 6), N and N·m.
+
+    Parameters
+    ----------
+    mass : PointMass
+    gravity : (3,)
+        m/s².
+    placed : PlacedStructure
+        With one batch axis of p poses.
+    """
     arm = mass_arm(mass, placed)
     force = np.broadcast_to(mass.mass * np.asarray(gravity, dtype=float), arm.shape)
     return np.concatenate([force, np.cross(arm, force)], axis=-1)

@@ -42,13 +42,16 @@ class LoopProgram(NamedTuple):
         1 where the coordinate moves the first, the second side.
     loop_joint : (b + 1,)
         Range of each loop's joints.
-    dependent_start, independent_start : (b + 1,)
-    dependent, independent
-        Coordinates of each loop.
+    dependent_start : (b + 1,)
+    dependent : (d,)
+        Coordinates of the loops that follow, loop after loop.
+    independent_start : (b + 1,)
+    independent : (i,)
+        Coordinates of the loops that they follow, loop after loop.
     store_start, entry_start : (b + 1,)
         Range of each loop's rows, and of its entries.
     scale : (c,)
-        Coordinate per scaled coordinate: 1 of a translation, 1/length of a rotation.
+        Coordinate per scaled coordinate: 1 of a translation, 1/length of a rotation, 1/m.
     most_rows, most_columns : int
     """
 
@@ -85,11 +88,12 @@ class SpreadProgram(NamedTuple):
     own : (t,)
         Place of a touch's coordinate among the item's independent ones, −1 if dependent.
     start : (t + 1,)
-    target, entry
+    target, entry : (s,)
         Of a dependent touch: places among the item's independent coordinates, and loop entries.
-    outer_slot, outer_first, outer_second, outer_value
-        Stiffness of elastic dependent coordinates: K[slot] += value · first · second entry.
-    tool_from, tool_to, tool_entry
+    outer_slot, outer_first, outer_second, outer_value : (o,)
+        Stiffness of elastic dependent coordinates, N/m or N·m/rad: K[slot] += value · first ·
+        second entry.
+    tool_from, tool_to, tool_entry : (g,)
         Dependent coordinate that moves the tool, independent one, loop entry.
     """
 
@@ -119,6 +123,7 @@ class Program(NamedTuple):
     axis_joint, axis_direction : (c,)
         Joint and axis 0-2 of every coordinate; joint −1 means a global axis.
     axis_sign : (c,)
+        1 or −1, no unit.
     turns : (c,)
         1 where the coordinate is a rotation.
     pivot_node : (c,)
@@ -129,11 +134,11 @@ class Program(NamedTuple):
     item_offsets : (e, 2, 3)
         From the nodes to the element's ends, m.
     properties : (b, 6)
-        As `Beam.properties`.
+        As `Beam.properties`, in their units.
     turn_frame : (b,)
         Frame of the beam's body, in whose axes its vectors are; −1 for global axes.
     orientation : (b, 3)
-        NaN for the default.
+        Direction of local z, no unit; NaN for the default.
     orientation_joint : (b,)
         Joint whose z axis is taken, or −1.
     link_nodes : (l, 2)
@@ -141,6 +146,7 @@ class Program(NamedTuple):
     link_joint : (l,)
         Frame in whose axes the stiffness is given, or −1 for global axes.
     link_stiffness : (l, 6, 6)
+        N/m, N, N·m/rad.
     touch_start : (e + l + 1,)
         Range of each element's touches, dependent coordinates included, beams before links.
     touch_coordinate : (t,)
@@ -149,15 +155,19 @@ class Program(NamedTuple):
     pair_start : (e + l + 1,)
     pair_slot : (q,)
         Slot of K for each pair i ≥ j of an element's independent coordinates, row by row.
-    spring_slot, spring_value
-        Stiffness of elastic independent coordinates.
+    spring_slot, spring_value : (s,)
+        Slot in K of elastic independent coordinates, and their stiffness, N/m or N·m/rad.
     diagonal : (n,)
         Slot of each coordinate's diagonal entry.
     fill : (k,)
         Slot in the factor of every slot of K.
-    column_start : (n + 1,), column_row, column_slot : (l,)
-        Factor by columns below the diagonal.
-    update_start : (n + 1,), update : (u, 3)
+    column_start : (n + 1,)
+        Range of each column of the factor below the diagonal.
+    column_row, column_slot : (f,)
+        Row and slot of each of its entries.
+    update_start : (n + 1,)
+        Range of the updates by each column.
+    update : (u, 3)
         target −= first · second, by eliminated column.
     entry_row, entry_column : (k,)
         Coordinates of every slot of K.

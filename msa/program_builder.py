@@ -42,6 +42,11 @@ def compile_program(system: System) -> Program | None:
     The kernel takes beams, joints, springs and closed loops of any of them; structures with
     elements of other kinds and very large ones go to the other solvers. Which coordinates of a
     loop follow from the others is chosen on the poses of `system`.
+
+    Parameters
+    ----------
+    system : System
+        At the poses on which the dependent coordinates are chosen.
     """
     topology = system.topology
     structure, forest = topology.structure, topology.forest
@@ -221,7 +226,12 @@ def _coordinates(topology: Topology) -> tuple[list[_Coordinate], dict[int, list[
 
 
 def body_frames(placed: PlacedStructure) -> dict[str, int]:
-    """Frame of each node's body behind those of the joints; none where bodies carry no axes."""
+    """Frame of each node's body behind those of the joints; none where bodies carry no axes.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    """
     linkage = placed.structure.linkage
     if placed.placement.turns is None:
         return {}

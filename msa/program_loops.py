@@ -21,7 +21,13 @@ class Following(dict[int, list[tuple[int, int]]]):
     """For every dependent coordinate the independent ones, each with its loop entry."""
 
     def reached(self, coordinates: Iterable[int]) -> list[int]:
-        """Independent coordinates that move what the coordinates move, sorted."""
+        """Independent coordinates that move what the coordinates move, sorted.
+
+        Parameters
+        ----------
+        coordinates : iterable of int
+            Dependent or independent.
+        """
         found: set[int] = set()
         for c in coordinates:
             found |= {i for i, _ in self[c]} if c in self else {c}
@@ -29,7 +35,12 @@ class Following(dict[int, list[tuple[int, int]]]):
 
 
 def following(loops: tuple[Loop, ...]) -> Following:
-    """What the dependent coordinates of the loops follow from."""
+    """What the dependent coordinates of the loops follow from.
+
+    Parameters
+    ----------
+    loops : tuple of Loop
+    """
     result, start = Following(), 0
     for loop in loops:
         for dependent in loop.dependent:
@@ -45,7 +56,21 @@ def loop_program(
     scale: Array,
     length: float,
 ) -> LoopProgram:
-    """Rows, columns and entries of the loops, in the order of the loops."""
+    """Rows, columns and entries of the loops, in the order of the loops.
+
+    Parameters
+    ----------
+    topology : Topology
+    loops : tuple of Loop
+        With coordinates at their places in the elimination.
+    touching : dict of int to dict of int to (int, int)
+        For every closing joint the coordinates that move its sides: 1 where one moves the first,
+        the second.
+    scale : (c,)
+        Coordinate per scaled coordinate: 1 of a translation, 1/length of a rotation, 1/m.
+    length : float
+        m, makes rotations comparable with translations.
+    """
     linkage = topology.structure.linkage
     states, index = linkage.states(), linkage.node_index
     joints = [j for loop in loops for j in loop.joints]
@@ -89,7 +114,22 @@ def spread_program(
     elastic: dict[int, float],
     moves: list[int],
 ) -> SpreadProgram:
-    """Where the strains, stiffnesses and loads of dependent coordinates go."""
+    """Where the strains, stiffnesses and loads of dependent coordinates go.
+
+    Parameters
+    ----------
+    follows : Following
+    touches : list of dict of int to (int, int)
+        Of every beam element and link, the coordinates that move its ends.
+    reached : list of list of int
+        Independent coordinates behind each of the touches, sorted.
+    slot : dict of (int, int) to int
+        Slot of K by row and column.
+    elastic : dict of int to float
+        Stiffness of elastic coordinates, N/m or N·m/rad.
+    moves : list of int
+        Coordinates that move the tool's cluster.
+    """
     own, spread = [], []
     for touch, group in zip(touches, reached, strict=True):
         place = {c: k for k, c in enumerate(group)}

@@ -29,6 +29,10 @@ def warn_of_proportions(placed: PlacedStructure) -> None:
     Judged at the first pose by the depth of a section beside the size of the structure and the
     length of its beam; only the size of the whole is absolute.
 
+    Parameters
+    ----------
+    placed : PlacedStructure
+
     Warns
     -----
     ProportionWarning

@@ -75,7 +75,15 @@ def solve_saddle_point(system: System, load: Array, gaps: Array) -> Unknowns:
 
 
 def bordered(stiffness: Array, extra: Array) -> Array:
-    """Matrix of the bordered system; absent rows get a one instead."""
+    """Matrix of the bordered system, (p, n + q, n + q); absent rows get a one instead.
+
+    Parameters
+    ----------
+    stiffness : (p, n, n)
+        Scaled, symmetric; no unit.
+    extra : (p, q, n)
+        Rows below it, zero where absent; no unit.
+    """
     poses, n, _ = stiffness.shape
     count = extra.shape[1]
     matrix = np.zeros((poses, n + count, n + count))

@@ -21,13 +21,13 @@ class Section:
     Parameters
     ----------
     area : float
-        m².
+        A, m².
     second_moment_y, second_moment_z : float
         Iy for bending in the local x-z plane, Iz for bending in the local x-y plane, m⁴.
     torsion_constant : float
         J, m⁴; the polar moment only where the section is circular.
     shear_coefficients : callable or None
-        κ_y, κ_z from Poisson's ratio (Cowper 1966); None where shear areas are given.
+        κ_y, κ_z, no unit, from Poisson's ratio (Cowper 1966); None where shear areas are given.
     shear_areas : (float, float) or None
         Shear areas along y and z, m²; None with no coefficients means no shear deformation.
     name : str
@@ -63,7 +63,13 @@ class Section:
             _positive(self.name, field, value)
 
     def shear_area(self, poissons_ratio: float) -> tuple[float, float] | None:
-        """Effective shear areas along y and z, m²; None where shear does not deform."""
+        """Effective shear areas along y and z, m²; None where shear does not deform.
+
+        Parameters
+        ----------
+        poissons_ratio : float
+            ν, no unit.
+        """
         if self.shear_areas is not None:
             return self.shear_areas
         if self.shear_coefficients is None:
@@ -73,7 +79,15 @@ class Section:
 
 
 def rod(diameter: float, name: str = "rod") -> Section:
-    """Solid circular section; κ = 6 (1 + ν) / (7 + 6 ν) (Cowper 1966)."""
+    """Solid circular section; κ = 6 (1 + ν) / (7 + 6 ν) (Cowper 1966).
+
+    Parameters
+    ----------
+    diameter : float
+        m.
+    name : str
+        For messages.
+    """
     _positive(name, "diameter", diameter)
     inertia = pi * diameter**4 / 64.0
 
@@ -93,6 +107,13 @@ def tube(outer_diameter: float, inner_diameter: float, name: str = "tube") -> Se
 
     With m the ratio of inner to outer diameter,
     κ = 6 (1 + ν) (1 + m²)² / ((7 + 6 ν) (1 + m²)² + (20 + 12 ν) m²).
+
+    Parameters
+    ----------
+    outer_diameter, inner_diameter : float
+        m; the inner one below the outer.
+    name : str
+        For messages.
 
     Raises
     ------
@@ -123,7 +144,15 @@ def tube(outer_diameter: float, inner_diameter: float, name: str = "tube") -> Se
 
 
 def rectangle(width_y: float, height_z: float, name: str = "rectangle") -> Section:
-    """Solid rectangle; κ = 10 (1 + ν) / (12 + 11 ν) (Cowper 1966), Saint-Venant's J."""
+    """Solid rectangle; κ = 10 (1 + ν) / (12 + 11 ν) (Cowper 1966), Saint-Venant's J.
+
+    Parameters
+    ----------
+    width_y, height_z : float
+        Sizes along the local y and z axes, m.
+    name : str
+        For messages.
+    """
     _positive(name, "width_y", width_y)
     _positive(name, "height_z", height_z)
 
@@ -142,6 +171,11 @@ def rectangle_torsion_constant(side: float, other: float) -> float:
     """Saint-Venant's torsion constant of a rectangle, m⁴ (Timoshenko and Goodier, §109).
 
     J = a b³ (1/3 − (64/π⁵)(b/a) Σ tanh(n π a / 2b) / n⁵) over odd n, a ≥ b.
+
+    Parameters
+    ----------
+    side, other : float
+        m, in either order.
     """
     a, b = max(side, other), min(side, other)
     series = sum(tanh(n * pi * a / (2.0 * b)) / n**5 for n in range(1, 60, 2))
@@ -154,6 +188,15 @@ def box(width_y: float, height_z: float, thickness: float, name: str = "box") ->
     Torsion constant by Saint-Venant's theory and shear coefficients by Cowper's (1966), solved for
     the section as it is (`strutwork.msa.hollow_rectangle`): Bredt's formula loses 38 % of the
     torsion constant of a square with walls of 0.4 of its width.
+
+    Parameters
+    ----------
+    width_y, height_z : float
+        Outer sizes along the local y and z axes, m.
+    thickness : float
+        Of all four walls, m; less than half of either size.
+    name : str
+        For messages.
 
     Raises
     ------

@@ -61,7 +61,7 @@ class StaticSolution:
     strain_energy : (..., m)
         J.
     residual : (...)
-        Largest residual of the equilibrium as a share of the load.
+        Largest residual of the equilibrium as a share of the load, no unit.
     method : str
         Which solver ran.
     outcome : Outcome
@@ -86,7 +86,15 @@ class StaticSolution:
         )
 
     def displacement(self, node: str, case: str) -> Array:
-        """Displacement of a node, (..., 6), m and rad."""
+        """Displacement of a node, (..., 6), m and rad.
+
+        Parameters
+        ----------
+        node : str
+            A mesh node.
+        case : str
+            A load case.
+        """
         index = self.placed.structure.mesh_index
         if node not in index:
             raise ModelError("solution", f'has no node "{node}".', "Name a node of the structure.")
@@ -96,6 +104,12 @@ class StaticSolution:
         """Force on the second node of a joint in joint axes, (..., 6), N and N·m.
 
         A masked array where a direction is `undetermined`, else a plain one.
+
+        Parameters
+        ----------
+        joint : str
+        case : str
+            A load case.
         """
         index = self.placed.structure.linkage.joint_index
         if joint not in index:
@@ -244,7 +258,12 @@ def _solved(system: System, cases: Sequence[LoadCase], method: str) -> dict[str,
 
 
 def default_method(system: System) -> str:
-    """The saddle-point system, sparse where it is large and there is one pose."""
+    """The saddle-point system, sparse where it is large and there is one pose.
+
+    Parameters
+    ----------
+    system : System
+    """
     return "sparse" if system.poses == 1 and system.topology.size > SPARSE_FROM else "saddle_point"
 
 

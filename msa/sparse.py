@@ -29,10 +29,18 @@ SPARSE_FROM = 900
 def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
     """Solve the saddle-point system of a batch of one by sparse LU.
 
-    The rank of the constraint rows is found cluster by cluster: rows that share no cluster
-    cannot depend on each other.
+    The rank of the constraint rows is computed cluster by cluster: rows that share no cluster
+    cannot depend on each other. Returns and errors as `solve_saddle_point`; several poses are a
+    ModelError.
 
-    Parameters, returns and errors as `solve_saddle_point`; several poses are a ModelError.
+    Parameters
+    ----------
+    system : System
+        At one pose.
+    load : (1, n, m)
+        F on the unknowns, N and N·m.
+    gaps : (1, r, m)
+        g, the misfits of the constraint rows, m and rad.
     """
     if system.poses != 1:
         raise ModelError("sparse solver", f"got {system.poses} poses.", "Give it one at a time.")
@@ -62,7 +70,14 @@ def solve_sparse(system: System, load: Array, gaps: Array) -> Unknowns:
 
 
 def sparse_rows(system: System, values: Array) -> sp.csr_array:
-    """Constraint rows A as a sparse matrix."""
+    """Constraint rows A as a sparse matrix, (r, n).
+
+    Parameters
+    ----------
+    system : System
+    values : (r, k, 6)
+        Of the rows' blocks at one pose, no unit, or m of a rotation's effect on a translation.
+    """
     vertex, _ = system.row_blocks
     row = np.arange(len(vertex))[:, None, None] + np.zeros((*vertex.shape, 6), dtype=np.intp)
     column = 6 * vertex[..., None] + np.arange(6)
@@ -116,7 +131,15 @@ def _orthonormal_blocks(system: System, gaps: Array, d: Array) -> Blocks:
 
 
 def unit_rows(system: System, d: Array) -> tuple[sp.csr_array, Array]:
-    """Constraint rows on unknowns scaled by `d`, of unit size, and their sizes."""
+    """Constraint rows on scaled unknowns, (r, n), of unit size, and their sizes, (r,).
+
+    Parameters
+    ----------
+    system : System
+        At one pose.
+    d : (n,)
+        Scales of the unknowns: 1 of a translation, 1/length of a rotation, 1/m.
+    """
     _, values = system.row_blocks
     a = sparse_rows(system, values[0]) @ sp.diags_array(d)
     size = np.sqrt(np.asarray(a.multiply(a).sum(axis=1)).ravel())
@@ -125,7 +148,13 @@ def unit_rows(system: System, d: Array) -> tuple[sp.csr_array, Array]:
 
 
 def row_groups(a: sp.csr_array) -> Iterator[tuple[NDArray[np.intp], Array, NDArray[np.intp]]]:
-    """Rows that share an unknown with one another: their indices, dense block and columns."""
+    """Rows that share an unknown: their indices (k,), dense block (k, c) and columns (c,).
+
+    Parameters
+    ----------
+    a : (r, n) sparse
+        Rows, no unit.
+    """
     touched = abs(a).sign()
     if a.shape[0] == 0:
         return

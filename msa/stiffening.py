@@ -21,8 +21,8 @@ class Stiffening:
     case : str
         Load case that causes it, for messages.
     parts : tuple of (name, nodes, matrix)
-        Mesh nodes (k,) and the geometric stiffness at them in global axes, (..., 6k, 6k), the
-        batch of the placed structure first.
+        Mesh nodes (k,) and the geometric stiffness at them in global axes, (..., 6k, 6k), N/m, N,
+        N·m/rad, the batch of the placed structure first.
     """
 
     case: str
@@ -35,12 +35,18 @@ class Stiffening:
         return Stiffening(self.case, tuple((n, at, m[index]) for n, at, m in self.parts))
 
     def flat(self, count: int) -> Stiffening:
-        """The same with one batch axis of `count` poses."""
+        """The same with one batch axis of `count` poses.
+
+        Parameters
+        ----------
+        count : int
+            Poses of the one batch axis.
+        """
         return Stiffening(
             self.case,
             tuple((n, at, m.reshape(count, *m.shape[-2:])) for n, at, m in self.parts),
         )
 
     def contributions(self) -> Iterator[tuple[str, NDArray[np.intp], Array]]:
-        """The parts, as `System.contributions`."""
+        """The parts: name, mesh nodes (k,), geometric stiffness (p, 6k, 6k)."""
         yield from self.parts

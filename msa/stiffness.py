@@ -34,6 +34,7 @@ def scaled(compliance: Array, length: Array | None = None) -> tuple[Array, Array
     Parameters
     ----------
     compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
     length : (...), optional
         m, multiplies rotations. Default: each block gets a trace of one by itself.
 
@@ -56,7 +57,13 @@ def scaled(compliance: Array, length: Array | None = None) -> tuple[Array, Array
 
 
 def doubtful(matrix: Array) -> NDArray[np.bool_]:
-    """Whether a scaled compliance (..., 6, 6) may have no inverse, (...)."""
+    """Whether a scaled compliance may have no inverse, (...).
+
+    Parameters
+    ----------
+    matrix : (..., 6, 6)
+        From `scaled`, no unit.
+    """
     result = np.zeros(matrix.shape[:-2], dtype=bool)
     try:
         # the Cholesky factor of a million poses costs a tenth of their eigenvalues
@@ -110,6 +117,11 @@ def tool_stiffness(compliance: Array) -> Array:
 
     Missing (NaN) where the compliance is.
 
+    Parameters
+    ----------
+    compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
+
     Raises
     ------
     SingularPoseError
@@ -135,7 +147,13 @@ def tool_stiffness(compliance: Array) -> Array:
 
 
 def movable_rank(compliance: Array) -> NDArray[np.intp]:
-    """Number of independent directions in which the tool can move, (...)."""
+    """Number of independent directions in which the tool can move, (...).
+
+    Parameters
+    ----------
+    compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
+    """
     compliance = np.asarray(compliance, dtype=float)
     flat, known = _flat(compliance)
     rank = np.full(len(flat), 6, dtype=np.intp)
@@ -148,8 +166,13 @@ def movable_rank(compliance: Array) -> NDArray[np.intp]:
 def axis_stiffness_free(compliance: Array) -> Array:
     """Stiffness along each axis with the other directions free to follow, 1/C_ii, (..., 6).
 
-    Infinite where the tool cannot move in a direction at all; missing (NaN) where the
-    compliance is.
+    N/m and N·m/rad. Infinite where the tool cannot move in a direction at all; missing (NaN) where
+    the compliance is.
+
+    Parameters
+    ----------
+    compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
     """
     diagonal = np.einsum("...ii->...i", np.asarray(compliance, dtype=float))
     blocks = [_one_over(diagonal[..., :3]), _one_over(diagonal[..., 3:])]
@@ -164,11 +187,16 @@ def _one_over(flexible: Array) -> Array:
 
 
 def axis_stiffness_blocked(compliance: Array) -> Array:
-    """Stiffness along each axis with the other directions blocked, (..., 6).
+    """Stiffness along each axis with the other directions blocked, (..., 6), N/m and N·m/rad.
 
-    (C⁻¹)_ii where C has an inverse. Where it has none: (C⁺)_ii for an axis along which the tool
-    can move alone, and infinite for any other, as blocking the others then holds this one too.
-    Missing (NaN) where the compliance is.
+    (C⁻¹)_ii where C has an inverse. Where it has none: (C⁺)_ii for an axis along which the tool can
+    move alone, and infinite for any other, as blocking the others then holds this one too. Missing
+    (NaN) where the compliance is.
+
+    Parameters
+    ----------
+    compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
     """
     compliance = np.asarray(compliance, dtype=float)
     flat, known = _flat(compliance)
@@ -194,7 +222,7 @@ class StiffnessEllipsoid:
         Principal stiffnesses, ascending, N/m; infinite where the tool cannot move, missing
         (NaN) where the compliance is.
     directions : (..., 3, 3)
-        Unit vectors as columns, in the order of `values`.
+        Unit vectors as columns, in the order of `values`; no unit.
     rotation : "free" or "blocked"
         Whether the tool may rotate while it is loaded.
     """
@@ -213,6 +241,7 @@ def stiffness_ellipsoid(compliance: Array, rotation: str = "free") -> StiffnessE
     Parameters
     ----------
     compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
     rotation : "free" or "blocked"
         Free: the inverse of the translational block of C. Blocked: the translational block of
         C⁻¹; where C has none, its restriction to the translations without rotation that are

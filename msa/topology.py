@@ -15,7 +15,12 @@ from strutwork.msa.structure import Structure
 
 @dataclass(frozen=True)
 class Topology:
-    """What a structure's assembly needs and no coordinate changes."""
+    """What a structure's assembly needs and no coordinate changes.
+
+    Parameters
+    ----------
+    structure : Structure
+    """
 
     structure: Structure
 

@@ -21,16 +21,37 @@ class Triplets:
         self._parts: list[tuple[Array, Array, Array]] = []
 
     def add(self, rows: NDArray[np.intp], columns: NDArray[np.intp], block: Array) -> None:
-        """Add a block (k, l) at k rows and l columns."""
+        """Add a dense block.
+
+        Parameters
+        ----------
+        rows : (k,)
+        columns : (l,)
+        block : (k, l)
+            Any unit.
+        """
         row = np.repeat(rows, len(columns))
         self._parts.append((row, np.tile(columns, len(rows)), block.ravel()))
 
     def add_entries(self, rows: NDArray[np.intp], columns: NDArray[np.intp], values: Array) -> None:
-        """Add entries (e,), each at its row and column."""
+        """Add entries, each at its row and column.
+
+        Parameters
+        ----------
+        rows, columns : (e,)
+        values : (e,)
+            Any unit.
+        """
         self._parts.append((rows, columns, values))
 
     def matrix(self, shape: tuple[int, int]) -> sp.csr_array:
-        """The matrix of all blocks."""
+        """The matrix of all blocks.
+
+        Parameters
+        ----------
+        shape : (int, int)
+            Rows and columns.
+        """
         if not self._parts:
             return sp.csr_array(shape)
         row, column, value = (np.concatenate(x) for x in zip(*self._parts, strict=True))

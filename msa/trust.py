@@ -71,9 +71,10 @@ class Unknowns:
     multipliers : (p, r, m)
         Of the constraint rows, N and N·m; where rows are redundant, the least in balance.
     residual : (p,)
-        Largest residual of the equilibrium, as a share of the largest force of a part.
+        Largest residual of the equilibrium, as a share of the largest force of a part; no unit.
     error : (p,)
-        Estimated error, as a share of the largest displacement and the largest force of a case.
+        Estimated error, as a share of the largest displacement and the largest force of a case; no
+        unit.
     """
 
     displacements: Array
@@ -113,6 +114,7 @@ def solve_trusted(system: System, inverse: Inverse, load: Array, gaps: Array) ->
     ----------
     system : System
     inverse : callable
+        `Inverse`: unknowns and multipliers for a load and gaps at the poses of an index.
     load : (p, n, m)
         F on the unknowns, N and N·m.
     gaps : (p, r, m)

@@ -28,6 +28,11 @@ def undetermined(placed: PlacedStructure) -> NDArray[np.bool_]:
     """Locked directions that share their force with other rigid ones, (..., j, 6).
 
     Solvers give the least forces in balance there: how they divide is not a matter of statics.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        With j joints.
     """
     system = system_of(placed)
     sparse = system.poses == 1 and system.topology.size > SPARSE_FROM
@@ -57,7 +62,15 @@ def _sparse_share(system: System) -> Array:
 
 
 def outside(left: Array, held: NDArray[np.bool_]) -> Array:
-    """Share of each row outside the range of the left vectors that are held, (..., r)."""
+    """Share of each row outside the range of the left vectors that are held, (..., r).
+
+    Parameters
+    ----------
+    left : (..., r, k)
+        Left singular vectors of the rows as columns, no unit.
+    held : (..., k)
+        True for the vectors that span the range.
+    """
     # what a unit force on a row leaves, by its difference: a square root of 1 − |·|² would keep
     # only half the digits
     inside = left * held[..., None, :]

@@ -77,7 +77,14 @@ def unjoined_nodes(placed: PlacedStructure) -> tuple[tuple[str, ...], ...]:
 
 
 def in_words(placed: PlacedStructure, nodes: Sequence[str]) -> str:
-    """What a group of `unjoined_nodes` is, with the parts that end there."""
+    """What a group of `unjoined_nodes` is, with the parts that end there.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+    nodes : sequence of str
+        A group of `unjoined_nodes`.
+    """
     structure = placed.structure
     named = []
     for node in nodes:

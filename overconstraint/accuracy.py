@@ -40,9 +40,9 @@ class Accuracy:
         Displacement and rotation of the tool, global axes, per unit misfit of the sources'
         columns, m and rad.
     gain : (..., 6, k)
-        The same per unit parameter of the sources.
+        The same per unit parameter of the sources, m and rad.
     mean : (..., 6)
-        In the middle of all zones.
+        In the middle of all zones, m and rad.
     elastic : (...) of bool
         The stiffness decides; else the rows alone.
     """
@@ -94,7 +94,7 @@ class Accuracy:
         Parameters
         ----------
         tolerance : float
-            Between what is reached and the bound that proves it.
+            Between what is reached and the bound that proves it, as a share of it.
 
         Returns
         -------

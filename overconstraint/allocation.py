@@ -46,24 +46,24 @@ class Allocation:
     tolerances : tuple of Tolerance
         The allocated ones.
     scale : (t,)
-        Allocated over given size.
+        Allocated over given size, no unit.
     sizes : (t,)
         Allocated, in the number that each tolerance is given by (`given_size`): m or rad.
     responses : Responses
         With the allocated tolerances.
     limit : (q,)
-        Infinite where there is none.
+        N, N·m, m or rad; infinite where there is none.
     forces : (..., q)
-        The worst case, or the quantile of each quantity for itself.
+        The worst case, or the quantile of each quantity for itself, in its unit.
     utilisation : (..., q)
-        Forces over limits, zero where there is none.
+        Ratio of forces to limits, zero where there is none.
     active : tuple of str
         Quantities that stop the tolerances.
     cost : float
-        Σ costs · given size / allocated size.
+        Σ costs · given size / allocated size, in the unit of the costs, which may be any unit.
     gap : float or None
-        No tolerances within the limits cost less than cost·(1 − gap), certified; None where
-        nothing is claimed. For a uniform scale how far it may lie below the largest.
+        As a share: no tolerances within the limits cost less than cost·(1 − gap), certified; None
+        where nothing is claimed. For a uniform scale how far it may lie below the largest.
     method, optimality : str
         In words.
     """
@@ -131,7 +131,7 @@ def allocate(
     objective : str
         "uniform": one factor for all, as large as can be. "cost": least Σ cₛ/tₛ.
     costs : mapping of tolerance to float, optional
-        Cost of each tolerance at its given size; default one. With "cost".
+        Cost of each tolerance at its given size, any unit; default one. With "cost".
     quantile : float, optional
         Share of the assemblies that shall keep all limits; without, all of them.
     fixed : sequence of str

@@ -22,7 +22,15 @@ IDLE = 1e-12
 
 
 def prices_of(responses: Responses, costs: Mapping[str, float] | None) -> Array:
-    """Cost of every tolerance at its given size, one where none is given, (t,)."""
+    """Cost of every tolerance at its given size, one where none is given, (t,).
+
+    Parameters
+    ----------
+    responses : Responses
+        With t tolerances.
+    costs : mapping of tolerance to float or None
+        Positive, any unit.
+    """
     names = [t.name for t in responses.sources.tolerances]
     given = costs or {}
     _check_known(given, names)
@@ -47,7 +55,18 @@ def limited_zones(
     fixed: Sequence[str],
     bounds: Mapping[str, tuple[float | None, float | None]],
 ) -> tuple[ScaledZones, NDArray[np.intp]]:
-    """The limited quantities, their indices, and bounds as factors."""
+    """The limited quantities with bounds as factors, and their indices, (k,).
+
+    Parameters
+    ----------
+    responses : Responses
+    limit : (q,)
+        Of every quantity, N, N·m, m or rad; infinite where there is none.
+    fixed : sequence of str
+        Tolerances that stay as given.
+    bounds : mapping of tolerance to (least, largest)
+        m or rad; None for none.
+    """
     tolerances = responses.sources.tolerances
     names = [t.name for t in tolerances]
     _check_known(fixed, names)
@@ -77,7 +96,15 @@ def limited_zones(
 
 
 def without_idle(zones: ScaledZones, effect: Array) -> ScaledZones:
-    """Keep tolerances as given that reach no limited quantity."""
+    """Keep tolerances as given that reach no limited quantity.
+
+    Parameters
+    ----------
+    zones : ScaledZones
+    effect : (m, t)
+        `Cuts.rows` of the zones: what each tolerance adds to a limited quantity, as a share of its
+        limit.
+    """
     size = effect.max(axis=0, initial=0.0)
     idle = size <= IDLE * max(size.max(initial=0.0), 1e-300)
     given = np.clip(1.0, zones.low, zones.high)
@@ -92,7 +119,14 @@ def without_idle(zones: ScaledZones, effect: Array) -> ScaledZones:
 
 
 def resized(tolerance: Tolerance, scale: float) -> Tolerance:
-    """A tolerance of another size; limits keep their middle."""
+    """A tolerance of another size; limits keep their middle.
+
+    Parameters
+    ----------
+    tolerance : Tolerance
+    scale : float
+        No unit.
+    """
     if tolerance.slope is not None:
         return replace(tolerance, slope=scale * tolerance.slope)
     if tolerance.size is not None:

@@ -42,7 +42,9 @@ def cheapest(zones: ScaledZones, costs: Array, cuts: Cuts) -> tuple[Array, float
     zones : ScaledZones
         Reachable, and with a tolerance that is free.
     costs : (t,)
+        c, at the given sizes, any unit.
     cuts : Cuts
+        Those known so far.
 
     Returns
     -------
@@ -99,10 +101,18 @@ def cheapest(zones: ScaledZones, costs: Array, cuts: Cuts) -> tuple[Array, float
 
 
 def cheapest_sampled(sample: SampledZones, costs: Array, cuts: Cuts) -> Array:
-    """Proportions that cost less than the worst case's optimum when a share of assemblies counts.
+    """Proportions (t,) that cost less than the worst case's optimum where a share of them counts.
 
     At an optimum each cost's slope is in proportion to the quantile's, c/t² = μ ∂Q/∂t. From the
     worst case's proportions t is moved towards √(c/∂Q/∂t) and kept where that costs less.
+
+    Parameters
+    ----------
+    sample : SampledZones
+    costs : (t,)
+        c, at the given sizes, any unit.
+    cuts : Cuts
+        Of the worst case, for its optimum.
     """
     sample = replace(sample, samples=min(sample.samples, SAMPLES))
     zones = sample.zones

@@ -45,7 +45,7 @@ class Distribution:
     ----------
     responses : Responses
     shares : tuple of float
-        Of the assemblies that do not exceed the quantiles.
+        Shares of the assemblies that do not exceed the quantiles.
     values : Spread
         Of the quantities, (..., q, ...); N, N·m, m or rad.
     utilisation : Spread or None
@@ -117,7 +117,7 @@ def distribution(
         For the distribution of the utilisation, the largest of quantity over limit in each
         assembly: what share of the assemblies keeps all limits at once.
     progress : callable, optional
-        Told (samples done, samples in all).
+        Called with (samples done, samples in all).
 
     Returns
     -------

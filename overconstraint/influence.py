@@ -43,7 +43,8 @@ class Influence:
         On the second node of every joint in joint axes, per unit misfit: N/m, N·m/m, N/rad and
         N·m/rad.
     tool : (..., 6, g)
-        Displacement and rotation of the tool per unit misfit, global axes.
+        Displacement and rotation of the tool per unit misfit, global axes: m/m, rad/m, m/rad and
+        rad/rad.
     redundant : (...) of int
         States of self-stress; where there is none the forces are exactly zero.
     residual : (...)
@@ -274,7 +275,12 @@ def _warn_of_rigid_shares(linkage: Linkage, forces: Array, open_: NDArray[np.boo
 
 
 def misfit_directions(linkage: Linkage) -> tuple[tuple[str, str], ...]:
-    """Locked or elastic directions of the joints that are no supports."""
+    """Locked or elastic directions of the joints that are no supports.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    """
     return tuple(
         (joint.name, d)
         for joint, states in zip(linkage.joints, linkage.states(), strict=True)

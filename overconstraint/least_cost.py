@@ -31,13 +31,14 @@ def least_cost(
     Parameters
     ----------
     costs : (s,)
-        Positive.
+        c, positive, any unit.
     rows : (m, s)
-        Not negative, every column with an entry that is not zero or a finite `high`.
+        Utilisation of each limit per size, any unit; not negative, every column with an entry that
+        is not zero or a finite `high`.
     limits : (m,)
-        More than rows·low.
+        In the unit of rows·t, any unit; more than rows·low.
     low, high : (s,)
-        low < high; low may be zero, high infinite.
+        In the unit of t, any unit; low < high; low may be zero, high infinite.
 
     Returns
     -------
@@ -102,7 +103,17 @@ def least_cost(
 
 
 def sizes_for(costs: Array, pull: Array, low: Array, high: Array) -> Array:
-    """Sizes that minimise Σ cₛ/tₛ + pullₛ tₛ between their bounds, √(c/pull) clipped, (s,)."""
+    """Sizes that minimise Σ cₛ/tₛ + pullₛ tₛ between their bounds, √(c/pull) clipped, (s,).
+
+    Parameters
+    ----------
+    costs : (s,)
+        c, cost times size, any unit.
+    pull : (s,)
+        Price of each size, not negative, any unit.
+    low, high : (s,)
+        Bounds of the sizes, any unit.
+    """
     free = np.sqrt(costs / np.where(pull > 0, pull, 1.0))
     return np.clip(np.where(pull > 0, free, np.inf), low, high)
 
@@ -110,7 +121,21 @@ def sizes_for(costs: Array, pull: Array, low: Array, high: Array) -> Array:
 def cost_bound(
     costs: Array, rows: Array, limits: Array, bounds: tuple[Array, Array], multipliers: Array
 ) -> float:
-    """The Lagrange dual: no sizes within the limits cost less, whatever the multipliers ≥ 0."""
+    """The Lagrange dual: no sizes within the limits cost less, whatever the multipliers ≥ 0.
+
+    Parameters
+    ----------
+    costs : (s,)
+        c, any unit.
+    rows : (m, s)
+        Of the limits, any unit.
+    limits : (m,)
+        In the unit of rows·t, any unit.
+    bounds : ((s,), (s,))
+        Least and largest sizes, any unit.
+    multipliers : (m,)
+        Price of each limit, not negative, any unit.
+    """
     pull = rows.T @ multipliers
     t = sizes_for(costs, pull, *bounds)
     finite = np.isfinite(t)

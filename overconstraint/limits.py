@@ -25,7 +25,8 @@ def limit_vector(responses: Responses, limits: Limits) -> Array:
     ----------
     responses : Responses
     limits : mapping of (joint, kind) to float
-        A limit of the tool holds for each of its axes: (None, "displacement") for x, y and z.
+        N, N·m, m or rad. A limit of the tool holds for each of its axes: (None, "displacement") for
+        x, y and z.
 
     Returns
     -------
@@ -66,7 +67,7 @@ def bearing_limit(static_rating: float, safety_factor: float = 1.0) -> float:
     static_rating : float
         Basic static radial load rating C₀ of the catalogue, N.
     safety_factor : float
-        s₀.
+        s₀, no unit.
 
     Returns
     -------

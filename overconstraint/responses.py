@@ -65,8 +65,10 @@ class Responses:
     ----------
     quantities : tuple of Quantity
     gain : (..., q, 2, k)
-        The second row is zero for a quantity of one component.
+        In the quantity's unit, N, N·m, m or rad; the second row is zero for a quantity of one
+        component.
     mean : (..., q, 2)
+        In the middle of all zones, in the same unit.
     sources : MisfitSources
     influence : Influence
     """
@@ -86,6 +88,13 @@ class Responses:
     def index(self, joint: str | None, kind: str) -> int:
         """Index of the first quantity of a joint (None: the tool) and kind.
 
+        Parameters
+        ----------
+        joint : str or None
+            None for the tool.
+        kind : str
+            As `Quantity.kind`.
+
         Raises
         ------
         ModelError
@@ -102,7 +111,12 @@ class Responses:
 
 
 def joint_quantities(linkage: Linkage) -> tuple[Quantity, ...]:
-    """Forces and moments that the joints can carry, supports excepted."""
+    """Forces and moments that the joints can carry, supports excepted.
+
+    Parameters
+    ----------
+    linkage : Linkage
+    """
     found = []
     for joint, states in zip(linkage.joints, linkage.states(), strict=True):
         if joint.type == "support":

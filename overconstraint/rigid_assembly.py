@@ -94,8 +94,8 @@ def rigid_equilibrium(
     misfits : (..., n, 3)
         d, the displacement of each joint's other side, global axes, m.
     reference : (..., 3), optional
-        Point whose translation is reported; default the first joint, as in the thesis.
-        Forces do not depend on it.
+        Point whose translation is reported, m; default the first joint, as in the thesis. Forces do
+        not depend on it.
 
     Returns
     -------

@@ -31,8 +31,11 @@ def without_rounding(
     ----------
     placed : PlacedStructure
     columns : sequence of (joint, direction)
+        The g misfits.
     forces : (..., j, 6, g)
+        N/m, N·m/m, N/rad and N·m/rad.
     tool : (..., 6, g)
+        m/m, rad/m, m/rad and rad/rad.
 
     Returns
     -------
@@ -65,9 +68,11 @@ def product_without_rounding(left: Array, right: Array, scale: Array) -> Array:
     Parameters
     ----------
     left : (..., a, g)
+        Any unit.
     right : (..., g, k)
+        Any unit.
     scale : (..., a, g)
-        What the entries of `left` were made from.
+        What the entries of `left` were made from, in the same unit.
 
     Returns
     -------
@@ -78,9 +83,14 @@ def product_without_rounding(left: Array, right: Array, scale: Array) -> Array:
 
 
 def row_scale(table: Array) -> Array:
-    """Largest entry of each column among rows of one kind, (..., 6, g) to the same shape.
+    """Largest entry of each column among rows of one kind, (..., 6, g).
 
     Translations and rotations, or forces and moments, are not compared with one another.
+
+    Parameters
+    ----------
+    table : (..., 6, g)
+        Any unit.
     """
     size = np.abs(table)
     halves = [size[..., :3, :], size[..., 3:, :]]

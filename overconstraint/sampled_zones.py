@@ -35,7 +35,7 @@ class SampledZones:
     ----------
     zones : ScaledZones
     share : float
-        Of the assemblies that shall keep all limits, at all poses.
+        Share of the assemblies that keep all limits, at all poses.
     samples, seed : int
     """
 
@@ -46,6 +46,11 @@ class SampledZones:
 
     def along(self, ray: Array) -> float:
         """Largest λ at which clip(λ ray, low, high) lets the share of the sample keep all limits.
+
+        Parameters
+        ----------
+        ray : (t,)
+            Scales in proportion, no unit; positive where a tolerance may change.
 
         Returns
         -------
@@ -77,7 +82,13 @@ class SampledZones:
         return int(np.ceil(self.share * self.samples - 1e-9))
 
     def utilisation(self, scale: Array) -> tuple[Array, NDArray[np.intp]]:
-        """Largest quantity over limit of every assembly, (n,), and its row among (p q,)."""
+        """Largest quantity over limit of every assembly, (n,), and its row among (p q,).
+
+        Parameters
+        ----------
+        scale : (t,)
+            Of the tolerances, no unit.
+        """
         gain, mean, limit = self._rows(by_parameter(self.zones.responses, scale))
         found, which = [], []
         for z in self._chunks():
@@ -87,9 +98,14 @@ class SampledZones:
         return np.concatenate(found), np.concatenate(which)
 
     def slopes(self, scale: Array) -> tuple[Array, Array]:
-        """How the quantile of the utilisation grows with each scale, (t,), and who makes it.
+        """How the quantile of the utilisation grows with each scale, and what makes it.
 
         The mean slope of the assemblies about the quantile (Hong 2009, Theorem 2).
+
+        Parameters
+        ----------
+        scale : (t,)
+            Of the tolerances, no unit.
 
         Returns
         -------

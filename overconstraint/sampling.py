@@ -80,7 +80,13 @@ def uniform_numbers(
 
 
 def points_per_scramble(samples: int) -> int:
-    """Least power of two that fills the samples, and no fewer than two."""
+    """Least power of two that fills the samples, and no fewer than two.
+
+    Parameters
+    ----------
+    samples : int
+        Of all scrambles together.
+    """
     return int(2 ** max(1, np.ceil(np.log2(max(samples, 1) / SCRAMBLES))))
 
 
@@ -91,7 +97,7 @@ def draw(sources: MisfitSources, uniform: Array) -> Array:
     ----------
     sources : MisfitSources
     uniform : (..., k)
-        In [0, 1].
+        In [0, 1], no unit.
 
     Returns
     -------
@@ -113,6 +119,11 @@ def variances(sources: MisfitSources) -> Array:
     """Variance of every parameter, (k,); none is correlated with another.
 
     The second moment of a parameter over the surface times that of the gauge.
+
+    Parameters
+    ----------
+    sources : MisfitSources
+        With k parameters.
     """
     result = np.empty(sources.parameters)
     for block in sources.blocks:

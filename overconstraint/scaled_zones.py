@@ -36,21 +36,33 @@ class Cuts:
     Parameters
     ----------
     rows : (m, t)
-        Not negative.
+        Per unit scale, no unit; not negative.
     offset : (m,)
+        Of the zones' middles, no unit.
     """
 
     rows: Array
     offset: Array
 
     def joined(self, other: Cuts) -> Cuts:
-        """Both together."""
+        """Both together.
+
+        Parameters
+        ----------
+        other : Cuts
+        """
         return Cuts(
             np.concatenate([self.rows, other.rows]), np.concatenate([self.offset, other.offset])
         )
 
     def kept(self, which: Array) -> Cuts:
-        """Some of them."""
+        """Some of them.
+
+        Parameters
+        ----------
+        which : (k,) or (m,) of bool
+            Indices, or a mask.
+        """
         return Cuts(self.rows[which], self.offset[which])
 
 
@@ -63,8 +75,9 @@ class ScaledZones:
     responses : Responses
         Of the limited quantities.
     limit : (q,)
+        N, N·m, m or rad.
     low, high : (t,)
-        Bounds of the scales; equal for a tolerance that stays.
+        Bounds of the scales, no unit; equal for a tolerance that stays.
     """
 
     responses: Responses
@@ -73,16 +86,34 @@ class ScaledZones:
     high: Array
 
     def at(self, scale: Array) -> Responses:
-        """Responses with the zones scaled."""
+        """Responses with the zones scaled.
+
+        Parameters
+        ----------
+        scale : (t,)
+            Of the tolerances, no unit.
+        """
         return scaled(self.responses, scale)
 
     def worst(self, scale: Array) -> tuple[WorstCase, Array]:
-        """Worst case at a scale, and its bound over the limits as one row, (p q,)."""
+        """Worst case at a scale, and its bound over the limits as one row, (p q,).
+
+        Parameters
+        ----------
+        scale : (t,)
+            Of the tolerances, no unit.
+        """
         found = worst_case(self.at(scale), CERTIFICATE)
         return found, (found.bound / self.limit).ravel()
 
     def cuts(self, direction: Array) -> Cuts:
-        """Cuts in unit vectors, (..., q, 2)."""
+        """Cuts in given directions, one row per direction.
+
+        Parameters
+        ----------
+        direction : (..., q, 2)
+            Unit vectors among the quantities' components.
+        """
         sources = self.responses.sources
         pull = np.einsum("...qik,...qi->...qk", self.responses.gain, direction)
         belongs = np.eye(len(self.low))[sources.owner]
@@ -131,6 +162,13 @@ class ScaledZones:
         Newton's method on a maximum of convex functions: each step solves the cuts known so far
         exactly, and so comes down to the root from above.
 
+        Parameters
+        ----------
+        ray : (t,)
+            Scales in proportion, no unit.
+        cuts : Cuts
+            Those known so far.
+
         Returns
         -------
         factor : float
@@ -159,18 +197,41 @@ class ScaledZones:
         )
 
     def clip(self, factor: float, ray: Array) -> Array:
-        """Scales on the ray, within their bounds."""
+        """Scales on the ray, within their bounds, (t,).
+
+        Parameters
+        ----------
+        factor : float
+            No unit.
+        ray : (t,)
+            Scales in proportion, no unit.
+        """
         with np.errstate(invalid="ignore"):
             scale = np.where(ray > 0, factor * ray, 0.0)
         return np.clip(scale, self.low, self.high)
 
     def corners(self, ray: Array) -> Array:
-        """Factors at which a scale meets a bound, ascending from zero."""
+        """Factors at which a scale meets a bound, ascending from zero, (c,).
+
+        Parameters
+        ----------
+        ray : (t,)
+            Scales in proportion, no unit.
+        """
         ends = np.concatenate([self.low, self.high]) / np.concatenate([ray, ray])
         return np.unique(np.concatenate([[0.0], ends[np.isfinite(ends)]]))
 
     def stop(self, ray: Array, cuts: Cuts, share: float = 1.0) -> float:
-        """Largest factor at which no cut is above a share of its limit: they rise in pieces."""
+        """Largest factor at which no cut is above a share of its limit: they rise in pieces.
+
+        Parameters
+        ----------
+        ray : (t,)
+            Scales in proportion, no unit.
+        cuts : Cuts
+        share : float
+            Share of the limits that counts as reached.
+        """
         corners = self.corners(ray)
         last = corners[-1]
         path = np.stack([*(self.clip(c, ray) for c in corners), self.clip(2 * last + 1, ray)])
@@ -188,7 +249,14 @@ class ScaledZones:
 
 
 def scaled(responses: Responses, scale: Array) -> Responses:
-    """Responses whose tolerances' zones are scaled about their middles, by (t,)."""
+    """Responses whose tolerances' zones are scaled about their middles.
+
+    Parameters
+    ----------
+    responses : Responses
+    scale : (t,)
+        Of each tolerance, no unit.
+    """
     weight = by_parameter(responses, scale)
     sources = responses.sources
     return replace(
@@ -199,7 +267,14 @@ def scaled(responses: Responses, scale: Array) -> Responses:
 
 
 def by_parameter(responses: Responses, by_tolerance: Array) -> Array:
-    """What belongs to tolerances, (t, ...), for each parameter of their zones, (k, ...)."""
+    """What belongs to tolerances, for each of the k parameters of their zones, (k, ...).
+
+    Parameters
+    ----------
+    responses : Responses
+    by_tolerance : (t, ...)
+        Any unit.
+    """
     blocks = responses.sources.blocks
     owner = np.repeat(responses.sources.owner, [block.shape.dimension for block in blocks])
     return np.asarray(by_tolerance)[owner]

@@ -64,6 +64,10 @@ def given_size(tolerance: Tolerance) -> float:
     """The number that a tolerance is given by, and that its zone scales with.
 
     Its slope, rad; its size, m; or half the distance of its limits, m.
+
+    Parameters
+    ----------
+    tolerance : Tolerance
     """
     if tolerance.slope is not None:
         return tolerance.slope

@@ -104,14 +104,26 @@ class MisfitSources:
         return np.array([block.tolerance for block in self.blocks], dtype=np.intp)
 
     def supports(self, direction: Array) -> Array:
-        """What every block does at worst to a quantity directionᵀz, (..., k) to (..., b)."""
+        """What every block does at worst to a quantity cᵀz, (..., b).
+
+        Parameters
+        ----------
+        direction : (..., k)
+            c, any unit.
+        """
         result = np.zeros((*direction.shape[:-1], len(self.blocks)))
         for shape, members, index in self.by_shape:
             result[..., members] = shape.support(direction[..., index])
         return result
 
     def extreme(self, direction: Array) -> Array:
-        """The z at which that is reached, (..., k)."""
+        """The z at which that is reached, (..., k).
+
+        Parameters
+        ----------
+        direction : (..., k)
+            c, as `supports`, any unit.
+        """
         result = np.zeros(direction.shape)
         for shape, _, index in self.by_shape:
             result[..., index] = shape.extreme(direction[..., index])

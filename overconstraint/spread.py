@@ -21,9 +21,10 @@ class Spread:
     Parameters
     ----------
     quantiles, low, high : (..., p)
-        With their confidence intervals, at `Distribution.shares`.
+        With their confidence intervals, at `Distribution.shares`; in the variable's own unit.
     mean, deviation, largest, worst : (...)
-        Standard deviation with n − 1; the largest sampled; the exact worst case.
+        Standard deviation with n − 1; the largest sampled; the exact worst case. In the variable's
+        own unit.
     counts : (..., BINS)
         Samples in bins of equal width from zero to the worst case.
     """

@@ -18,9 +18,11 @@ class Tally:
     Parameters
     ----------
     span : (v,)
-        Upper end of each variable, positive.
+        Upper end of each variable, positive, any unit.
     cells : int
         Of the fine histogram.
+    count : int
+        Samples taken in so far.
     """
 
     span: Array
@@ -39,7 +41,13 @@ class Tally:
         self.smallest, self.largest = np.full(size, np.inf), np.zeros(size)
 
     def add(self, values: Array) -> None:
-        """Take in samples, (v, n), none beyond the span but for rounding."""
+        """Take in samples, none beyond the span but for rounding.
+
+        Parameters
+        ----------
+        values : (v, n)
+            In the units of the span, any unit.
+        """
         new = values.shape[1]
         mean = values.mean(axis=1)
         apart = mean - self.mean
@@ -57,7 +65,12 @@ class Tally:
         np.add.at(self.counts.ravel(), cell.ravel(), 1)
 
     def join(self, other: Tally) -> None:
-        """Take in another tally of the same variables."""
+        """Take in another tally of the same variables.
+
+        Parameters
+        ----------
+        other : Tally
+        """
         apart, total = other.mean - self.mean, self.count + other.count
         self.squares += other.squares + apart**2 * (self.count * other.count / total)
         self.mean += apart * (other.count / total)
@@ -72,16 +85,29 @@ class Tally:
         return np.asarray(np.sqrt(self.squares / max(self.count - 1, 1)))
 
     def quantile(self, shares: Array) -> Array:
-        """Value that a share of the samples does not exceed, (v, s); straight within a cell."""
+        """Value that a share of the samples does not exceed, (v, s); straight within a cell.
+
+        Parameters
+        ----------
+        shares : (s,)
+            From 0 to 1, no unit.
+        """
         ranks = np.clip(np.asarray(shares, dtype=float) * self.count, 1, self.count)
         cell, up_to = self._cells(ranks)
         here = np.take_along_axis(self.counts, cell, axis=1)
         return self._within(cell + (ranks - (up_to - here)) / here)
 
     def between(self, ranks: NDArray[np.intp], upper: bool) -> Array:
-        """Bounds of the samples of given ranks, 1 the smallest, (v, r): the edges of their cells.
+        """Bounds of the samples of given ranks, (v, r): the edges of their cells.
 
         Below the first rank zero, above the last one the span.
+
+        Parameters
+        ----------
+        ranks : (r,)
+            1 is the smallest sample.
+        upper : bool
+            The upper edges; else the lower ones.
         """
         cell, _ = self._cells(np.clip(ranks, 1, self.count))
         edges = self._within(cell + float(upper))
@@ -90,7 +116,13 @@ class Tally:
         return edges
 
     def histogram(self, bins: int) -> NDArray[np.int64]:
-        """Counts in bins of equal width from zero to the span, (v, bins)."""
+        """Counts in bins of equal width from zero to the span, (v, bins).
+
+        Parameters
+        ----------
+        bins : int
+            Divides the fine cells.
+        """
         return np.asarray(self.counts.reshape(len(self.span), bins, -1).sum(axis=-1))
 
     def _cells(self, ranks: Array) -> tuple[NDArray[np.intp], NDArray[np.int64]]:

@@ -47,7 +47,7 @@ class ToolDeviation:
     displacement : (..., 3)
         The displacement of that length, m.
     parameters : (..., k)
-        The z that causes it.
+        The z that causes it, no unit.
     misfits : (..., g)
         The misfits that cause it, in the order of the sources' columns, m and rad.
     """
@@ -128,7 +128,9 @@ def farthest(
     sources : MisfitSources
         Whose zones z ranges over.
     gain : (p, 3, k)
+        m, or any unit.
     mean : (p, 3)
+        In the same unit.
     tolerance : float
         Largest gap between bound and value, as a share of the value.
 

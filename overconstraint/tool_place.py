@@ -30,7 +30,8 @@ def check_tool_place(system: System, tool: Array) -> None:
     ----------
     system : System
     tool : (p, 6, g)
-        Displacement of the tool per unit misfit, with no part of a free motion in the unknowns.
+        Displacement of the tool per unit misfit, m/m, rad/m, m/rad and rad/rad, with no part of a
+        free motion in the unknowns.
 
     Raises
     ------

@@ -40,11 +40,12 @@ class WorstCase:
     value : (..., q)
         Reached by `parameters`; N, N·m, m or rad.
     bound : (..., q)
-        No combination exceeds it; equal to `value` but for the tolerance of the certificate.
+        No combination exceeds it; equal to `value` but for the tolerance of the certificate, in the
+        same unit.
     direction : (..., q, 2)
         Unit vector of the worst force among the quantity's directions.
     parameters : (..., q, k)
-        The worst z.
+        The worst z, no unit.
     shares : (..., q, t)
         What each tolerance adds to the worst value, as a share of it; they sum to one where the
         zones' middles cause nothing.
@@ -61,7 +62,13 @@ class WorstCase:
         return f"<WorstCase: {len(self.responses.quantities)} quantities, SI>"
 
     def misfits(self, quantity: int) -> Array:
-        """The worst combination for a quantity, (..., g), in the order of the columns, m, rad."""
+        """The worst combination for a quantity, (..., g), in the order of the columns, m and rad.
+
+        Parameters
+        ----------
+        quantity : int
+            Its index among the responses' quantities.
+        """
         sources = self.responses.sources
         z = self.parameters[..., quantity, :]
         return np.asarray(sources.mean + (sources.map @ z[..., None])[..., 0])

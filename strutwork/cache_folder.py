@@ -27,7 +27,13 @@ def user_cache() -> Path | None:
 
 
 def takes_files(folder: Path) -> bool:
-    """Whether files can be made in a folder, which is made when missing."""
+    """Whether files can be made in a folder, which is made when missing.
+
+    Parameters
+    ----------
+    folder : Path
+        Made with its parents when missing, and left there.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -37,12 +43,26 @@ def takes_files(folder: Path) -> bool:
 
 
 def note_once(subject: str, message: str) -> None:
-    """Warn with a `CacheWarning`, the first time in this process that `subject` comes up."""
+    """Warn with a `CacheWarning`, the first time in this process that `subject` comes up.
+
+    Parameters
+    ----------
+    subject : str
+        What the note is about; the key of "once".
+    message : str
+        The text of the warning.
+    """
     if subject not in _noted:
         _noted.add(subject)
         warnings.warn(message, CacheWarning, stacklevel=3)
 
 
 def reason(error: Exception) -> str:
-    """What an operating system's error says, without number and path."""
+    """What an operating system's error says, without number and path.
+
+    Parameters
+    ----------
+    error : Exception
+        Of the system (`OSError.strerror`), or any other.
+    """
     return getattr(error, "strerror", None) or str(error) or type(error).__name__

@@ -21,6 +21,13 @@ def csv_cell(value: Any) -> Any:
 
     Numbers, and texts that are numbers, stay as they are.
 
+    Parameters
+    ----------
+    value : object
+        Number, text or anything that the csv module writes.
+
+    Examples
+    --------
     >>> csv_cell("=1+1"), csv_cell("-2.5e-3"), csv_cell(-2.5), csv_cell("leg1")
     ("'=1+1", '-2.5e-3', -2.5, 'leg1')
     """
@@ -32,6 +39,13 @@ def csv_cell(value: Any) -> Any:
 def csv_name(cell: str) -> str:
     """The text that `csv_cell` wrote as `cell`.
 
+    Parameters
+    ----------
+    cell : str
+        As read from the file, with the mark or without.
+
+    Examples
+    --------
     >>> csv_name("'=1+1"), csv_name("leg1")
     ('=1+1', 'leg1')
     """
@@ -52,13 +66,25 @@ class RowWriter:
         self._quoting = csv.writer(stream, lineterminator="\n", quoting=csv.QUOTE_ALL)
 
     def writerow(self, row: Iterable[Any]) -> None:
-        """Write one row."""
+        """Write one row.
+
+        Parameters
+        ----------
+        row : iterable of objects
+            Its cells, each as `csv_cell` takes it.
+        """
         cells = [csv_cell(value) for value in row]
         # Python's writer leaves a carriage return bare, where readers see the end of the row
         bare = any(isinstance(cell, str) and "\r" in cell for cell in cells)
         (self._quoting if bare else self._writer).writerow(cells)
 
     def writerows(self, rows: Iterable[Iterable[Any]]) -> None:
-        """Write rows."""
+        """Write rows.
+
+        Parameters
+        ----------
+        rows : iterable of rows
+            Each as `writerow` takes it.
+        """
         for row in rows:
             self.writerow(row)

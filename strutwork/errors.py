@@ -8,16 +8,16 @@ from strutwork.names import visible
 class StrutworkError(Exception):
     """Base of all errors raised on purpose.
 
+    As text, hidden characters of names are written out: a message acts on no terminal.
+
     Parameters
     ----------
     part : str
         The joint, node, field or file that the message is about.
     problem : str
-        What is wrong with it, with the value found.
+        What is wrong with it, with the value that was given.
     remedy : str
         What the reader can do about it.
-
-    As text, hidden characters of names are written out: a message acts on no terminal.
     """
 
     def __init__(self, part: str, problem: str, remedy: str = "") -> None:

@@ -20,7 +20,15 @@ _REMEDIES = {
 
 
 def write_error(where: Path | str, error: OSError) -> OutputError:
-    """What a failed write is to its reader: where, why, and what to do."""
+    """What a failed write is to its reader: where, why, and what to do.
+
+    Parameters
+    ----------
+    where : Path or str
+        The file or folder, as the message names it.
+    error : OSError
+        What the system raised; its number chooses the remedy.
+    """
     why = error.strerror or str(error) or type(error).__name__
     remedy = _REMEDIES.get(error.errno or 0, "Choose a folder you may write to.")
     return OutputError(str(where), f"cannot be written ({why}).", remedy)
@@ -74,5 +82,13 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Write `text` in UTF-8 to `path`, whole or not at all."""
+    """Write `text` in UTF-8 to `path`, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        The file to make; its folder is made when missing.
+    text : str
+        Everything that the file shall hold.
+    """
     return write_whole(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))

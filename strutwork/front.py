@@ -98,7 +98,15 @@ class Machine(Model):
 
     @classmethod
     def of(cls, model: Model, source: str = "") -> Self:
-        """The same model, with its questions."""
+        """The same model, with its questions.
+
+        Parameters
+        ----------
+        model : Model
+            Its fields are taken over, not copied.
+        source : str
+            Name or file the model was loaded from; empty for none.
+        """
         machine = cls(**{f.name: getattr(model, f.name) for f in fields(Model)})
         # frozen for all who come later; not copied by `dataclasses.replace`, as it should not be
         object.__setattr__(machine, "source", source)
@@ -190,6 +198,11 @@ class Machine(Model):
     def modes(self, count: int = 10) -> Modes:
         """The lowest natural frequencies and shapes, under the preload where there is one.
 
+        Parameters
+        ----------
+        count : int
+            How many modes, rigid ones included.
+
         Raises
         ------
         StrutworkError
@@ -250,11 +263,19 @@ class Machine(Model):
         **options
             Of `strutwork.studies.survey.survey`: workers, progress, folder, executor.
 
+        Returns
+        -------
+        xarray.Dataset
+            With `dataset.strutwork.to_dataframe()`, `.split_units()` and `.plot()`, see
+            `strutwork.surveyed.Surveyed`.
+
         Raises
         ------
         ModelError
             No workspace is known; else as `strutwork.studies.survey.survey`.
         """
+        # gives the dataset its table, its units and its plot
+        import strutwork.surveyed  # noqa: F401
         from strutwork.studies.answers import Stiffness
         from strutwork.studies.survey import survey
 

@@ -26,7 +26,7 @@ def jit(*, contract: bool = False) -> Any:
     Warns
     -----
     CacheWarning
-        Once a process, when a function is compiled whose code cannot be kept.
+        Once per process, when a function is compiled whose code cannot be kept.
 
     Raises
     ------

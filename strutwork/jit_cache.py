@@ -1,4 +1,4 @@
-"""Machine code on disk: found by the sources it came from, verified when read, never required.
+"""Machine code on disk: named by the sources it came from, verified when read, never required.
 
 Numba keeps the code of a function beside the function's file and renews it when that file changes.
 It does not see a change of a function that is called from another file, raises where no folder can
@@ -52,7 +52,7 @@ def code_folders() -> list[Path]:
     """Folders in which machine code may be kept, the preferred first.
 
     NUMBA_CACHE_DIR where it is set, the installation's own, the user's cache. Those outside of the
-    installation are shared and have one folder an installation.
+    installation are shared and have one folder per installation.
     """
     own = Path(strutwork.__file__).resolve().parent
     here = hashlib.sha256(os.fsencode(own)).hexdigest()[:16]
@@ -99,7 +99,13 @@ def _clean(folder: Path) -> None:
 
 
 def code_cache(function: Callable[..., Any]) -> Any:
-    """The cache of a function's machine code, for its numba dispatcher."""
+    """The cache of a function's machine code, for its numba dispatcher.
+
+    Parameters
+    ----------
+    function : callable
+        The Python function to be compiled.
+    """
     if code_folder() is None:
         return _NoCache()
     try:
@@ -125,7 +131,7 @@ class _NoCache(caching.NullCache):
 
 
 class _Locator(caching._CacheLocator):  # noqa: SLF001 - numba's extension point
-    """Tells numba the folder, and to name files by package and line."""
+    """Gives numba the folder, and names of files by package and line."""
 
     def __init__(self, function: Callable[..., Any], file: str) -> None:
         self._py_file = file

@@ -72,7 +72,13 @@ def require_dense(part: str, what: str, need: float, remedy: str) -> None:
 
 
 def out_of_memory(error: MemoryError) -> NumericalError:
-    """What to say where memory ran out all the same."""
+    """What to say where memory ran out all the same.
+
+    Parameters
+    ----------
+    error : MemoryError
+        As raised; its text, if any, stands in brackets in the message.
+    """
     why = f" ({error})" if str(error) else ""
     return NumericalError(
         "memory",

@@ -18,6 +18,13 @@ _SHORT = {"\n": "\\n", "\r": "\\r", "\t": "\\t"}
 def is_hidden(character: str) -> bool:
     r"""Whether a character shows nothing and may act on what shows the others.
 
+    Parameters
+    ----------
+    character : str
+        A single one.
+
+    Examples
+    --------
     >>> is_hidden("\x1b"), is_hidden("\u202e"), is_hidden("ö")
     (True, True, False)
     """
@@ -63,6 +70,15 @@ def _written(character: str) -> str:
 def meant(name: str, known: Iterable[str]) -> str:
     """A question after the nearest of some names, with a space behind; empty where none is near.
 
+    Parameters
+    ----------
+    name : str
+        What was asked for and is not known.
+    known : iterable of str
+        The names there are.
+
+    Examples
+    --------
     >>> meant("mit-ss2", ["mit-ss1", "biglide"])
     'Did you mean "mit-ss1"? '
     >>> meant("other", ["mit-ss1", "biglide"])
@@ -82,9 +98,12 @@ def choices(what: str, name: str, known: Iterable[str], most: int = 12) -> str:
     name : str
         As it was written.
     known : iterable of str
+        The names there are.
     most : int
         So many are listed.
 
+    Examples
+    --------
     >>> choices("Nodes", "TPC", ["TCP", "base"])
     'Did you mean "TCP"? Nodes: TCP, base.'
     """
@@ -96,6 +115,15 @@ def choices(what: str, name: str, known: Iterable[str], most: int = 12) -> str:
 def listed(words: Sequence[str], mark: str = ",") -> str:
     """Words as a sentence lists them.
 
+    Parameters
+    ----------
+    words : sequence of str
+        In the order in which they shall stand; none makes an empty text.
+    mark : str
+        What stands after each word but the last two.
+
+    Examples
+    --------
     >>> listed(["x", "y", "z"]), listed(["x"]), listed([])
     ('x, y and z', 'x', '')
     """

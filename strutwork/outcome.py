@@ -48,7 +48,13 @@ class Outcome:
 
     @classmethod
     def good(cls, batch: tuple[int, ...]) -> Outcome:
-        """Every pose solved."""
+        """Every pose solved.
+
+        Parameters
+        ----------
+        batch : tuple of int
+            Shape of the batch of poses.
+        """
         return cls(np.zeros(batch, dtype=np.int16))
 
     def __getitem__(self, index: Any) -> Outcome:
@@ -61,7 +67,13 @@ class Outcome:
         return np.asarray(self.status == 0)
 
     def reason(self, index: int | tuple[int, ...] = ()) -> str:
-        """Why the pose at `index` was not solved; empty where it was."""
+        """Why the pose at `index` was not solved; empty where it was.
+
+        Parameters
+        ----------
+        index : int or tuple of int
+            Of the pose in the batch; () for a single pose.
+        """
         code = int(self.status[index])
         return self.reasons[code - 1] if code else ""
 
@@ -71,12 +83,24 @@ class Outcome:
         return {w: int(n) for w, n in zip(self.reasons, number, strict=True) if n}
 
     def of_kind(self, kind: type[StrutworkError]) -> NDArray[np.bool_]:
-        """True where a pose failed with an error of that kind, (...)."""
+        """True where a pose failed with an error of that kind, (...).
+
+        Parameters
+        ----------
+        kind : type of StrutworkError
+            Subclasses count as well.
+        """
         codes = [i + 1 for i, e in enumerate(self.errors) if isinstance(e, kind)]
         return np.asarray(np.isin(self.status, codes))
 
     def reshaped(self, batch: tuple[int, ...]) -> Outcome:
-        """The same with other batch axes."""
+        """The same with other batch axes.
+
+        Parameters
+        ----------
+        batch : tuple of int
+            The new shape, of as many poses.
+        """
         return replace(self, status=self.status.reshape(batch))
 
     def require_some(self) -> Outcome:
@@ -116,6 +140,13 @@ class Outcome:
 
     def warn(self, what: str, stacklevel: int = 2) -> None:
         """Warn, with counts and reasons, where poses of `what` have no answer.
+
+        Parameters
+        ----------
+        what : str
+            What has no answer; begins the message.
+        stacklevel : int
+            As `warnings.warn` counts it, 1 for the caller of this method.
 
         Warns
         -----
@@ -218,6 +249,11 @@ def reason_of(error: StrutworkError) -> str:
 
     Without the number of the pose it was met at and without what was measured there; of a
     mechanism without the joints that move. `Outcome.errors` has all of it for the first such pose.
+
+    Parameters
+    ----------
+    error : StrutworkError
+        Met at one pose.
     """
     if isinstance(error, MechanismError):
         return "the structure moves freely under its load"

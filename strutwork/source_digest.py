@@ -10,13 +10,13 @@ from pathlib import Path
 
 @cache
 def source_digest(*packages: str) -> str:
-    """SHA-256 over the Python sources of packages, with their names; read once a process.
+    """SHA-256 over the Python sources of packages, with their names; read once per process.
 
     Of `strutwork` itself the modules count, not the packages in it, which are named apart.
 
     Parameters
     ----------
-    packages : str
+    *packages : str
         Packages that can be imported. Where one comes without sources it counts with its name
         only.
 

@@ -21,7 +21,7 @@ class Stage:
     begun : float
         `time.monotonic()` at its start, s.
     silent : bool
-        Whether the work tells by itself how far it is.
+        Whether the work itself reports how far it is.
     """
 
     what: str
@@ -30,7 +30,13 @@ class Stage:
     silent: bool = False
 
     def line(self, now: float) -> str:
-        """What to say at the time `now` of `time.monotonic()`."""
+        """What to say at the time `now` of `time.monotonic()`.
+
+        Parameters
+        ----------
+        now : float
+            s, of the same clock as `begun`.
+        """
         text = f"{self.what or 'works'}, {now - self.begun:.0f} s so far"
         if self.estimate is not None:
             text += f" of about {self.estimate:.0f} s"
@@ -50,7 +56,7 @@ def stage(what: str, estimate: float | None = None, *, silent: bool = False) -> 
     estimate : float or None
         s.
     silent : bool
-        Whether it tells by itself how far it is.
+        Whether it reports itself how far it is.
     """
     mine = Stage(what, estimate, silent=silent)
     _open.append(mine)
@@ -61,5 +67,5 @@ def stage(what: str, estimate: float | None = None, *, silent: bool = False) -> 
 
 
 def current() -> Stage | None:
-    """The innermost piece of work under way; None where none is told."""
+    """The innermost piece of work under way; None where there is none."""
     return _open[-1] if _open else None

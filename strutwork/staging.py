@@ -28,7 +28,12 @@ _cleaned: set[Path] = set()
 def staging(folder: Path) -> Iterator[Path]:
     """A new empty folder in `folder`, locked and gone afterwards.
 
-    What killed runs left in `folder` is removed once a process.
+    What killed runs left in `folder` is removed once per process.
+
+    Parameters
+    ----------
+    folder : Path
+        Where the new folder is made; exists already.
 
     Raises
     ------
@@ -50,7 +55,13 @@ def staging(folder: Path) -> Iterator[Path]:
 
 
 def clean(folder: Path) -> int:
-    """Remove the staging folders in `folder` that no living process holds; their number."""
+    """Remove the staging folders in `folder` that no living process holds; their number.
+
+    Parameters
+    ----------
+    folder : Path
+        Where staging folders are looked for; a missing one has none.
+    """
     found = 0
     with suppress(OSError):
         for left in folder.glob(f"{PREFIX}*"):
@@ -64,7 +75,13 @@ def clean(folder: Path) -> int:
 
 
 def sync(path: Path) -> None:
-    """Let a file or a folder reach the disk."""
+    """Let a file or a folder reach the disk.
+
+    Parameters
+    ----------
+    path : Path
+        A file or a folder, which on Windows is left alone.
+    """
     if sys.platform == "win32" and path.is_dir():
         return
     handle = os.open(path, os.O_RDWR if path.is_file() else os.O_RDONLY)

@@ -166,7 +166,13 @@ def _hint(dimension: Dimension) -> str:
 
 
 def shown(value: object) -> str:
-    """Show a value found in a file, briefly, for a message."""
+    """Show a value of a file, briefly, for a message.
+
+    Parameters
+    ----------
+    value : object
+        As the file's reader returns it: text, number, truth, list, table or None.
+    """
     if isinstance(value, str):
         return f'"{value if len(value) <= _LONGEST else value[:60] + "…"}"'
     if isinstance(value, bool):

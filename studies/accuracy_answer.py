@@ -92,7 +92,12 @@ class VolumetricAccuracy:
         return {"direction": DIRECTIONS, "source": names}
 
     def at(self, placed: PlacedStructure) -> Accuracy:
-        """Of a batch or one pose.
+        """The accuracy at a batch of poses or at one.
+
+        Parameters
+        ----------
+        placed : PlacedStructure
+            With a tool.
 
         Raises
         ------
@@ -127,6 +132,15 @@ class VolumetricAccuracy:
 
 
 def top_sources(names: Sequence[str], parts: Array, count: int = 8) -> list[tuple[str, float]]:
-    """Sources that contribute most, with what they contribute, largest first."""
+    """Sources that contribute most, with what they contribute, largest first.
+
+    Parameters
+    ----------
+    names : sequence of s str
+    parts : (s,)
+        What each source contributes, m or rad.
+    count : int
+        As many at most.
+    """
     order = np.argsort(-np.abs(parts), kind="stable")[:count]
     return [(names[int(k)], float(parts[int(k)])) for k in order if parts[int(k)] != 0.0]

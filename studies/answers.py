@@ -1,4 +1,4 @@
-"""What a survey asks at every pose: one short class an answer."""
+"""What a survey asks at every pose: one short class per answer."""
 
 from __future__ import annotations
 
@@ -72,7 +72,15 @@ class Answer(Protocol):
 
 @dataclass(frozen=True)
 class Stiffness:
-    """Static stiffness at the tool, in both meanings."""
+    """Static stiffness at the tool, in both meanings.
+
+    Parameters
+    ----------
+    columns : tuple of Column
+        The free and the blocked stiffness.
+    coordinates : mapping of dimension to labels
+        The six directions.
+    """
 
     columns: tuple[Column, ...] = (
         Column(
@@ -182,6 +190,10 @@ class Assembly:
     def of(cls, model: Model) -> Assembly:
         """What a model's joints carry, and its tool.
 
+        Parameters
+        ----------
+        model : Model
+
         Raises
         ------
         ModelError
@@ -196,7 +208,7 @@ class Assembly:
 
     @property
     def columns(self) -> tuple[Column, ...]:
-        """One number a quantity."""
+        """One number per quantity."""
         return (
             Column(
                 "worst_case",

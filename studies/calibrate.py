@@ -28,21 +28,21 @@ ON_BOUND = 1e-4
 
 @dataclass(frozen=True, repr=False)
 class Calibration:
-    """What was found.
+    """What a calibration gives.
 
     Parameters
     ----------
     parameters : tuple of Parameter
     targets : tuple of Target
     values : (p,)
-        Of the best parameters.
+        Of the best parameters, each in its own unit.
     computed : (t,)
-        What the model gives with them.
+        What the model gives with them, each target in its own unit.
     costs : (s,)
-        Half the sum of the squared residuals at the end of each start; infinite where the
+        Half the sum of the squared residuals at the end of each start, no unit; infinite where the
         model failed.
     ends : (s, p)
-        Where each start ended; not a number where the model failed.
+        Where each start ended, each parameter in its own unit; not a number where the model failed.
     identified : Identifiability
         What the targets determine, at the best parameters.
     on_bounds : tuple of str
@@ -89,7 +89,13 @@ class Calibration:
         return float(0.5 * self.residuals @ self.residuals)
 
     def met(self, within: float = 1.0) -> bool:
-        """Whether every target is met within so many uncertainties."""
+        """Whether every target is met.
+
+        Parameters
+        ----------
+        within : float
+            Largest residual, in uncertainties: no unit.
+        """
         return bool(np.all(np.abs(self.residuals) <= within))
 
     def to_dict(self) -> dict[str, Any]:
@@ -159,12 +165,12 @@ def calibrate(
     seed : int
         Of the Latin hypercube.
     step : float
-        Of the differences, in scaled parameters.
+        Of the differences, in scaled parameters, no unit.
     threshold : float
         Singular values below this share of the largest belong to combinations of parameters
         that the targets do not determine.
     progress : callable, optional
-        Told after every start; default: lines on standard error.
+        Called after every start; default: lines on standard error.
 
     Returns
     -------
@@ -226,8 +232,14 @@ def assess(
 
     Parameters
     ----------
-    model, parameters, targets, step, threshold
-        As `calibrate`.
+    model : callable
+        From parameters by name to computed targets by name.
+    parameters : sequence of Parameter
+    targets : sequence of Target
+    step : float
+        Of the differences, in scaled parameters, no unit.
+    threshold : float
+        Share of the largest singular value, as `calibrate`.
 
     Returns
     -------

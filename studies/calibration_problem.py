@@ -20,12 +20,13 @@ Model = Callable[[Mapping[str, float]], Mapping[str, float]]
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number to be found.
+    """A number to be determined.
 
     Parameters
     ----------
     name : str
     start, low, high : float
+        In its unit.
     unit : str
     scale : "log" or "linear"
         "log": varied by factors, for numbers that are positive by nature.
@@ -59,11 +60,23 @@ class Parameter:
             )
 
     def scaled(self, value: float) -> float:
-        """The number that is varied."""
+        """The number that is varied, no unit.
+
+        Parameters
+        ----------
+        value : float
+            In the parameter's own unit.
+        """
         return log(value) if self.scale == "log" else value / (self.high - self.low)
 
     def value(self, scaled: float) -> float:
-        """The inverse of `scaled`, kept within the bounds against rounding."""
+        """The inverse of `scaled`, kept within the bounds against rounding.
+
+        Parameters
+        ----------
+        scaled : float
+            No unit.
+        """
         number = np.exp(scaled) if self.scale == "log" else scaled * (self.high - self.low)
         return float(min(max(number, self.low), self.high))
 
@@ -77,6 +90,7 @@ class Target:
     name : str
         As the model names it.
     value : float
+        In its unit.
     uncertainty : float
         Standard deviation, in the value's unit: the weight is its inverse.
     unit : str
@@ -110,7 +124,7 @@ class Problem:
     parameters : tuple of Parameter
     targets : tuple of Target
     step : float
-        Of the differences, in scaled parameters.
+        Of the differences, in scaled parameters, no unit.
 
     Attributes
     ----------
@@ -136,14 +150,26 @@ class Problem:
         self._last: tuple[bytes, Array] = (b"", np.zeros(0))
 
     def values(self, point: Array) -> dict[str, float]:
-        """Parameters by name; not a number stays so."""
+        """Parameters by name; not a number stays so.
+
+        Parameters
+        ----------
+        point : (p,)
+            Scaled parameters, no unit.
+        """
         return {
             p.name: p.value(x) if isfinite(x) else x
             for p, x in zip(self.parameters, point, strict=True)
         }
 
     def computed(self, point: Array) -> Array:
-        """The model's targets."""
+        """The model's targets, (t,), each in its own unit.
+
+        Parameters
+        ----------
+        point : (p,)
+            Scaled parameters, no unit.
+        """
         self.evaluations += 1
         given = self.model(self.values(point))
         missing = [t.name for t in self.targets if t.name not in given]
@@ -159,14 +185,26 @@ class Problem:
         return result
 
     def residuals(self, point: Array) -> Array:
-        """(computed − target) / uncertainty."""
+        """(computed − target) / uncertainty, (t,).
+
+        Parameters
+        ----------
+        point : (p,)
+            Scaled parameters, no unit.
+        """
         wanted = np.array([t.value for t in self.targets])
         found = (self.computed(point) - wanted) / [t.uncertainty for t in self.targets]
         self._last = (point.tobytes(), found)
         return np.asarray(found)
 
     def slopes(self, point: Array) -> Array:
-        """Forward differences of the residuals, backward at an upper bound: one run each."""
+        """Forward differences of the residuals, (t, p), backward at an upper bound: one run each.
+
+        Parameters
+        ----------
+        point : (p,)
+            Scaled parameters, no unit.
+        """
         key, base = self._last
         if key != point.tobytes():
             base = self.residuals(point)
@@ -178,7 +216,13 @@ class Problem:
         return np.stack(columns, axis=1)
 
     def jacobian(self, point: Array) -> Array:
-        """Central differences of the residuals; one-sided at a bound."""
+        """Central differences of the residuals, (t, p); one-sided at a bound.
+
+        Parameters
+        ----------
+        point : (p,)
+            Scaled parameters, no unit.
+        """
         low, high = self.bounds
         columns = []
         for i in range(len(point)):

@@ -60,7 +60,15 @@ class CheckPoints:
         return f"<CheckPoints: {len(self)} points, positions in m>"
 
     def poses(self, items: slice, rolls: Array) -> Poses:
-        """Poses of some points at every roll, flat, roll fastest."""
+        """Poses of some points at every roll, flat, roll fastest.
+
+        Parameters
+        ----------
+        items : slice
+            Of the points.
+        rolls : (r,)
+            About the normal, rad.
+        """
         rotation = tangent_rotation(self.normal[items, None], rolls)
         position = np.broadcast_to(self.position[items, None], rotation.shape[:-1])
         return Poses(position.reshape(-1, 3), rotation.reshape(-1, 3, 3))

@@ -35,11 +35,24 @@ class ChunkStore:
     key: str
 
     def path(self, number: int) -> Path:
-        """File of a chunk."""
+        """File of a chunk.
+
+        Parameters
+        ----------
+        number : int
+            Of the chunk, counted from zero.
+        """
         return Path(self.folder) / self.key[:16] / f"chunk-{number:06d}.npz"
 
     def write(self, number: int, arrays: Mapping[str, NDArray[Any]]) -> Path:
         """Keep a finished chunk; the file is there whole or not at all.
+
+        Parameters
+        ----------
+        number : int
+            Of the chunk, counted from zero.
+        arrays : mapping of str to (...)
+            Numbers or text, any shape, any unit.
 
         Raises
         ------
@@ -56,6 +69,11 @@ class ChunkStore:
         """A finished chunk; None where there is none, or where its file is damaged.
 
         A damaged file is one that is cut off, fails its checksum or belongs to another study.
+
+        Parameters
+        ----------
+        number : int
+            Of the chunk, counted from zero.
         """
         try:
             with (

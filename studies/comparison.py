@@ -54,7 +54,7 @@ class MachineAnswers:
     worst_at : tuple of dict of direction to float
         Where the least of each is, m.
     condition : (2,)
-        Least and largest condition number of the Jacobian in the task.
+        Least and largest condition number of the Jacobian in the task, no unit.
     length : float
         m, that counts as one radian in it; NaN where it is not known.
     reached, poses : int
@@ -108,6 +108,11 @@ class MachineAnswers:
 def common_task(model: Model) -> TaskGrid:
     """The task that all machines are asked in.
 
+    Parameters
+    ----------
+    model : Model
+        With a tool and drives.
+
     Raises
     ------
     ModelError
@@ -142,7 +147,7 @@ def machine_answers(
     heavy : Model, optional
         The same machine as it vibrates, where that is another model.
     progress : callable, optional
-        Told how many poses of how many are done.
+        Called with how many poses are done, and of how many.
 
     Returns
     -------

@@ -14,14 +14,18 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
+from strutwork.studies.dataset_units import stated_unit, unit_of_label
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.netcdf import netcdf_bytes
-
-_UNITS = {"direction": ("N/m", "N m/rad")}
 
 
 def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
     """Write a dataset as NetCDF-4.
+
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
 
     Raises
     ------
@@ -34,6 +38,10 @@ def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
 
 def read_netcdf(path: Path) -> xr.Dataset:
     """Read a dataset back, all of it.
+
+    Parameters
+    ----------
+    path : Path
 
     Raises
     ------
@@ -50,10 +58,16 @@ def read_netcdf(path: Path) -> xr.Dataset:
 
 
 def write_csv(path: Path, dataset: xr.Dataset) -> Path:
-    """Write what a dataset has along its poses, one row a pose, units in the header.
+    """Write what a dataset has along its poses, one row per pose, units in the header.
 
-    Flags stand in words; numbers that are missing are empty. Compliance matrices are left
-    out: they are in the NetCDF file.
+    Flags stand in words; numbers that are missing are empty. Compliance matrices are left out: they
+    are in the NetCDF file.
+
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
+        With a dimension `point` or `pose`.
 
     Raises
     ------
@@ -75,7 +89,12 @@ def write_csv(path: Path, dataset: xr.Dataset) -> Path:
 
 
 def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
-    """Write variables that share their dimensions, one row an entry, units in the header.
+    """Write variables that share their dimensions, one row per entry, units in the header.
+
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
 
     Raises
     ------
@@ -93,7 +112,7 @@ def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
     dims = kinds.pop()
     places = [dataset[d].to_numpy() for d in dims]
     arrays = {**{d: dataset[d] for d in dims}, **dataset.data_vars}
-    units = {name: array.attrs.get("units", "1") for name, array in arrays.items()}
+    units = {name: stated_unit(array) for name, array in arrays.items()}
     head = [str(n) if unit == "1" else f"{n} [{unit}]" for n, unit in units.items()]
     values = [variable.to_numpy() for variable in dataset.data_vars.values()]
 
@@ -111,6 +130,11 @@ def write_long_csv(path: Path, dataset: xr.Dataset) -> Path:
 def write_json(path: Path, dataset: xr.Dataset) -> Path:
     """Write a dataset as one JSON object; missing numbers are null.
 
+    Parameters
+    ----------
+    path : Path
+    dataset : xarray.Dataset
+
     Raises
     ------
     ModelError
@@ -120,7 +144,12 @@ def write_json(path: Path, dataset: xr.Dataset) -> Path:
 
 
 def to_json(dataset: xr.Dataset) -> dict[str, Any]:
-    """A dataset as plain values: attributes, coordinates, and variables with unit and shape."""
+    """A dataset as plain values: attributes, coordinates, and variables with unit and shape.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+    """
     return {
         "attributes": {name: _plain(value) for name, value in dataset.attrs.items()},
         "coordinates": {str(n): _plain(c.to_numpy()) for n, c in dataset.coords.items()},
@@ -137,6 +166,10 @@ def to_json(dataset: xr.Dataset) -> dict[str, Any]:
 
 def pose_dimension(dataset: xr.Dataset) -> str:
     """Name of the dimension of poses: point or pose.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
 
     Raises
     ------
@@ -158,15 +191,14 @@ def _columns(dataset: xr.Dataset, dim: str) -> Iterator[tuple[str, NDArray[Any]]
         if name == "status":
             yield "status", np.array([s.word for s in PoseStatus])[values]
             continue
-        unit = variable.attrs.get("units", "1")
+        units = stated_unit(variable)
         labels = [
             dataset[d].to_numpy() if d in dataset.coords else np.arange(dataset.sizes[d])
             for d in variable.dims[1:]
         ]
         for index in np.ndindex(*(len(items) for items in labels)):
             words = [str(items[i]) for items, i in zip(labels, index, strict=True)]
-            if name in ("stiffness_blocked", "stiffness_free"):
-                unit = _UNITS["direction"][words[0].startswith("r")]
+            unit = unit_of_label(units, words[-1]) if words else units
             head = "_".join([str(name), *words])
             yield (head if unit == "1" else f"{head} [{unit}]"), values[(slice(None), *index)]
 

@@ -35,7 +35,12 @@ _CODE = (
 
 
 def machine_name(machine: Machine) -> str:
-    """Name in the catalogue, or the class's own."""
+    """Name in the catalogue, or the class's own.
+
+    Parameters
+    ----------
+    machine : Machine
+    """
     if isinstance(machine, VibratingLegs):
         return machine_name(machine.base)
     for entry in CATALOGUE.values():
@@ -45,7 +50,12 @@ def machine_name(machine: Machine) -> str:
 
 
 def joint_model(machine: Machine) -> str:
-    """Which joints the machine's structure has, in words."""
+    """Which joints the machine's structure has, in words.
+
+    Parameters
+    ----------
+    machine : Machine
+    """
     if isinstance(machine, VibratingLegs):
         return joint_model(machine.base)
     if isinstance(machine, ThreeLegs):
@@ -57,6 +67,10 @@ def joint_model(machine: Machine) -> str:
 
 def parameters(machine: Machine) -> dict[str, Any]:
     """Fields of the machine as plain numbers and words, SI.
+
+    Parameters
+    ----------
+    machine : Machine
 
     Raises
     ------
@@ -74,6 +88,12 @@ def parameters(machine: Machine) -> dict[str, Any]:
 
 def plain(value: object, part: str = "value") -> Any:
     """Numbers, words, lists and tables only; arrays become lists, functions their names.
+
+    Parameters
+    ----------
+    value : object
+    part : str
+        What it is, for the error.
 
     Raises
     ------
@@ -145,8 +165,8 @@ def study_key(
     machine : Machine
     settings : mapping
         Plain values.
-    arrays : arrays
-        Poses and the like; their bytes count.
+    *arrays : (...)
+        Poses and the like, any unit; type, shape and bytes count.
 
     Returns
     -------
@@ -169,7 +189,14 @@ def study_key(
 
 
 def attributes(study: str, machine: Machine) -> dict[str, str]:
-    """Global attributes of a study's dataset."""
+    """Global attributes of a study's dataset.
+
+    Parameters
+    ----------
+    study : str
+        Which study.
+    machine : Machine
+    """
     return {
         "title": f"{study} of {machine_name(machine)}",
         "Conventions": "CF-1.11",

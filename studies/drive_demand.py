@@ -19,7 +19,19 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class DriveLimit:
-    """What one drive can do, m/s, m/s², N and W, or rad and N·m; None where it is not known."""
+    """What one drive can do; None where it is not known.
+
+    Parameters
+    ----------
+    speed : float or None
+        m/s or rad/s.
+    acceleration : float or None
+        m/s² or rad/s².
+    force : float or None
+        N or N·m.
+    power : float or None
+        W.
+    """
 
     speed: float | None = None
     acceleration: float | None = None
@@ -34,10 +46,11 @@ class Peak:
     Parameters
     ----------
     value : float
-        SI.
+        m/s, m/s², N or W, or those of a drive that turns.
     time : float
         s.
     limit : float or None
+        In the same unit; None where it is not known.
     """
 
     value: float
@@ -104,7 +117,14 @@ class OutOfRange:
 
 
 def effective_limits(model: Model, given: Mapping[Name, DriveLimit]) -> dict[Name, DriveLimit]:
-    """What the drives of a model can do, what is given in place of what it states."""
+    """What the drives of a model can do.
+
+    Parameters
+    ----------
+    model : Model
+    given : mapping of (joint, direction) to DriveLimit
+        In place of what the model states, each where it is given.
+    """
     stated = {(d.joint, d.direction): d for d in model.drives}
     result = {}
     for pair in model.structure.linkage.driven:
@@ -121,7 +141,14 @@ def effective_limits(model: Model, given: Mapping[Name, DriveLimit]) -> dict[Nam
 
 
 def demands_of(followed: Followed, limits: Mapping[Name, DriveLimit]) -> tuple[DriveDemand, ...]:
-    """What a trajectory asks of each drive, in the linkage's order."""
+    """What a trajectory asks of each drive, in the linkage's order.
+
+    Parameters
+    ----------
+    followed : Followed
+    limits : mapping of (joint, direction) to DriveLimit
+        Of every drive.
+    """
 
     def peak(values: Array, limit: float | None) -> Peak:
         first = int(np.argmax(np.abs(values)))
@@ -145,7 +172,13 @@ def demands_of(followed: Followed, limits: Mapping[Name, DriveLimit]) -> tuple[D
 
 
 def ranges_left(model: Model, followed: Followed) -> tuple[OutOfRange, ...]:
-    """Joint coordinates that leave their ranges along a trajectory."""
+    """Joint coordinates that leave their ranges along a trajectory.
+
+    Parameters
+    ----------
+    model : Model
+    followed : Followed
+    """
     names = model.motion.joints.names
     found = []
     for limit in model.limits:

@@ -41,6 +41,10 @@ GRID_STEP = 5.0
 def tool_ports(machine: Machine) -> tuple[Port, ...]:
     """The three translations of the tool.
 
+    Parameters
+    ----------
+    machine : Machine
+
     Raises
     ------
     ModelError
@@ -55,6 +59,15 @@ def modal_data(
     placed: PlacedStructure, ports: tuple[Port, ...], damping: Damping, count: int = MODES
 ) -> tuple[Array, ModalModel]:
     """Lowest elastic frequencies, Hz (p, count), and the modal model, of one eigensolution.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        With one batch axis of p poses.
+    ports : tuple of Port
+    damping : Damping
+    count : int
+        Frequencies.
 
     Raises
     ------
@@ -73,12 +86,26 @@ def modal_data(
 
 
 def at_home(machine: Machine) -> PlacedStructure:
-    """The machine's structure at its home pose."""
+    """The machine's structure at its home pose.
+
+    Parameters
+    ----------
+    machine : Machine
+    """
     return machine.structure.at(machine.place(machine.home()))
 
 
 def grid_minimum(model: ModalModel, band: tuple[float, float], step: float = GRID_STEP) -> Array:
-    """Least 1/|H_ii| on the multiples of `step` in a band, (p, q): what a harmonic sweep shows.
+    """Least 1/|H_ii| on a grid of frequencies, (p, q), N/m: what a harmonic sweep shows.
+
+    Parameters
+    ----------
+    model : ModalModel
+        At p poses, between q ports.
+    band : (float, float)
+        Hz.
+    step : float
+        Hz: its multiples in the band are the grid.
 
     Raises
     ------

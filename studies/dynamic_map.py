@@ -98,12 +98,20 @@ def dynamic_map(
     ----------
     machine : Machine
         Its structure needs mass.
-    points, rolls, filters, progress, folder
-        As `strutwork.studies.stiffness_map`.
+    points : CheckPoints, optional
+        Default: `hemisphere(machine)`.
+    rolls : (r,), optional
+        rad. Default: 24 over a third of a turn, `strutwork.machines.roll_angles()`.
+    filters : Filters, optional
+        Default: all joint ranges, condition number below 100.
     vibration : Vibration, optional
         Damping, band and number of modes.
     workers : int or Executor, optional
-        Threads, or what computes in place of threads; default one thread a processor.
+        Threads, or what computes in place of threads; default one thread per processor.
+    progress : callable, optional
+        Called with how many candidates are done, and of how many.
+    folder : Path, optional
+        Keeps finished chunks there; a later call with the same inputs goes on from them.
 
     Returns
     -------

@@ -25,7 +25,7 @@ JACOBIAN_PIECE = 128
 
 @dataclass(frozen=True)
 class Evaluated:
-    """What `Evaluator` found at p poses.
+    """What `Evaluator` computes at p poses.
 
     Parameters
     ----------
@@ -41,9 +41,9 @@ class Evaluated:
         Whether a range of each kind of joint is exceeded, kept or not; False where the pose
         cannot be reached at all.
     condition : (p,)
-        Condition number of the inverse Jacobian; NaN where not looked at.
+        Condition number of the inverse Jacobian, no unit; NaN where not looked at.
     compliance : (p, 6, 6)
-        SI; NaN where the pose does not count.
+        m/N, 1/N, rad/(N·m); NaN where the pose does not count.
     """
 
     status: NDArray[np.int8]
@@ -195,12 +195,25 @@ def _in_words(error: StrutworkError) -> str:
 
 
 def said(found: Evaluated) -> dict[str, Array]:
-    """The examples of a chunk as arrays, which a folder can keep."""
+    """The examples of a chunk as arrays (k, 2) of str, which a folder can keep.
+
+    Parameters
+    ----------
+    found : Evaluated
+    """
     pairs = [[reason, words] for reason, words in found.examples.items()]
     return {"said": np.array(pairs, dtype=np.str_).reshape(-1, 2)}
 
 
 def keep_said(examples: dict[str, str], part: dict[str, Array]) -> None:
-    """Take the examples out of a chunk; of each reason the first chunk's is kept."""
+    """Take the examples out of a chunk; of each reason the first chunk's is kept.
+
+    Parameters
+    ----------
+    examples : dict of str to str
+        By reason; added to in place.
+    part : dict of str to (...)
+        Arrays of a chunk, any unit, from which `said` is taken out.
+    """
     for reason, words in part.pop("said").tolist():
         examples.setdefault(reason, words)

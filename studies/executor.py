@@ -28,6 +28,12 @@ class Executor(Protocol):
 
         Leaving the iterator early cancels what has not begun. An error of the function is
         raised where its result would have been.
+
+        Parameters
+        ----------
+        function : callable
+            From a chunk to its result.
+        chunks : iterable
         """
 
 
@@ -55,7 +61,14 @@ class Threads:
             raise ModelError("executor", f"has {self.workers} workers.", "Give at least one.")
 
     def map(self, function: Callable[[C], R], chunks: Iterable[C]) -> Iterator[R]:
-        """Results in the order of the chunks; at most two chunks a worker are under way."""
+        """Results in the order of the chunks; at most two chunks per worker are under way.
+
+        Parameters
+        ----------
+        function : callable
+            From a chunk to its result; called in several threads.
+        chunks : iterable
+        """
         pool = ThreadPoolExecutor(self.workers, thread_name_prefix="study")
         waiting: deque[Future[R]] = deque()
         with threadpool_limits(limits=1):
@@ -72,5 +85,10 @@ class Threads:
 
 
 def default_executor(workers: int | None = None) -> Executor:
-    """Threads: as many as given, else one for each processor this process may use."""
+    """Threads: as many as given, else one for each processor that this process may use.
+
+    Parameters
+    ----------
+    workers : int, optional
+    """
     return Threads(len(os.sched_getaffinity(0)) if workers is None else workers)

@@ -52,10 +52,10 @@ class Filters:
         Types of joints whose ranges are kept ("revolute", "prismatic", "spherical"); None for
         all.
     condition_limit : float or None
-        A pose counts as near-singular where the condition number of its inverse Jacobian,
-        angles multiplied by `length`, reaches this. None: not looked at. The default is ours:
-        on the hemisphere of Azulay et al. it takes out the ring of their Fig. 4, 3 to 4 % of
-        the candidates, and changes no mean by more than 1 %, but for the Glozman machine,
+        A pose counts as near-singular where the condition number of its inverse Jacobian, angles
+        multiplied by `length`, reaches this; no unit. None: not looked at. The default is this
+        package's: on the hemisphere of Azulay et al. it takes out the ring of their Fig. 4, 3 to 4
+        % of the candidates, and changes no mean by more than 1 %, but for the Glozman machine,
         which is near-singular more often.
     length : float or None
         How much translation counts as much as one radian, m; None for the radius of the tool's
@@ -84,13 +84,23 @@ class Filters:
             )
 
     def limits(self, machine: Machine) -> tuple[Limit, ...]:
-        """The joint ranges that are kept."""
+        """The joint ranges that are kept.
+
+        Parameters
+        ----------
+        machine : Machine
+        """
         if self.joint_kinds is None:
             return machine.limits
         return tuple(limit for limit in machine.limits if limit.kind in self.joint_kinds)
 
     def length_for(self, machine: Machine) -> float:
-        """The length, m, or the radius of the machine's tool body."""
+        """The length, m, or the radius of the machine's tool body.
+
+        Parameters
+        ----------
+        machine : Machine
+        """
         return tool_radius(machine) if self.length is None else self.length
 
 
@@ -99,6 +109,10 @@ def tool_radius(machine: Machine) -> float:
 
     For a platform with its joints on a circle about the tool it is that circle's radius. A
     tool alone on its body gets the machine's half extent.
+
+    Parameters
+    ----------
+    machine : Machine
 
     Raises
     ------
@@ -118,11 +132,15 @@ def tool_radius(machine: Machine) -> float:
 
 
 def moving_machine(machine: Machine) -> Machine:
-    """The machine whose Jacobian tells how near a pose is to a singularity.
+    """The machine whose Jacobian says how near a pose is to a singularity.
 
-    A structure with links clamped in the platform cannot move with its drives; its
-    singularities are those of the machine it stands for, with spherical joints. A machine with
-    redundant drives is looked at with those locked that its inverse kinematics does not move.
+    A structure with links clamped in the platform cannot move with its drives; its singularities
+    are those of the machine it stands for, with spherical joints. A machine with redundant drives
+    is looked at with those locked that its inverse kinematics does not move.
+
+    Parameters
+    ----------
+    machine : Machine
     """
     if isinstance(machine, ThreeLegs) and machine.platform_joint == "clamped":
         machine = replace(machine, platform_joint="spherical")

@@ -36,6 +36,7 @@ class Foreseen:
     ----------
     poses : int
     seconds : float
+        s.
     memory : float
         Of its results, bytes.
     """
@@ -99,7 +100,7 @@ def foresee(
         Arrays (p, ...) of poses, whose task coordinates it is given, (p,) each.
     grid : TaskGrid
     workers : int, optional
-        Threads that share the work; default one a processor.
+        Threads that share the work; default one per processor.
     """
     count = len(grid)
     which = np.unique(np.linspace(0, count - 1, min(TRIAL, count)).round().astype(np.int64))

@@ -23,12 +23,12 @@ class Identifiability:
     names : (p,) of str
         Parameters.
     jacobian : (t, p)
-        Change of each residual, in uncertainties, per unit of a scaled parameter: for a
+        Change of each residual, in uncertainties, per unit of a scaled parameter, no unit: for a
         parameter on a logarithmic scale, per factor e.
     singular_values : (p,)
-        Descending; zero where there are fewer targets than parameters.
+        Of the Jacobian, no unit, descending; zero where there are fewer targets than parameters.
     directions : (p, p)
-        Row i: the combination of parameters that belongs to singular value i.
+        Row i: the combination of parameters that belongs to singular value i; unit vectors.
     threshold : float
         Share of the largest singular value below which a combination is not determined.
     """
@@ -95,9 +95,10 @@ def identifiability(
     Parameters
     ----------
     jacobian : (t, p)
-        Of residuals in uncertainties over scaled parameters.
+        Of residuals in uncertainties over scaled parameters, no unit.
     names : (p,) of str
     threshold : float
+        Share of the largest singular value below which a combination is not determined.
 
     Returns
     -------

@@ -40,7 +40,13 @@ class LevelSet:
         return f"<LevelSet: {len(self.points)} points, {len(self.facets)} facets>"
 
     def facet_sizes(self, unit: Array) -> Array:
-        """Counts, lengths or areas of the facets, (f,), with coordinates in units (d,)."""
+        """Counts, lengths or areas of the facets, (f,), in the units that are given.
+
+        Parameters
+        ----------
+        unit : (d,)
+            Of each coordinate, m or rad.
+        """
         corners = (self.points / unit)[self.facets]
         if corners.shape[-1] == 1:
             return np.ones(len(corners))
@@ -81,7 +87,7 @@ def apart(fine: LevelSet, coarse: LevelSet, step: Array) -> float:
     ----------
     fine, coarse : LevelSet
     step : (d,)
-        Cells of the coarse grid, in which distances are measured.
+        Cells of the coarse grid, m or rad, in which distances are measured.
     """
     total = abs(fine.measure - coarse.measure)
     if fine.points.shape[1] == 1 or not len(fine.facets):

@@ -79,7 +79,13 @@ class AmplificationBound:
         return self._motions.length
 
     def of(self, placement: Placement) -> Array:
-        """Least and largest amplification of poses, (p, 2), m/s for 1 m/s."""
+        """Least and largest amplification of poses, (p, 2), m/s for 1 m/s.
+
+        Parameters
+        ----------
+        placement : Placement
+            At p poses that are all reached.
+        """
         return amplifications(*self._motions.of(placement), self._used)
 
     def __call__(self, placement: Placement) -> dict[str, Array]:
@@ -121,7 +127,13 @@ class StiffnessBound:
         _check_home(self, self.model)
 
     def of(self, placement: Placement) -> Array:
-        """Stiffness in the softest direction, (p,), N/m; 0 where the pose is a mechanism."""
+        """Stiffness in the softest direction, (p,), N/m; 0 where the pose is a mechanism.
+
+        Parameters
+        ----------
+        placement : Placement
+            At p poses that are all reached.
+        """
         compliance, outcome = compliance_and_outcome(self.model.structure.at(placement))
         found = np.zeros(len(compliance))
         good = outcome.solved

@@ -28,7 +28,8 @@ def pattern_shares(found: Modes, patterns: Array) -> Array:
     found : Modes
         m of them at every pose.
     patterns : (q, n, 6)
-        Motion of every mesh node, the same at all poses; nodes of a rigid body move as one.
+        Motion of every mesh node, m and rad of any size, the same at all poses; nodes of a rigid
+        body move as one.
 
     Returns
     -------
@@ -60,7 +61,7 @@ def matched(shares: Array) -> NDArray[np.intp]:
     Parameters
     ----------
     shares : (q, m)
-        Of one pose.
+        `pattern_shares` of one pose, no unit.
     """
     _, columns = linear_sum_assignment(-shares)
     return np.asarray(columns, dtype=np.intp)

@@ -14,6 +14,10 @@ def netcdf_bytes(dataset: xr.Dataset) -> bytes:
 
     The HDF5 library ends in a segmentation fault when the disk it writes to becomes full: it never
     writes to one.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
     """
     buffer = io.BytesIO()
     with h5netcdf.File(buffer, "w") as file:

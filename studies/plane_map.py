@@ -84,7 +84,9 @@ def on_plane(found: xr.Dataset, values: Array) -> tuple[Array, Array, Array]:
     Parameters
     ----------
     found : xarray.Dataset
+        Of `plane_map`.
     values : (n·q,)
+        Along its poses, any unit.
 
     Returns
     -------
@@ -109,9 +111,9 @@ class Fall:
     centre : float
         1/C_ii in the middle of the map, N/m.
     middle : float
-        Largest over smallest in the middle: half the map's range to either side.
+        Ratio of largest to smallest in the middle: half the map's range to either side.
     whole : float
-        Largest over smallest in the whole map.
+        Ratio of largest to smallest in the whole map.
     least : (x, tilt)
         Where the smallest stands, m and rad.
     """

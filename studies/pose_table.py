@@ -1,4 +1,4 @@
-"""A dataset over poses as a table of one row a pose."""
+"""A dataset over poses as a table of one row per pose."""
 
 from __future__ import annotations
 
@@ -25,8 +25,9 @@ def pose_table(dataset: xr.Dataset) -> pd.DataFrame:
     Returns
     -------
     pandas.DataFrame
-        The poses' coordinates are the index. A variable with further dimensions has a column per
-        label, as `stiffness_free_x`; reasons stand in words.
+        The grid's directions are the index, and the coordinates that follow are columns; of a plain
+        list of poses all coordinates are the index, beside the number. A variable with further
+        dimensions has a column per label, as `stiffness_free_x`; reasons stand in words.
 
     Raises
     ------
@@ -41,7 +42,11 @@ def pose_table(dataset: xr.Dataset) -> pd.DataFrame:
             "dataset", 'has no variable "status".', "Give the result of a survey over poses."
         )
     poses = dataset["status"].dims
-    columns: dict[str, Any] = {}
+    beside = [n for n, c in dataset.coords.items() if n not in poses and c.dims == poses]
+    gridded = all(d in dataset.coords for d in poses)
+    columns: dict[str, Any] = (
+        {str(n): dataset[n].to_numpy().ravel() for n in beside} if gridded else {}
+    )
     for name, variable in dataset.data_vars.items():
         if not set(poses) <= set(variable.dims):
             continue
@@ -56,10 +61,10 @@ def pose_table(dataset: xr.Dataset) -> pd.DataFrame:
             columns["_".join([str(name), *label])] = column
     axes = [dataset[d].to_numpy() for d in poses]
     grids = [g.ravel() for g in np.meshgrid(*axes, indexing="ij")]
-    # a plain list of poses carries its coordinates beside its number
-    beside = [n for n, c in dataset.coords.items() if n not in poses and c.dims == poses]
-    grids += [dataset[n].to_numpy().ravel() for n in beside]
-    names = [str(n) for n in (*poses, *beside)]
+    names = [str(d) for d in poses]
+    if not gridded:
+        grids += [dataset[n].to_numpy().ravel() for n in beside]
+        names += [str(n) for n in beside]
     return pd.DataFrame(columns, index=pd.MultiIndex.from_arrays(grids, names=names))
 
 

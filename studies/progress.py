@@ -22,7 +22,7 @@ INTERVAL = 15.0
 
 
 class Progress(Protocol):
-    """Told how many units of how many are done."""
+    """Called with how many units are done, and of how many."""
 
     def __call__(self, done: int, total: int, /) -> None:
         """Take note; called from one thread, `done` never falls."""
@@ -33,11 +33,26 @@ Teller = Callable[[str], Progress]
 
 
 def silent(done: int, total: int, /) -> None:
-    """Say nothing."""
+    """Say nothing.
+
+    Parameters
+    ----------
+    done, total : int
+    """
 
 
 def share(progress: Progress | None, number: int, count: int) -> Progress:
-    """What the part `number` of `count` equally long parts is given to report to."""
+    """What one of several equally long parts is given to report to.
+
+    Parameters
+    ----------
+    progress : callable or None
+        That of all parts together; None for none.
+    number : int
+        Of the part, counted from zero.
+    count : int
+        Of all parts.
+    """
 
     def tell(done: int, total: int, /) -> None:
         if progress is not None:

@@ -28,7 +28,7 @@ ACTUATOR_EXPONENTS = (1.0, 3.0, 3.5)
 
 
 def removal_rate(depth: ArrayLike, width: ArrayLike, feed: ArrayLike) -> Array:
-    """Material removal rate d w f, m³/s (Son 2002, eq. 16).
+    """Material removal rate d w f, (...), m³/s (Son 2002, eq. 16).
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def removal_rate(depth: ArrayLike, width: ArrayLike, feed: ArrayLike) -> Array:
 
 
 def cutting_force(depth: ArrayLike, specific_energy: ArrayLike, constants: ArrayLike) -> Array:
-    """Cutting force √(c_x² + c_y²) d ρ_s, N (Son 2002, eqs 17 and 18).
+    """Cutting force √(c_x² + c_y²) d ρ_s, (...), N (Son 2002, eqs 17 and 18).
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def cutting_force_at_rate(
     specific_energy: ArrayLike,
     constants: ArrayLike,
 ) -> Array:
-    """Cutting force at a given removal rate, N; it falls with 1/f (Son 2002, eq. 19).
+    """Cutting force at a given removal rate, (...), N; it falls with 1/f (Son 2002, eq. 19).
 
     Parameters
     ----------
@@ -75,15 +75,17 @@ def cutting_force_at_rate(
         Feed rate, m/s.
     width : (...)
         Of cut, m.
-    specific_energy, constants
-        As `cutting_force`.
+    specific_energy : (...)
+        Cutting energy per volume removed, J/m³.
+    constants : (..., 2)
+        c_x and c_y, m, as `cutting_force`.
     """
     area = np.asarray(width, dtype=float) * np.asarray(feed, dtype=float)
     return cutting_force(np.asarray(rate, dtype=float) / area, specific_energy, constants)
 
 
 def actuator_force(mass: ArrayLike, feed: ArrayLike, radius: ArrayLike) -> Array:
-    """Force that keeps a mass on a curve, m f²/r, N (Son 2002, eq. 20).
+    """Force that keeps a mass on a curve, m f²/r, (...), N (Son 2002, eq. 20).
 
     Parameters
     ----------
@@ -99,7 +101,17 @@ def actuator_force(mass: ArrayLike, feed: ArrayLike, radius: ArrayLike) -> Array
 
 
 def largest_feed(force: ArrayLike, mass: ArrayLike, radius: ArrayLike) -> Array:
-    """Feed rate that a drive's force allows, √(F r/m), m/s (Son 2002, eq. 20 the other way)."""
+    """Feed rate that a drive's force allows, √(F r/m), (...), m/s (Son 2002, eq. 20 the other way).
+
+    Parameters
+    ----------
+    force : (...)
+        Of the drive, N.
+    mass : (...)
+        To be moved, kg.
+    radius : (...)
+        Least radius of curvature, m.
+    """
     work = np.asarray(force, dtype=float) * np.asarray(radius, dtype=float)
     return np.asarray(np.sqrt(work / np.asarray(mass, dtype=float)))
 
@@ -111,13 +123,13 @@ class RemovalExponents:
     Parameters
     ----------
     actuator : float
-        n of the drives' force (Son 2002, eq. 21).
+        n of the drives' force (Son 2002, eq. 21); like all four, no unit.
     feed : float
-        Of the largest feed rate (eq. 22).
+        Of the largest feed rate (eq. 22), no unit.
     cutting_force : float
-        Of the cutting force (eqs 19 and 22).
+        Of the cutting force (eqs 19 and 22), no unit.
     deflection : float
-        Of the static deflection (eq. 23).
+        Of the static deflection (eq. 23), no unit.
     """
 
     actuator: float
@@ -132,9 +144,9 @@ def removal_exponents(actuator: float, stiffness: float = 1.0) -> RemovalExponen
     Parameters
     ----------
     actuator : float
-        n: the drives' force grows with L^n.
+        n, no unit: the drives' force grows with L^n.
     stiffness : float
-        Exponent of the static stiffness; 1 for geometric similarity (eqs 14 and 15).
+        Exponent of the static stiffness, no unit; 1 for geometric similarity (eqs 14 and 15).
 
     Returns
     -------
@@ -155,7 +167,13 @@ def removal_exponents(actuator: float, stiffness: float = 1.0) -> RemovalExponen
 
 
 def frequency_exponent(stiffness: float = 1.0, mass: float = 3.0) -> float:
-    """Of √(K/M): −1 for geometric similarity (Son 2002, eq. 24)."""
+    """Of √(K/M): −1 for geometric similarity (Son 2002, eq. 24).
+
+    Parameters
+    ----------
+    stiffness, mass : float
+        Exponents of K and M, no unit.
+    """
     return (stiffness - mass) / 2.0
 
 
@@ -165,11 +183,11 @@ def relative_deflection(factors: ArrayLike, stiffness: ArrayLike, actuator: floa
     Parameters
     ----------
     factors : (f,)
-        Sizes beside the machine's own.
+        Sizes beside the machine's own, no unit.
     stiffness : (f, ...)
         Static stiffness of each beside the machine's own, dimensionless.
     actuator : float
-        n.
+        n of the drives' force, no unit.
 
     Returns
     -------

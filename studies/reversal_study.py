@@ -46,9 +46,9 @@ class ReversalStudy:
     found : Reversals
         With the grid, the gradients, and `singular`.
     feed : (2,) or None
-        Direction of the parameters along which the tool is fed.
+        Direction of the parameters along which the tool is fed, m or rad.
     lines : mapping of drive to list of (c, 2)
-        On which the feed makes it turn back; empty without a feed.
+        Parameters at which the feed makes it turn back, m or rad; empty without a feed.
     longest : ClearPath or None
         Without a reversal: along the feed, or along the best of `HEADINGS` directions.
     plates : int
@@ -87,7 +87,7 @@ def reversal_study(
     feed : str, optional
         One of the surface's parameters.
     progress : callable, optional
-        Told how many steps of how many are done.
+        Called with how many steps are done, and of how many.
 
     Returns
     -------

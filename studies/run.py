@@ -42,12 +42,12 @@ class Run:
     Parameters
     ----------
     workers : int or None
-        Threads, where no executor is given; None for one a processor.
+        Threads, where no executor is given; None for one per processor.
     executor : Executor or None
     folder : Path or None
         Where finished chunks are kept and looked for; None keeps nothing.
     progress : callable or None
-        Told how many poses of how many are done.
+        Called with how many poses are done, and of how many.
     """
 
     workers: int | None = None
@@ -105,6 +105,16 @@ def fill(whole: Arrays, chunk: Chunk, part: Arrays, items: int) -> None:
     """Put a chunk's arrays in their place; `whole` is allocated by its first chunk.
 
     Filling in place holds every number once, where a list of parts would hold it twice.
+
+    Parameters
+    ----------
+    whole : dict of str to (items, ...)
+        Filled in place, any unit.
+    chunk : Chunk
+    part : dict of str to (k, ...)
+        Arrays of the k items of the chunk, any unit.
+    items : int
+        Of the whole study.
     """
     for name, values in part.items():
         if name not in whole:

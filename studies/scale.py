@@ -34,11 +34,11 @@ class PowerLaw:
     Parameters
     ----------
     exponent : (...)
-        Least squares of the logarithms over all sizes.
+        Least squares of the logarithms over all sizes, no unit.
     error : (...)
         Largest distance of a value from the fitted power, as a share of the power.
     local : (f, ...)
-        d log(value)/d log(size) at every size, of a cubic spline through the logarithms.
+        d log(value)/d log(size) at every size, of a cubic spline through the logarithms, no unit.
     """
 
     exponent: Array
@@ -52,8 +52,9 @@ def power_law(factors: ArrayLike, values: ArrayLike) -> PowerLaw:
     Parameters
     ----------
     factors : (f,)
-        Ascending sizes L.
+        Ascending sizes L, no unit.
     values : (f, ...)
+        Positive, any unit.
 
     Returns
     -------
@@ -89,7 +90,7 @@ class ScaleStudy:
     laws : tuple of JointScaling
         l of them.
     factors : (f,)
-        Sizes beside the machine's own.
+        Sizes beside the machine's own, no unit.
     stiffness : (l, f, ..., 6)
         At the tool along each axis with the others free to follow, 1/C_ii, N/m and N·m/rad.
     frequencies : (l, f, ..., m)
@@ -112,17 +113,36 @@ class ScaleStudy:
         )
 
     def stiffness_law(self, law: int) -> PowerLaw:
-        """Of the stiffness with the joints by one of the laws; exponent (..., 6)."""
+        """Power law of the stiffness; exponent (..., 6).
+
+        Parameters
+        ----------
+        law : int
+            Index into `laws`.
+        """
         return power_law(self.factors, self.stiffness[law])
 
     def frequency_law(self, law: int) -> PowerLaw:
-        """Of the frequencies with the joints by one of the laws; exponent (..., m)."""
+        """Power law of the frequencies; exponent (..., m).
+
+        Parameters
+        ----------
+        law : int
+            Index into `laws`.
+        """
         return power_law(self.factors, self.frequencies[law])
 
     def removal(
         self, law: int, exponents: Sequence[float] = ACTUATOR_EXPONENTS
     ) -> dict[str, tuple[RemovalExponents, ...]]:
         """Exponents at constant removal rate (Son 2002, eq. 23), of a single pose.
+
+        Parameters
+        ----------
+        law : int
+            Index into `laws`.
+        exponents : sequence of float
+            n of the drives' force, no unit.
 
         Returns
         -------
@@ -158,7 +178,7 @@ class ScaleStudy:
                 "stiffness": (
                     (*head, "direction"),
                     self.stiffness,
-                    {"units": "N/m; N m/rad", "meaning": "1/C_ii at the tool"},
+                    {"component_units": "N/m; N m/rad", "meaning": "1/C_ii at the tool"},
                 ),
                 "frequency": ((*head, "mode"), self.frequencies, {"units": "Hz"}),
                 "stiffness_exponent": ((*head, "direction"), stiffness, {"units": "1"}),
@@ -227,7 +247,7 @@ def scale_study(
         With a tool and masses, at a batch of poses. Every size is another structure, solved at
         all poses at once.
     factors : sequence of float
-        Ascending sizes L beside the machine's own.
+        Ascending sizes L beside the machine's own, no unit.
     laws : sequence of JointScaling
     count : int
         Frequencies, without rigid-body modes.
@@ -267,7 +287,13 @@ def scale_study(
 
 
 def joint_share(placed: PlacedStructure) -> Array:
-    """Share of joints, drives and springs in the tool's deflection along each axis, (..., 6)."""
+    """Share of joints, drives and springs in the tool's deflection along each axis, (..., 6).
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        With a tool.
+    """
     shares = []
     for wrench in np.eye(6):
         budget = compliance_budget(placed, wrench)

@@ -26,7 +26,8 @@ class JointScaling:
     translational : float
         a of k ~ L^a, N/m.
     rotational : float or None
-        Of N·m/rad; None: a + 2, as when the same law holds at lever arms that grow with L.
+        Exponent of k in N·m/rad; None: a + 2, as when the same law holds at lever arms that grow
+        with L.
     damping : float or None
         Of viscous damping, translational, N·s/m; None: a + 1, which keeps the share c ω/k that a
         joint loses where frequencies fall with 1/L. Rotational damping grows faster by as much

@@ -23,14 +23,14 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 @dataclass(frozen=True)
 class PoseValue:
-    """A value and where it was found.
+    """A value and where it is.
 
     Parameters
     ----------
     index : int
         Of the point or pose in its dataset.
     value : float
-        SI.
+        N/m or N·m/rad.
     position : tuple of float
         m.
     roll : float or None
@@ -51,13 +51,14 @@ class Statistics:
     ----------
     count : int
     mean : float
+        In the values' own unit.
     variance : float
-        Of the population: divided by n, or by n − 1 if `sample`; with weights, the weighted
-        mean of squared deviations.
+        In the square of their unit; of the population: divided by n, or by n − 1 if `sample`; with
+        weights, the weighted mean of squared deviations.
     standard_deviation : float
-        Root of `variance`.
+        Root of `variance`, in their unit.
     quantiles : tuple of float
-        At `QUANTILES`: 5, 25, 50, 75 and 95 %.
+        At `QUANTILES`: 5, 25, 50, 75 and 95 %; in their unit.
     sample : bool
         Whether `variance` is the sample's.
     """
@@ -78,11 +79,11 @@ def statistics(
     Parameters
     ----------
     values : (n,)
-        Positive infinity, a direction that is locked, makes mean and variance infinite; quantiles
-        are then values of the sample.
+        Any unit. Positive infinity, a direction that is locked, makes mean and variance infinite;
+        quantiles are then values of the sample.
     weights : (n,), optional
-        Not negative. Without, every value counts once and quantiles are interpolated; with,
-        a quantile is the first value at which the weights reach its share.
+        Not negative, any unit. Without, every value counts once and quantiles are interpolated;
+        with, a quantile is the first value at which the weights reach its share.
     sample : bool
         Variance with n − 1; not with weights.
 
@@ -179,6 +180,11 @@ class Summary:
 
     def axis(self, direction: str) -> AxisSummary:
         """The summary of one direction.
+
+        Parameters
+        ----------
+        direction : str
+            Of x y z rx ry rz.
 
         Raises
         ------

@@ -62,9 +62,9 @@ def stiffness_map(
     filters : Filters, optional
         Default: all joint ranges, condition number below 100.
     workers : int, optional
-        Threads; default one a processor.
+        Threads; default one per processor.
     progress : callable, optional
-        Told how many candidates of how many are done.
+        Called with how many candidates are done, and of how many.
     folder : Path, optional
         Keeps finished chunks there; a later call with the same inputs goes on from them.
     executor : Executor, optional

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 import strutwork
 from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS, Moved
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
@@ -58,9 +59,9 @@ def survey(
         What it does not name stays as at home, where it can.
     answers : sequence of Answer
     workers : int, optional
-        Threads; default one a processor.
+        Threads; default one per processor.
     progress : callable, optional
-        Told how many poses of how many are done.
+        Called with how many poses are done, and of how many.
     folder : Path, optional
         Keeps finished chunks there; a later call with the same inputs goes on from them.
     executor : Executor, optional
@@ -128,7 +129,10 @@ def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> A
     ).astype(np.int8)
     reason, reasons = np.asarray(placement.status).astype(np.int16), [*placement.reasons]
     good = np.flatnonzero(placement.reachable)
-    arrays: Arrays = {"joint_coordinate": np.where(reach[:, None], found.placement.values, np.nan)}
+    arrays: Arrays = {
+        "joint_coordinate": np.where(reach[:, None], found.placement.values, np.nan),
+        "task": _task(model, found),
+    }
     if not good.size:
         for answer in answers:
             for column in answer.columns:
@@ -147,6 +151,13 @@ def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> A
         reasons += outcome.reasons
         status[good[failed]] = PoseStatus.UNSOLVED
     return arrays | {"status": status, "reason": reason, "reasons": np.array(reasons, dtype=str)}
+
+
+def _task(model: Model, found: Moved) -> Array:
+    """Task coordinates of the tool, (p, 6), missing where it was not brought."""
+    if found.tool is None:
+        raise ModelError("tool", "is not in the model.", "Name its node: [tool] tcp.")
+    return np.where(found.reached[:, None], model.motion.task_of(found.tool), np.nan)
 
 
 def _dataset(
@@ -179,6 +190,12 @@ def _dataset(
     for name, values in grid.axes.items():
         unit = "rad" if name.startswith("r") else "m"
         labels[name] = named(name, values, unit, f"task coordinate {name} of the tool")
+    for k, name in enumerate(DIRECTIONS):
+        if name not in dims:
+            # what the grid does not name stays where it can: what became of it is of the pose
+            unit = "rad" if name.startswith("r") else "m"
+            values = arrays["task"][:, k].reshape(grid.shape)
+            labels[name] = named(dims, values, unit, f"task coordinate {name} of the tool")
     counts = np.bincount(arrays["reason"], minlength=len(words))
     return xr.Dataset(
         folded,
@@ -198,7 +215,14 @@ def _dataset(
 
 
 def survey_key(model: Model, grid: TaskGrid, answers: Sequence[Answer]) -> str:
-    """Hash of everything a survey's numbers depend on, the code included."""
+    """Hash of everything a survey's numbers depend on, the code included.
+
+    Parameters
+    ----------
+    model : Model
+    grid : TaskGrid
+    answers : sequence of Answer
+    """
     content: Mapping[str, Any] = {
         "structure": plain(model.structure),
         "placement": plain(

@@ -1,4 +1,4 @@
-"""A survey as CSV: one line a pose."""
+"""A survey as CSV: one line per pose."""
 
 from __future__ import annotations
 
@@ -11,14 +11,20 @@ import xarray as xr
 
 from strutwork.csv_rows import RowWriter
 from strutwork.files import write_whole
-from strutwork.kinematics import DIRECTIONS
+from strutwork.studies.dataset_units import stated_unit, unit_of_label
 from strutwork.studies.filters import PoseStatus
 
 
 def write_survey(path: Path, found: xr.Dataset) -> Path:
-    """Write a survey, one row a pose, units in the header.
+    """Write a survey, one row per pose, units in the header.
 
     Flags and reasons stand in words; numbers that are missing are empty.
+
+    Parameters
+    ----------
+    path : Path
+    found : xarray.Dataset
+        Of `survey`.
 
     Raises
     ------
@@ -43,7 +49,8 @@ def write_survey(path: Path, found: xr.Dataset) -> Path:
         values = variable.to_numpy().reshape(len(columns["status"]), -1)
         for k, parts in enumerate(product(*labels)):
             head = " ".join([str(name), *parts])
-            columns[f"{head}, {_unit(str(variable.attrs.get('units', '')), parts)}"] = [
+            unit = unit_of_label(stated_unit(variable), parts[-1] if parts else "")
+            columns[f"{head}, {unit}"] = [
                 "" if np.isnan(v) else repr(float(v)) for v in values[:, k]
             ]
 
@@ -54,19 +61,3 @@ def write_survey(path: Path, found: xr.Dataset) -> Path:
             writer.writerows(zip(*columns.values(), strict=True))
 
     return write_whole(Path(path), write)
-
-
-def _unit(units: str, labels: tuple[str, ...]) -> str:
-    """The unit of one column of a variable whose columns have two."""
-    if units.startswith("N/m for x y z"):
-        return "N m/rad" if labels[-1].startswith("r") else "N/m"
-    if units == "m for x y z; rad for rx ry rz":
-        return "rad" if labels[-1].startswith("r") else "m"
-    if units == "m or rad":
-        return "rad" if labels[-1].rpartition(":")[2] in DIRECTIONS[3:] else "m"
-    if units == "N, N m, m or rad":
-        last = labels[-1]
-        if last.startswith("tool "):
-            return "rad" if "rotation" in last else "m"
-        return "N" if last.endswith("force") else "N m"
-    return units

@@ -1,4 +1,4 @@
-"""What a study of tolerances found: worst cases over poses, distribution, limits, allocation."""
+"""What a study of tolerances gives: worst cases over poses, distribution, limits, allocation."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ from strutwork.overconstraint import (
     limit_vector,
 )
 from strutwork.overconstraint.sensitivity import given_size
+from strutwork.studies.dataset_units import unit_attributes
 
 Array = NDArray[Any]
 
@@ -117,14 +118,26 @@ class ToleranceStudy:
         return bool(np.all(self.utilisation <= 1.0))
 
     def contributor(self, quantity: int) -> str | None:
-        """The tolerance with the largest share in a quantity; None where nothing acts on it."""
+        """The tolerance with the largest share in a quantity; None where nothing acts on it.
+
+        Parameters
+        ----------
+        quantity : int
+            Index into `quantities`.
+        """
         share = self.shares[quantity]
         if not share.size or not share.max() > 0:
             return None
         return self.tolerances[int(share.argmax())].name
 
     def misfits(self, quantity: int) -> dict[str, dict[str, float]]:
-        """The worst combination for a quantity: misfits by joint and direction, m and rad."""
+        """The worst combination for a quantity: misfits by joint and direction, m and rad.
+
+        Parameters
+        ----------
+        quantity : int
+            Index into `quantities`.
+        """
         return self._by_joint(self.worst.misfits(quantity)[self.worst_pose[quantity]])
 
     def _by_joint(self, misfits: Array) -> dict[str, dict[str, float]]:
@@ -210,9 +223,13 @@ class ToleranceStudy:
         """Largest values at all poses, and the share of each tolerance in them."""
         return xr.Dataset(
             {
-                "worst": (("pose", "quantity"), self.worst.value, {"units": "N; N m; m; rad"}),
+                "worst": (
+                    ("pose", "quantity"),
+                    self.worst.value,
+                    unit_attributes("N; N m; m; rad"),
+                ),
                 "share": (("pose", "quantity", "tolerance"), self.worst.shares, {"units": "1"}),
-                "limit": ("quantity", self.limit, {"units": "N; N m; m; rad"}),
+                "limit": ("quantity", self.limit, unit_attributes("N; N m; m; rad")),
             },
             coords={
                 "pose": list(self.poses),
@@ -226,6 +243,11 @@ class ToleranceStudy:
 
 def write_table(path: Path, study: ToleranceStudy) -> Path:
     """Write the worst of every quantity at every pose as CSV, SI.
+
+    Parameters
+    ----------
+    path : Path
+    study : ToleranceStudy
 
     Raises
     ------

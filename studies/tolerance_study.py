@@ -55,7 +55,7 @@ class StudyOptions:
     quantile : float or None
         Share of the assemblies that an allocation keeps within limits; None for all.
     costs : mapping of tolerance name to float
-        Weights of the objective "cost"; one where absent.
+        Weights of the objective "cost", any unit; one where absent.
     """
 
     samples: int = SAMPLES
@@ -93,7 +93,7 @@ def tolerance_study(
     quantities : sequence of Quantity, optional
         Default: all that the joints carry, and the tool's displacements.
     progress : callable, optional
-        Given the name of a part of the work, returns what is told how far it is.
+        Given the name of a part of the work, returns what is called with how far it is.
 
     Returns
     -------
@@ -148,7 +148,13 @@ def tolerance_study(
 
 
 def in_a_row(responses: Responses) -> Responses:
-    """The same responses with one batch axis of poses."""
+    """The same responses with one batch axis of poses.
+
+    Parameters
+    ----------
+    responses : Responses
+        At a batch of any shape.
+    """
     gain = responses.gain
     batch = gain.shape[:-3]
     count = int(np.prod(batch, dtype=int))
@@ -175,7 +181,14 @@ def in_a_row(responses: Responses) -> Responses:
 
 
 def at_pose(responses: Responses, pose: int) -> Responses:
-    """The responses at one of their poses."""
+    """The responses at one of their poses.
+
+    Parameters
+    ----------
+    responses : Responses
+        With one batch axis.
+    pose : int
+    """
     sources = responses.sources
     return replace(
         responses,

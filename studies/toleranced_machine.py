@@ -49,6 +49,11 @@ class TolerancedMachine:
 def toleranced_machine(name: str) -> TolerancedMachine:
     """A machine of the catalogue with its tolerances.
 
+    Parameters
+    ----------
+    name : str
+        In the catalogue.
+
     Raises
     ------
     ModelError

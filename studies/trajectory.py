@@ -39,8 +39,8 @@ class Samples:
     times : (k,)
         s.
     values, rates, changes : mapping of (joint, direction) to (k,)
-        Coordinates and their first and second derivatives, SI; the joint is empty for the tool.
-        Derivatives are of all coordinates or of none.
+        Coordinates, m or rad, and their first and second derivatives by s; the joint is empty for
+        the tool. Derivatives are of all coordinates or of none.
     """
 
     times: Array
@@ -79,13 +79,23 @@ class TrajectoryStudy:
 
 
 def model_gravity(model: Model) -> tuple[float, float, float]:
-    """The gravity that the model's load cases state, else the standard one along −z, m/s²."""
+    """The gravity that the model's load cases state, else the standard one along −z, m/s².
+
+    Parameters
+    ----------
+    model : Model
+    """
     stated = [case.gravity for case in model.cases if case.gravity is not None]
     return stated[0] if stated else STANDARD_GRAVITY
 
 
 def trajectory_of(model: Model, samples: Samples) -> tuple[Trajectory, dict[Name, float]]:
     """A trajectory of all freedoms of a machine, and what was not given and stays.
+
+    Parameters
+    ----------
+    model : Model
+    samples : Samples
 
     Raises
     ------

@@ -23,7 +23,16 @@ QUIET = 1e-9
 def trajectory_notes(
     model: Model, followed: Followed, path: Trajectory, *, splined: bool
 ) -> list[str]:
-    """What was assumed of the model and what is odd about the path, in words."""
+    """What was assumed of the model and what is odd about the path, in words.
+
+    Parameters
+    ----------
+    model : Model
+    followed : Followed
+    path : Trajectory
+    splined : bool
+        Whether derivatives come from splines through the samples.
+    """
     dynamics, linkage = followed.dynamics, model.structure.linkage
     notes = []
     if splined:

@@ -30,6 +30,8 @@ class Transmission:
         m; stated with every number that is made with it.
     known : Freedoms
         Of the machine at poses that are not singular.
+    columns : tuple of Column
+        The condition number.
     """
 
     length: float
@@ -45,6 +47,11 @@ class Transmission:
     @classmethod
     def of(cls, model: Model) -> Transmission:
         """With the machine's characteristic length at home.
+
+        Parameters
+        ----------
+        model : Model
+            With drives and a tool.
 
         Raises
         ------

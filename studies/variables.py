@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, stiffness_ellipsoid
+from strutwork.studies.dataset_units import unit_attributes
 from strutwork.studies.filters import PoseStatus
 
 Array = NDArray[Any]
@@ -24,12 +25,33 @@ _STIFFNESS = "N/m for x y z; N m/rad for rx ry rz"
 def named(
     dims: str | Sequence[str], values: Array, unit: str, name: str, **more: Any
 ) -> xr.Variable:
-    """A variable that says what it is and in which unit."""
-    return xr.Variable(dims, values, {"units": unit, "long_name": name, **more})
+    """A variable that says what it is and in which unit.
+
+    Parameters
+    ----------
+    dims : str or sequence of str
+        Names of the dimensions.
+    values : (...)
+        Along these, in `unit`, which may be any unit.
+    unit : str
+        One unit, or several as in `unit_attributes`.
+    name : str
+        What it is, for the attribute `long_name`.
+    **more : attributes
+    """
+    return xr.Variable(dims, values, unit_attributes(unit) | {"long_name": name, **more})
 
 
 def flags(dim: str, status: NDArray[np.int8]) -> xr.Variable:
-    """Status codes with their meanings, as the CF conventions write flags."""
+    """Status codes with their meanings, as the CF conventions write flags.
+
+    Parameters
+    ----------
+    dim : str
+        Dimension of the poses.
+    status : (p,)
+        Codes of `PoseStatus`.
+    """
     return xr.Variable(
         dim,
         status,
@@ -50,7 +72,7 @@ def stiffness_variables(
     ----------
     dim : str
     compliance : (p, 6, 6)
-        SI; poses whose status is not good do not matter and come out as NaN.
+        m/N, 1/N, rad/(N·m); poses whose status is not good do not matter and come out as NaN.
     status : (p,)
 
     Returns

@@ -24,6 +24,7 @@ from strutwork.kinematics.margin_grid import (
     margin_grid,
 )
 from strutwork.kinematics.regions import Regions, regions
+from strutwork.studies.dataset_units import unit_attributes
 from strutwork.studies.foresee import Foreseen
 from strutwork.studies.level_set import LevelSet, apart, level_set
 from strutwork.studies.progress import Progress
@@ -72,17 +73,18 @@ class Workspace:
     border : LevelSet
     regions : Regions
     error : float
-        Of the measure: what lies between the border and that of every second point of the grid,
-        for a smooth border some three times what is left.
+        Of the measure, in products of m and rad: what lies between the border and that of every
+        second point of the grid, for a smooth border some three times what is left.
     home : (d,)
         Home in the grid's directions.
     home_margin : float
+        Of home, as of a point of the grid: no unit, at most 1, below zero where it is not good.
     home_reason : str
         What is least at home.
     arm : float
         m; at which turns are compared with lengths.
-    spare : (grid) or None
-        Value of the spare coordinate with the largest margin.
+    spare : (...) or None
+        Over the grid, the value of the spare coordinate with the largest margin, m or rad.
     """
 
     title: str
@@ -188,7 +190,7 @@ class Workspace:
             "reason_text": (("reason_index",), np.array(margins.reasons, dtype=str)),
         }
         if self.spare is not None:
-            found["spare"] = (directions, self.spare, {"units": "m or rad"})
+            found["spare"] = (directions, self.spare, unit_attributes("m or rad"))
         attributes = {
             "title": self.title,
             "measure": self.measure,
@@ -218,7 +220,7 @@ def workspace(
     halvings : int
         Of each edge that crosses the border.
     progress : callable, optional
-        Told how many poses of how many are done.
+        Called with how many poses are done, and of how many.
 
     Raises
     ------
@@ -258,6 +260,12 @@ def workspace(
 
 def foresee(margin: MachineMargin, axes: tuple[Array, ...]) -> Foreseen:
     """Time and memory that a grid will take.
+
+    Parameters
+    ----------
+    margin : MachineMargin
+    axes : tuple of (n,)
+        Of the grid, m and rad.
 
     Raises
     ------

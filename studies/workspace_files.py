@@ -21,6 +21,13 @@ def write_workspace(folder: Path, stem: str, found: Workspace) -> list[Path]:
 
     A workspace in x, y and z is written as STL and PLY too, in mm, where it is not empty.
 
+    Parameters
+    ----------
+    folder : Path
+    stem : str
+        Of the files' names.
+    found : Workspace
+
     Raises
     ------
     ModelError

@@ -55,7 +55,17 @@ class Spare:
 
 
 def tilted(tilt: float, azimuth: float = 0.0, roll: float = 0.0) -> Array:
-    """Rotation of a tool tilted towards an azimuth about its axis at home, rad, (3, 3)."""
+    """Rotation of a tool tilted towards an azimuth about its axis at home, (3, 3).
+
+    Parameters
+    ----------
+    tilt : float
+        rad.
+    azimuth : float
+        From x about z, rad.
+    roll : float
+        About the tool's own axis, rad.
+    """
     turn = rotation_z(np.asarray(azimuth))
     return np.asarray(turn @ rotation_y(np.asarray(tilt)) @ turn.T @ rotation_z(np.asarray(roll)))
 
@@ -65,6 +75,15 @@ def dexterous(tilt: float, azimuths: int = 12, rolls: ArrayLike = 0.0) -> Array:
 
     Upright, half the tilt and the whole, each at `azimuths` evenly spaced: a sample, on whose
     number the result depends.
+
+    Parameters
+    ----------
+    tilt : float
+        Largest, rad.
+    azimuths : int
+        Of each tilt.
+    rolls : (r,) or float
+        About the tool's own axis, rad.
     """
     found = []
     for roll in np.atleast_1d(np.asarray(rolls, dtype=float)):
@@ -77,7 +96,12 @@ def dexterous(tilt: float, azimuths: int = 12, rolls: ArrayLike = 0.0) -> Array:
 
 
 def beam_capsules(structure: Structure) -> list[Capsule]:
-    """Capsules about the beams whose sections have outer sizes: half the largest is the radius."""
+    """Capsules about the beams whose sections have outer sizes: half the largest is the radius.
+
+    Parameters
+    ----------
+    structure : Structure
+    """
     return [
         Capsule(beam.name, beam.nodes, 0.5 * max(beam.section.outline))
         for beam in structure.beams
@@ -140,15 +164,15 @@ class MachineMargin:
     directions : tuple of str
         What points give, m and rad; what is not named stays as at home, where it can.
     step : (d,)
-        How far apart points of the grid are.
+        How far apart points of the grid are, m and rad.
     turns : (k, 3, 3)
-        Rotations of the tool in its own axes at home; all must be good.
+        Rotation matrices of the tool in its own axes at home; all must be good.
     spare : Spare or None
     interference : Interference or None
     conditioning : float or None
         Least reciprocal condition number of the drives, as a share of that at home.
     told : callable or None
-        Of poses that are followed.
+        Called with how many poses are done, and of how many, where they are followed.
     bounds : tuple of Bound
         What else a pose must keep, as an amplification or a stiffness.
 
@@ -256,6 +280,11 @@ class MachineMargin:
         """Value of the spare coordinate with the largest margin, (p,), m or rad.
 
         Of several turns, that of the first.
+
+        Parameters
+        ----------
+        points : (p, d)
+            Task coordinates, m and rad.
         """
         assert self.spare is not None  # noqa: S101 - asked for only where there is one
         return np.asarray(self.spare.values)[self._best(points, self.turns[0])[1]]

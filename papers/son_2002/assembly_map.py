@@ -132,7 +132,7 @@ def assembly_map(
             "tool": (
                 ("x", "b", "direction"),
                 found[:, number:].reshape(*grid[0].shape, -1),
-                {"units": "m; rad"},
+                {"component_units": "m; rad"},
             ),
         },
         coords={

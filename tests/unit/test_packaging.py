@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shutil
 import subprocess
@@ -34,7 +35,8 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     folder = tmp_path_factory.mktemp("built")
     copy = folder / "checkout"
     copy.mkdir()
-    for name in SHIPPED:
+    # templates of new machines are links to examples
+    for name in (*SHIPPED, "examples"):
         shutil.copytree(
             ROOT / name, copy / name, symlinks=True, ignore=shutil.ignore_patterns("__pycache__")
         )
@@ -59,13 +61,13 @@ def test_what_an_index_demands(built: dict[str, Path]) -> None:
 
 def test_every_file_of_the_packages_ships(built: dict[str, Path]) -> None:
     wanted = {
-        f"strutwork/{path.relative_to(ROOT)}".removeprefix(
-            "strutwork/" if path.is_relative_to(ROOT / "strutwork") else ""
-        )
-        for name in SHIPPED
-        for path in (ROOT / name).rglob("*")
-        if path.is_file() and "__pycache__" not in path.parts
+        Path(folder).relative_to(ROOT).joinpath(name).as_posix()
+        # links stand for the packages beside, and for the templates
+        for folder, _, names in os.walk(ROOT / "strutwork", followlinks=True)
+        for name in names
+        if "__pycache__" not in folder
     }
+    assert "strutwork/machines/templates/3-rps.toml" in wanted
     with zipfile.ZipFile(built["wheel"]) as archive:
         found = {name for name in archive.namelist() if ".dist-info/" not in name}
     assert found == wanted
