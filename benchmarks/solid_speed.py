@@ -291,7 +291,7 @@ def tables(size: str, solvers: list[str]) -> str:
         lines = [
             f"{rest[-1].said['dofs']:,} degrees of freedom. {machine_line()}",
             "",
-            "Whole runs:",
+            "Complete runs:",
             "",
             *whole_table(whole),
             "",

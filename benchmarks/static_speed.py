@@ -1,8 +1,8 @@
 """Poses per second of the static stiffness, beside OpenSeesPy and PyNite in one run.
 
-Run `python -m benchmarks.static_speed`; with `--write` its table goes to docs/performance.md. It
-stops with an error where the programs or solvers disagree, or where a hexapod is slower than
-`LEAST` of the three-legged frame.
+Run `python -m benchmarks.static_speed`; with `--write` its table goes to
+docs/performance-statics.md. It stops with an error where the programs or solvers disagree, or where
+a hexapod is slower than `LEAST` of the three-legged frame.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from strutwork.msa.tool import ToolMethod
 
 Array = NDArray[Any]
 
-DOCUMENT = DOCUMENTS / "performance.md"
+DOCUMENT = DOCUMENTS / "performance-statics.md"
 
 #: Entries agree to this share of the largest, rotations times 1 m.
 AGREEMENT = 1e-9
@@ -194,7 +194,7 @@ def table(
     agreement = ", ".join(f"{name} {gap:.1e}" for name, gap in gaps.items())
     return joined(
         [
-            "# Performance",
+            "# Performance: statics",
             "",
             "Made by `python -m benchmarks.static_speed --write`: read ratios. One thread, unless",
             "said by processor time; rates are poses per second.",

@@ -189,7 +189,7 @@ def table(samples: int, assemblies: int) -> str:
             "",
             f"The plain loop takes {1e6 * loop:.0f} µs a sample, force by force, for the largest.",
             "",
-            f"Largest memory of the whole process by samples: {'; '.join(memory)}.",
+            f"Largest memory of the process by samples: {'; '.join(memory)}.",
             "",
             "| allocation | | ms | certified gap |",
             "|---|---|---:|---:|",

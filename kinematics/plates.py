@@ -153,6 +153,9 @@ def reach(
     for signs in map(np.array, _patterns(c[start])):
         heads, tails = [], []
         for i, j in WAYS:
+            if abs(i) >= shape[0] or abs(j) >= shape[1]:
+                # longer than the grid
+                continue
             one = tuple(
                 slice(max(0, -d), min(n, n - d)) for d, n in zip((i, j), shape, strict=True)
             )

@@ -13,6 +13,9 @@ from strutwork.errors import UnitError
 from strutwork.names import is_hidden, visible
 from strutwork.units import Dimension
 
+#: How a quantity with a unit begins.
+_NUMBER_FIRST = r"^\s*[-+]?(\d|\.\d)"
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -40,6 +43,20 @@ class Quantity:
     def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> core_schema.CoreSchema:
         """Validate by `read`."""
         return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, _schema: Any, _handler: Any) -> dict[str, Any]:
+        """A number, or a text that begins with one: for editors."""
+        bounds = {
+            "minimum": self.low,
+            "exclusiveMinimum": self.above,
+            "maximum": self.high,
+            "exclusiveMaximum": self.below,
+        }
+        number = {"type": "number"} | {k: v for k, v in bounds.items() if v is not None}
+        text = {"type": "string", "pattern": _NUMBER_FIRST}
+        unit, example = self.dimension.unit, self.dimension.example
+        words = f'{self.dimension.name} in {unit}, or with its unit as in "{example}"'
+        return {"anyOf": [number, text], "description": words if unit else self.dimension.name}
 
     def read(self, value: object) -> float:
         """Value in SI units.

@@ -1,4 +1,4 @@
-"""One page of documentation with every result that the documents print, beside the computed values.
+"""One page of documentation with every result that the documents print, beside the computed one.
 
 ``python -m strutwork.papers.results_page OUT docs/published-results.md`` reads the files of
 statements that ``strutwork report --all -o OUT`` has written.
@@ -21,10 +21,10 @@ STATUSES: tuple[Status, ...] = ("predicted", "calibrated", "not reproducible")
 
 HEAD = """# Published results
 
-Every result that the five documents print, beside the computed values, with its status, the
-reason, and the test that holds it. *Predicted* means that no choice was made with the published
-value in sight; *calibrated*, that one was; *not reproducible*, that the document does not say
-enough, or that it errs, as the reason tells.
+Every result that the five documents print, beside the computed one, with its status, the reason,
+and the test that holds it. *Predicted* means that no choice was made with the published value in
+sight; *calibrated*, that one was; *not reproducible*, that the document does not say enough, or
+that it errs, as the reason states.
 The page is written from the reports' files:
 
     strutwork report --all -o out/all

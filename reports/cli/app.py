@@ -31,6 +31,7 @@ from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
 from strutwork.reports.cli.report_command import report
 from strutwork.reports.cli.reversals_command import reversals
+from strutwork.reports.cli.schema_command import schema
 from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
 from strutwork.reports.cli.trajectory_command import trajectory
@@ -374,6 +375,7 @@ app.command()(speaking(move))
 app.command()(speaking(workspace))
 app.command()(new)
 app.command()(speaking(reversals))
+app.command()(schema)
 app.command()(speaking(singularities))
 app.command()(speaking(trajectory))
 app.command()(report)

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.docs.markdown import Block, blocks
+from tests.docs.markdown import Block, blocks, named
 from tests.docs.tutorial import COMMAND, ROOT, TUTORIALS, matches, steps
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
@@ -44,7 +44,7 @@ def workplace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.usefixtures("workplace")
-@pytest.mark.parametrize("page", programs(), ids=lambda page: page.name)
+@pytest.mark.parametrize("page", programs(), ids=named)
 def test_python_blocks_run_and_print_what_the_page_says(page: Path) -> None:
     names: dict[str, object] = {"__name__": "__main__"}
     printed = ""

@@ -90,17 +90,21 @@ class Browser:
 
         Its chapters are unfolded, unless the page is wanted as it comes.
         """
+        self.visit(page.resolve().as_uri(), width, height)
+        self.wait_for("document.documentElement.dataset.plots !== undefined")
+        if unfolded:
+            self.unfold()
+
+    def visit(self, url: str, width: int, height: int = 900) -> None:
+        """Open any page in a window of the given size and wait until it is loaded."""
         self.complaints.clear()
         self.requests.clear()
         self.resize(width, height)
-        url = page.resolve().as_uri()
         answer = self.send("Page.navigate", url=url)
         assert "errorText" not in answer, (url, answer["errorText"])
         # the old document answers until the new one has begun
-        arrived = f"location.href === {json.dumps(url)} && document.readyState === 'complete'"
-        self.wait_for(f"{arrived} && document.documentElement.dataset.plots !== undefined")
-        if unfolded:
-            self.unfold()
+        here = f"location.href === {json.dumps(url)}"
+        self.wait_for(f"{here} && document.readyState === 'complete'")
 
     def unfold(self) -> None:
         """Open all chapters and wait until their plots are drawn."""

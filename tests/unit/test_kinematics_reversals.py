@@ -93,6 +93,9 @@ def test_serial_machine_never_turns_back() -> None:
     assert [(d.points, d.lines, d.winding) for d in found.singular] == [((), (), 0)] * 3
     assert found.plates.max() == 1
     assert found.reach((2, 2)).all()
+    # a grid of fewer points than the longest step has cells
+    small = reversals(MotionField(model.motion, Plane(("x", "y"))), axis[1:4], axis[1:4])
+    assert small.reach((1, 1)).all()
 
 
 def bumpy(points: Array) -> tuple[Array, Array, Array]:
