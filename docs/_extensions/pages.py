@@ -29,6 +29,7 @@ ELSEWHERE = {
     "CHANGELOG.md": "docs/project/changelog.md",
     "examples": "docs/reference/examples.rst",
     "examples/machines": "docs/reference/examples.rst",
+    "examples/notebooks": "docs/reference/examples.rst",
     "meshes": "docs/reference/api/meshes.rst",
 }
 
