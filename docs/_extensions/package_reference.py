@@ -39,7 +39,7 @@ def constant(package: str, name: str) -> list[str]:
     home = come[1] if come else package
     comments = ModuleAnalyzer.for_module(home).find_attr_docs()
     said = comments.get(("", name), [])
-    return ["", f".. py:data:: {package}.{name}", "", *(f"   {line}" for line in said)]
+    return ["", f".. py:data:: {name}", "", *(f"   {line}" for line in said)]
 
 
 def reference(package: str, further: tuple[str, ...] = ()) -> list[str]:

@@ -51,7 +51,7 @@ def test_what_is_like_nothing_is_not_guessed() -> None:
             ("frf", "examples/03_tripod.toml", "--input", "TPC:z"),
             'mean "TCP"? Nodes: TCP, ',
         ),
-        (("chek", "mit-ss1"), "Did you mean 'check'?"),
+        (("chek", "mit-ss1"), "Did you mean 'check', "),
         (("check", "mit-ss1", "--jsn"), "--json"),
         (
             ("accuracy", "examples/03_tripod.toml", "--play", "drve1:z=5um"),

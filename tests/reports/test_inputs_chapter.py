@@ -18,8 +18,8 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 
 def chapter(target: str) -> tuple[Model, Chapter]:
     model = load(EXAMPLES / target if target.endswith(".toml") else target)
-    source = EXAMPLES / target if target.endswith(".toml") else None
-    return model, inputs.write(Subject(model, target, target, source=source))
+    file = EXAMPLES / target if target.endswith(".toml") else None
+    return model, inputs.write(Subject(model, target, target, file=file))
 
 
 def tables(found: Chapter) -> dict[str, Table]:

@@ -94,7 +94,11 @@ def test_status_carries_its_meanings(small: xr.Dataset) -> None:
     assert dict(zip(words, attributes["flag_values"].tolist(), strict=True)) == {
         s.word: int(s) for s in PoseStatus
     }
-    assert all("units" in v.attrs for n, v in small.data_vars.items() if n != "status")
+    assert all(
+        {"units", "component_units"} & set(v.attrs)
+        for n, v in small.data_vars.items()
+        if n != "status"
+    )
 
 
 def test_the_chosen_roll_is_the_stiffest_along_x(small: xr.Dataset) -> None:
