@@ -7,10 +7,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from strutwork.kinematics import FreeMotion
+from strutwork.machines.extent import model_size
 from strutwork.machines.model import Model
 from strutwork.names import listed
 from strutwork.reports.alike import grouped
-from strutwork.reports.figures.model import model_size
 from strutwork.reports.freedom_words import tool_freedoms
 from strutwork.reports.numbers import count
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS, FreeMotion
+from strutwork.machines.extent import model_size
 from strutwork.names import listed, visible
-from strutwork.reports.figures.model import model_size
 from strutwork.reports.model_check import ModelCheck
 
 Array = NDArray[Any]

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.machines.extent import model_size
 from strutwork.msa import system_of
-from strutwork.reports.figures.model import model_size
 from strutwork.reports.model_solution import ModelSolution
 from strutwork.reports.numbers import CANCELLED, ROUNDING, six_without_rounding
 

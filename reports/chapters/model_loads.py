@@ -8,10 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from strutwork.machines.extent import model_size
 from strutwork.reports.alike import label, pattern
 from strutwork.reports.content import Block, Chapter, Column, Details, Figure, Note, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file
-from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
+from strutwork.reports.figures.model import deformed_shape, deformed_view
 from strutwork.reports.model_solution import ModelSolution
 from strutwork.reports.numbers import count, significant, times
 from strutwork.reports.solution_tables import FORCE_TABLES, beam_ends, shown_energy, shown_tables

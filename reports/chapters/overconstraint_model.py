@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from strutwork.machines.extent import model_size
 from strutwork.machines.model import Model
 from strutwork.msa import LoadCase
 from strutwork.overconstraint import Allocation, allocate
@@ -30,7 +31,7 @@ from strutwork.reports.content import Block, Chapter, Figure, Text
 from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import ARROW, SHOWN, assembled
 from strutwork.reports.figures.misfits import force_arrows
-from strutwork.reports.figures.model import deformed_shape, deformed_view, model_size
+from strutwork.reports.figures.model import deformed_shape, deformed_view
 from strutwork.reports.numbers import times
 from strutwork.studies.tolerance_result import ToleranceStudy
 from strutwork.studies.tolerance_study import tolerance_study

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.machines.extent import model_size
 from strutwork.machines.model import Model
 from strutwork.machines.model_solid_element import SolidElement
 from strutwork.msa import LoadCase, StaticSolution
@@ -30,12 +31,6 @@ Array = NDArray[Any]
 
 #: Points drawn along each beam element of a deformed shape.
 FINE = 9
-
-
-def model_size(model: Model) -> float:
-    """Diagonal of the box about all nodes, m; one for a single point."""
-    at = model.placement.positions
-    return float(np.linalg.norm(at.max(axis=0) - at.min(axis=0))) or 1.0
 
 
 def model_view(model: Model) -> dict[str, Any]:
