@@ -75,12 +75,15 @@ def _swinging(model: Model, mode: int) -> tuple[dict[str, Any], str]:
         )
     view = mode_view(study, [str(k + 1) for k in range(len(found))])
     motion = view["motion"]
-    moves = motion["modes"][mode - 1]
-    trace = view["data"][motion["trace"]]
-    for axis in "xyz":
-        rest = np.array(motion["rest"][axis], dtype=float)
-        trace[axis] = (rest + np.array(moves[axis], dtype=float)).tolist()
-    trace["line"] = trace["line"] | {"color": moves["size"]}
+    for part in (motion, *([motion["also"]] if "also" in motion else [])):
+        moves, trace = part["modes"][mode - 1], view["data"][part["trace"]]
+        for axis in "xyz":
+            rest = np.array(part["rest"][axis], dtype=float)
+            trace[axis] = (rest + np.array(moves[axis], dtype=float)).tolist()
+        if "colour" in part:
+            trace[part["colour"]] = moves["size"]
+        else:
+            trace["line"] = trace["line"] | {"color": moves["size"]}
     return view, f"Mode {mode}: {significant(float(found[mode - 1]), 4)} Hz"
 
 

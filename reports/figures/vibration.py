@@ -20,6 +20,9 @@ Array = NDArray[Any]
 #: The largest motion of a mode is drawn as this share of the structure's size.
 EXAGGERATION = 0.09
 
+#: Points of solids' surfaces beyond which a page would carry too much for each of its modes.
+MOST_POINTS = 4000
+
 #: Straight pieces of a drawn beam element.
 PIECES = 4
 
@@ -36,6 +39,12 @@ def mode_lines(study: VibrationStudy) -> tuple[Array, Array]:
     Along beams by the cubic of the ends' displacements and rotations; rigid parts straight; of
     solids their edges. NaN parts the lines. Each mode's largest motion is one.
     """
+    points, motion = _lines(study)
+    return points, motion / _largest(motion)
+
+
+def _lines(study: VibrationStudy) -> tuple[Array, Array]:
+    """As `mode_lines`, the modes as they are normalised."""
     structure, at = study.placed.structure, study.placed.positions
     shapes = study.modes.shapes
     where, moves = [], []
@@ -73,9 +82,35 @@ def mode_lines(study: VibrationStudy) -> tuple[Array, Array]:
     for a, b in study.lines:
         where += [at[[index[a], index[b]]], gap]
         moves += [shapes[:, [index[a], index[b]], :3], gaps]
-    motion = np.concatenate(moves, axis=1)
+    return np.concatenate(where), np.concatenate(moves, axis=1)
+
+
+def _largest(motion: Array) -> Array:
+    """Largest displacement of each mode, (m, 1, 1); one where nothing moves."""
     size = np.nanmax(np.linalg.norm(motion, axis=-1), axis=1)
-    return np.concatenate(where), motion / np.where(size > 0, size, 1.0)[:, None, None]
+    return np.asarray(np.where(size > 0, size, 1.0)[:, None, None])
+
+
+def mode_surfaces(study: VibrationStudy) -> tuple[Array, Array, Array] | None:
+    """Surfaces of the solids: points (n, 3), motion in each mode (m, n, 3), triangles (t, 3).
+
+    None without solids, and where they have more points than `MOST_POINTS`: their edges are drawn
+    alone.
+    """
+    structure, shapes = study.placed.structure, study.modes.shapes
+    index = structure.mesh_index
+    where, moves, faces, start = [], [], [], 0
+    for solid in (e for e in structure.elements if isinstance(e, SolidElement)):
+        used, corners = np.unique(solid.triangles, return_inverse=True)
+        motion_of = solid.motion(shapes[:, [index[n] for n in solid.nodes]], study.placed)
+        where.append(solid.points_at(study.placed)[used])
+        moves.append(motion_of[:, used])
+        faces.append(corners.reshape(-1, 3) + start)
+        start += len(used)
+    if not 0 < start <= MOST_POINTS:
+        return None
+    motion = np.concatenate(moves, axis=1)
+    return np.concatenate(where), motion, np.concatenate(faces)
 
 
 def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
@@ -84,7 +119,9 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
     Beside `data` and `layout` the figure has `motion`: the trace that moves, its points at rest
     and the motion of each mode, mm.
     """
-    points, motion = mode_lines(study)
+    points, motion = _lines(study)
+    largest = _largest(motion)
+    motion = motion / largest
     amplitude = drawn_amplitude(study)
     reach = np.concatenate([points + amplitude * sign * m for m in motion for sign in (-1, 1)])
     room = path(reach, "room", "#000000", 1, visible=False)
@@ -111,7 +148,43 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
         for label, size, m in zip(labels, sizes, motion, strict=True)
     ]
     rest = dict(zip("xyz", (rounded(1e3 * c) for c in points.T), strict=True))
-    return figure | {"motion": {"trace": 1, "rest": rest, "modes": modes}}
+    moving: dict[str, Any] = {"trace": 1, "rest": rest, "modes": modes}
+    surfaces = mode_surfaces(study)
+    if surfaces is not None:
+        where, swings, faces = surfaces
+        trace, moving["also"] = _swinging(where, swings / largest, faces, amplitude)
+        figure["data"].append(trace)
+    return figure | {"motion": moving}
+
+
+def _swinging(
+    where: Array, motion: Array, faces: Array, amplitude: float
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The trace of surfaces, and what moves it beside the lines."""
+    modes = [
+        {
+            "size": rounded(np.linalg.norm(m, axis=-1), 3),
+            **dict(zip("xyz", (rounded(1e3 * amplitude * c, 3) for c in m.T), strict=True)),
+        }
+        for m in motion
+    ]
+    at = (where + amplitude * motion[0]).T
+    trace = {
+        "type": "mesh3d",
+        "name": "solids",
+        **dict(zip("xyz", (rounded(1e3 * c) for c in at), strict=True)),
+        **dict(zip("ijk", (corner.tolist() for corner in faces.T), strict=True)),
+        "intensity": modes[0]["size"],
+        "colorscale": "Viridis",
+        "cmin": 0.0,
+        "cmax": 1.0,
+        "showscale": False,
+        "opacity": 0.8,
+        "flatshading": True,
+        "hoverinfo": "skip",
+    }
+    rest = dict(zip("xyz", (rounded(1e3 * c) for c in where.T), strict=True))
+    return trace, {"trace": 2, "colour": "intensity", "rest": rest, "modes": modes}
 
 
 def responses(

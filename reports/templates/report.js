@@ -10,18 +10,22 @@
   const solid = [["toImage"], ["orbitRotation", "zoom3d", "pan3d", "resetCameraDefault3d"]];
   const still = window.matchMedia("(prefers-reduced-motion: reduce)");
   // a mode swings about the shape at rest; with reduced motion each press shows the other extreme
-  const swing = (figure, drawing, { trace, colour = "line.color", rest, modes }) => {
+  const swing = (figure, drawing, motion) => {
+    const parts = motion.also ? [motion, motion.also] : [motion];
     const choice = figure.querySelector(".modes select");
     const button = figure.querySelector(".modes button");
     const reach = figure.querySelector(".modes input");
     let phase = Math.PI / 2;
     let before = null;
-    const show = () => {
-      const mode = modes[choice.value];
+    const show = async () => {
       const turn = Math.sin(phase) * reach.value;
-      const at = (side) => rest[side].map((v, i) => (v === null ? null : v + turn * mode[side][i]));
-      const moved = { x: [at("x")], y: [at("y")], z: [at("z")], [colour]: [mode.size] };
-      return Plotly.restyle(drawing, moved, [trace]);
+      for (const { trace, colour = "line.color", rest, modes } of parts) {
+        const mode = modes[choice.value];
+        const at = (side) =>
+          rest[side].map((v, i) => (v === null ? null : v + turn * mode[side][i]));
+        const moved = { x: [at("x")], y: [at("y")], z: [at("z")], [colour]: [mode.size] };
+        await Plotly.restyle(drawing, moved, [trace]);
+      }
     };
     const stop = () => {
       before = null;
