@@ -24,7 +24,7 @@ GRACE = 1.0
 #: Exit status of a command that was interrupted: 128 and the number of the signal.
 INTERRUPTED = 130
 
-_SAID = "Interrupted: nothing was finished.\n"
+_SAID = "Interrupted: no file is left half written.\n"
 
 
 @contextmanager

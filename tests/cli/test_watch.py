@@ -72,7 +72,7 @@ def test_ctrl_c_ends_any_work_with_one_line_and_130(wait: str) -> None:
     finally:
         process.kill()
     assert process.returncode == 130
-    assert err.splitlines()[-1] == "Interrupted: nothing was finished."
+    assert err.splitlines()[-1] == "Interrupted: no file is left half written."
     assert "Traceback" not in err
     assert "Waits for nothing" in err
     assert "of about 7 s" in err
