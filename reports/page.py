@@ -17,6 +17,7 @@ from plotly.offline import get_plotlyjs
 from strutwork.reports.archive import Carried
 from strutwork.reports.content import Page
 from strutwork.reports.formulas import typeset
+from strutwork.reports.row_legend import one_legend
 
 HARD_SPACE = "\N{NO-BREAK SPACE}"
 
@@ -129,6 +130,7 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     environment.filters["embedded"] = embedded
+    environment.filters["one_legend"] = one_legend
     environment.filters["unbroken"] = typeset(unbroken)
     return environment
 
