@@ -35,6 +35,9 @@ def processors() -> int:
     """How many processes may work at the same time."""
     if sys.platform == "win32" or "fork" not in multiprocessing.get_all_start_methods():
         return 1
+    # a worker of someone's pool may have no processes of its own
+    if multiprocessing.current_process().daemon:
+        return 1
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else 1
 
 

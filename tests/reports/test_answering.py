@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import warnings
 from dataclasses import dataclass, field, replace
@@ -17,7 +18,7 @@ from strutwork.reports import subject as subject_module
 from strutwork.reports.answer_store import AnswerStore, make_room, model_key
 from strutwork.reports.answering import Gathered, Kept, answering, questions
 from strutwork.reports.answers import Outcome, Source, answer
-from strutwork.reports.beside import Beside
+from strutwork.reports.beside import Beside, processors
 from strutwork.reports.build import compose
 from strutwork.reports.composed import Offered, chapters_of
 from strutwork.reports.content import Chapter, Page
@@ -268,3 +269,12 @@ def test_a_chapter_that_fails_says_which() -> None:
     assert str(caught.value) == (
         'chapter "How stiff is it?", matrix: is singular.\nLook at the joints.'
     )
+
+
+@pytest.mark.skipif(
+    "fork" not in multiprocessing.get_all_start_methods(), reason="nothing is done beside"
+)
+def test_a_worker_of_a_pool_answers_alone() -> None:
+    # a daemonic process may have no children: multiprocessing refuses them with an assertion
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.apply(processors) == 1
