@@ -23,7 +23,7 @@ class Sign:
     colour : str
         As CSS writes it.
     look : str
-        "line", "dashed", "dot" or "area".
+        "line", "dashed", "dot", "area" or "hatched".
     """
 
     name: str
@@ -77,7 +77,8 @@ def _sign(name: str, trace: Mapping[str, Any]) -> Sign | None:
         solid = line.get("dash", "solid") == "solid"
         look = ("line" if solid else "dashed") if drawn else "dot"
     else:
-        colour, look = trace.get("color", marker.get("color")), "area"
+        colour = trace.get("color", marker.get("color"))
+        look = "hatched" if marker.get("pattern") else "area"
     # names are plotly's, with its marks for lines and for what it would read as markup
     if not isinstance(colour, str) or not _COLOUR.fullmatch(colour) or re.search("[<&]", name):
         return None

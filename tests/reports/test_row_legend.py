@@ -45,6 +45,11 @@ def test_other_names_or_colours_keep_their_own() -> None:
 def test_what_stands_for_a_trace() -> None:
     traces = [
         {"type": "bar", "name": "share", "marker": {"color": "#56b4e9"}},
+        {
+            "type": "bar",
+            "name": "published",
+            "marker": {"color": "#cccccc", "pattern": {"shape": "/"}},
+        },
         {"type": "scatter", "mode": "markers", "name": "worst", "marker": {"color": "red"}},
         line("hidden", visible=False),
         line("unlisted", showlegend=False),
@@ -52,9 +57,10 @@ def test_what_stands_for_a_trace() -> None:
     ]
     assert signs_of({"data": traces, "layout": {}}) == (
         Sign("share", "#56b4e9", "area"),
+        Sign("published", "#cccccc", "hatched"),
         Sign("worst", "red", "dot"),
     )
     # a colour for each point has no one sign, and no text of a colour leaves its attribute
     for colour in (["#000000", "#ffffff"], "red; background: url(x)", None):
-        traces[1]["marker"] = {"color": colour}
+        traces[2]["marker"] = {"color": colour}
         assert signs_of({"data": traces, "layout": {}}) is None
