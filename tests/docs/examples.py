@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tests.docs.tutorial import ROOT
+from tests.docs.markdown import ROOT
 
 FOLDER = ROOT / "examples"
 

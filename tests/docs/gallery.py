@@ -5,30 +5,20 @@ Its pictures are drawn by `python -m tests.docs.pictures`.
 
 from __future__ import annotations
 
-import os
-import shlex
-import subprocess
 import sys
 from collections.abc import Sequence
 
 from tests.docs.examples import EXAMPLES, Example
-from tests.docs.tutorial import COMMAND, ROOT
+from tests.docs.markdown import ROOT
+from tests.docs.running import run_line
 
 GALLERY = ROOT / "docs" / "gallery"
 
 
 def output(example: Example) -> list[str]:
     """The lines of the output that the example wants shown, dots for what is between."""
-    program, *arguments = shlex.split(example.command)
-    run = subprocess.run(
-        [{"strutwork": COMMAND, "python": sys.executable}[program], *arguments],
-        cwd=ROOT,
-        env={**os.environ, "COLUMNS": "100", "NO_COLOR": "1"},
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        check=True,
-    )
+    run = run_line(example.command, ROOT)
+    assert run.returncode == 0, run.stderr
     lines, found = run.stdout.splitlines(), []
     for text in example.shown:
         start = found[-1] + 1 if found else 0

@@ -12,7 +12,9 @@ from pathlib import Path
 import nbformat
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
-from tests.docs.tutorial import ROOT, TUTORIALS, Cell, cells, steps
+from tests.docs.markdown import ROOT
+from tests.docs.running import steps
+from tests.docs.tutorial import TUTORIALS, Cell, cells
 
 NOTEBOOKS = ROOT / "examples" / "notebooks"
 

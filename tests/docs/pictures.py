@@ -17,7 +17,8 @@ from PIL import Image, ImageChops, ImageOps
 
 import strutwork
 from tests.docs.examples import EXAMPLES, Example
-from tests.docs.tutorial import ROOT, TUTORIALS, Session
+from tests.docs.markdown import ROOT
+from tests.docs.tutorial import TUTORIALS, Session
 from tests.reports.browser import Browser, chromium
 
 IMAGES = ROOT / "docs" / "images"

@@ -7,19 +7,14 @@ console block the lines after `$ strutwork …` are what the command prints on s
 
 from __future__ import annotations
 
-import contextlib
-import io
-import os
 import re
-import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
-from tests.docs.markdown import Block, blocks, named
-from tests.docs.tutorial import COMMAND, ROOT, TUTORIALS, matches, steps
+from tests.docs.markdown import ROOT, Block, blocks, named
+from tests.docs.running import hold_console, matches, run_python
+from tests.docs.tutorial import TUTORIALS
 
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
 # the others are a way to be gone from its beginning: tests/docs/test_tutorials.py
@@ -51,11 +46,7 @@ def test_python_blocks_run_and_print_what_the_page_says(page: Path) -> None:
     for block in blocks(page):
         if block.language == "python":
             assert printed == "", f"{block}: the page does not show what was printed before"
-            output = io.StringIO()
-            source = "\n" * (block.line - 1) + block.text
-            with contextlib.redirect_stdout(output):
-                exec(compile(source, str(page), "exec"), names)  # noqa: S102 - our own pages
-            printed = output.getvalue()
+            printed = run_python(block.text, page, block.line, names)
         elif block.language == "text" and printed:
             assert matches(block.text, printed), f"{block} says\n{block.text}but got\n{printed}"
             printed = ""
@@ -67,23 +58,7 @@ def test_python_blocks_run_and_print_what_the_page_says(page: Path) -> None:
     [pytest.param(b, marks=pytest.mark.slow if b.slow else (), id=str(b)) for b in consoles()],
 )
 def test_commands_run_and_print_what_the_page_says(block: Block, workplace: Path) -> None:
-    found = steps(block.text)
-    assert found, f"{block}: a console block starts with a prompt"
-    for command, wanted in found:
-        program, *arguments = shlex.split(command)
-        run = subprocess.run(
-            [{"strutwork": COMMAND, "python": sys.executable}[program], *arguments],
-            cwd=workplace,
-            env={**os.environ, "COLUMNS": "100", "NO_COLOR": "1"},
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            text=True,
-            timeout=300,
-            check=False,
-        )
-        assert run.returncode == 0, f"{block}: {command}\n{run.stderr}"
-        if wanted.strip():
-            assert matches(wanted, run.stdout), f"{block} says\n{wanted}but got\n{run.stdout}"
+    hold_console(block.text, workplace, block)
 
 
 def test_pages_link_to_what_exists() -> None:

@@ -7,7 +7,8 @@ from PIL import Image
 
 from tests.docs.examples import EXAMPLES, Example
 from tests.docs.gallery import GALLERY, page, printed_on
-from tests.docs.tutorial import ROOT, TUTORIALS, cells
+from tests.docs.markdown import ROOT
+from tests.docs.tutorial import TUTORIALS, cells
 
 
 def test_every_page_belongs_to_an_example() -> None:

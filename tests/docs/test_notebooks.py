@@ -13,8 +13,9 @@ import nbformat
 import pytest
 from nbclient import NotebookClient
 
+from tests.docs.markdown import ROOT
 from tests.docs.notebooks import NOTEBOOKS, notebook
-from tests.docs.tutorial import ROOT, TUTORIALS
+from tests.docs.tutorial import TUTORIALS
 
 
 def test_every_notebook_belongs_to_a_tutorial() -> None:

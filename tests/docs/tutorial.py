@@ -10,19 +10,15 @@ is left out of the quick run.
 from __future__ import annotations
 
 import contextlib
-import doctest
-import io
-import os
 import re
-import shlex
-import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-ROOT = Path(__file__).parents[2]
+from tests.docs.markdown import ROOT
+from tests.docs.running import hold_console, matches, run_python
+
 TUTORIALS = sorted((ROOT / "docs" / "tutorials").glob("[0-9]*.md"))
-COMMAND = Path(sys.executable).with_name("strutwork")
 
 FENCE = re.compile(
     r"(?P<slow><!-- slow -->\n+)?^```(?P<language>\w+)\n(?P<text>.*?)^```\n"
@@ -41,12 +37,6 @@ class Cell:
     line: int = 0
     slow: bool = False
     file: str = ""
-
-
-def matches(wanted: str, got: str) -> bool:
-    """Whether the page shows what came, `...` standing for anything."""
-    flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-    return doctest.OutputChecker().check_output(wanted, got, flags)
 
 
 def cells(page: Path) -> list[Cell]:
@@ -72,11 +62,6 @@ def cells(page: Path) -> list[Cell]:
         )
     made.append(Cell("words", text[end:]))
     return [c for c in made if c.kind != "words" or c.text.strip()]
-
-
-def steps(console: str) -> list[tuple[str, str]]:
-    """The commands of a console block, and what each prints."""
-    return re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", console, re.MULTILINE)
 
 
 class Session:
@@ -112,11 +97,7 @@ class Session:
                 file.write(cell.text)
         elif cell.kind == "python":
             assert self._printed == "", f"{where}: what was printed before is not shown"
-            output = io.StringIO()
-            source = "\n" * (cell.line - 1) + cell.text
-            with contextlib.redirect_stdout(output):
-                exec(compile(source, str(self.page), "exec"), self.names)  # noqa: S102 - our pages
-            self._printed = output.getvalue()
+            self._printed = run_python(cell.text, self.page, cell.line, self.names)
         elif cell.kind == "shown":
             shown = eval(cell.text, self.names)  # noqa: S307 - our own pages
             assert shown._repr_html_(), f"{where}: {cell.text} shows nothing in a notebook"
@@ -126,23 +107,4 @@ class Session:
             )
             self._printed = ""
         elif cell.kind == "console":
-            self._commands(cell, where)
-
-    def _commands(self, cell: Cell, where: str) -> None:
-        found = steps(cell.text)
-        assert found, f"{where}: a console block starts with a prompt"
-        for command, wanted in found:
-            program, *arguments = shlex.split(command)
-            run = subprocess.run(
-                [{"strutwork": COMMAND, "python": sys.executable}[program], *arguments],
-                cwd=self.folder,
-                env={**os.environ, "COLUMNS": "100", "NO_COLOR": "1"},
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                text=True,
-                timeout=600,
-                check=False,
-            )
-            assert run.returncode == 0, f"{where}: {command}\n{run.stderr}"
-            if wanted.strip():
-                assert matches(wanted, run.stdout), f"{where} says\n{wanted}but got\n{run.stdout}"
+            hold_console(cell.text, self.folder, where)
