@@ -262,7 +262,8 @@ def characteristic_lengths(placement: Placement) -> Array:
         centre = (points[inner] * kept[..., None]).sum(axis=-2) / kept.sum(axis=-1)[..., None]
         placed = np.where(far[inner][..., None], centre[..., None, :], points[inner])
         reach[inner] = _reach(placed)
-    return np.asarray(np.where(reach > 0, reach, 1.0))
+    # where all stand at one place, rounding is no length: turns and moves do not mix
+    return np.asarray(np.where(reach > COINCIDENCE, reach, 1.0))
 
 
 def _reach(points: Array) -> Array:

@@ -18,6 +18,7 @@ from scipy.sparse.csgraph import connected_components
 
 from strutwork.errors import ModelError
 from strutwork.kinematics.mobility import RANK_TOLERANCE
+from strutwork.kinematics.placement import COINCIDENCE
 from strutwork.msa.assembly import System
 
 Array = NDArray[Any]
@@ -164,7 +165,7 @@ def tool_length(system: System) -> Array:
     nodes |= {int(structure.reference_nodes[v]) for v in held.vertices}
     tool = positions[:, structure.mesh_index[str(structure.linkage.tool)]]
     reach = np.linalg.norm(positions[:, sorted(nodes)] - tool[:, None], axis=-1).max(axis=-1)
-    return np.asarray(np.where(reach > 0, reach, 1.0))
+    return np.asarray(np.where(reach > COINCIDENCE, reach, 1.0))
 
 
 def always_movable(system: System) -> bool:
