@@ -26,12 +26,12 @@ from strutwork.names import visible
 from strutwork.reports.answers import Source, answer
 from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
 from strutwork.reports.model_check import ModelCheck, check_model
-from strutwork.reports.model_damping import model_damping
 from strutwork.reports.model_solution import ModelSolution, solve_model
 from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
 from strutwork.studies.machine_modes import MachineModes, machine_modes
+from strutwork.studies.model_damping import model_damping
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.reversal_study import ReversalStudy, reversal_study
 from strutwork.studies.standard_motion import StandardMotion, standard_motion

@@ -228,7 +228,7 @@ class Machine(Model):
         StrutworkError
             No tool, no damping; else as `strutwork.fea.frequency_response`.
         """
-        from strutwork.reports.model_damping import model_damping
+        from strutwork.studies.model_damping import model_damping
 
         damping = model_damping(self)
         if damping is None:

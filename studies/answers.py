@@ -47,12 +47,15 @@ class Column:
     name, unit, meaning : str
     dims : tuple of str
         Beside the poses.
+    worst : "least" or "largest" or ""
+        Which value over poses is the worst; empty where none is worse than another.
     """
 
     name: str
     unit: str
     meaning: str
     dims: tuple[str, ...] = ()
+    worst: str = ""
 
 
 class Answer(Protocol):
@@ -88,12 +91,14 @@ class Stiffness:
             "N/m for x y z; N m/rad for rx ry rz",
             "stiffness with the other directions free to follow, 1/C_ii",
             ("direction",),
+            "least",
         ),
         Column(
             "stiffness_blocked",
             "N/m for x y z; N m/rad for rx ry rz",
             "stiffness with the other directions blocked, (C^-1)_ii",
             ("direction",),
+            "least",
         ),
     )
     coordinates: Mapping[str, tuple[Any, ...]] = field(
@@ -138,12 +143,13 @@ class Vibration:
     def columns(self) -> tuple[Column, ...]:
         """Frequencies, minima and where they are."""
         return (
-            Column("natural_frequency", "Hz", "natural frequency", ("mode",)),
+            Column("natural_frequency", "Hz", "natural frequency", ("mode",), "least"),
             Column(
                 "least_dynamic_stiffness",
                 "N/m",
                 "least driving-point dynamic stiffness 1/|H_ii| in the band",
                 ("axis",),
+                "least",
             ),
             Column("least_at", "Hz", "frequency of the least dynamic stiffness", ("axis",)),
         )
@@ -215,6 +221,7 @@ class Assembly:
                 "N, N m, m or rad",
                 "largest size that the tolerances allow",
                 ("quantity",),
+                "largest",
             ),
         )
 
