@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
     from strutwork.studies.answers import Answer
+    from strutwork.studies.parameter import Parameter
     from strutwork.studies.tolerance_result import ToleranceStudy
 
 Array = NDArray[Any]
@@ -46,6 +47,7 @@ QUESTIONS = (
     "report",
     "solve",
     "stiffness",
+    "study",
     "survey",
 )
 
@@ -286,6 +288,42 @@ class Machine(Model):
             else TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})
         )
         return survey(self, grid, answers or [Stiffness()], **options)
+
+    def study(
+        self, parameters: Mapping[str, Any] | Sequence[Parameter], *answers: Any, **options: Any
+    ) -> xr.Dataset:
+        """Vary numbers of the machine and ask each machine that comes of it.
+
+        Parameters
+        ----------
+        parameters : mapping of path to values
+            Beside a path of `strutwork.studies.Parametric.paths` a list of values, or a pair for a
+            range; SI, or texts with units.
+        *answers : str or Answer
+            "stiffness" where there is none; "vibration", "assembly", "accuracy", "transmission",
+            "mass", or those of a survey.
+        **options
+            Of `strutwork.studies.study.Study.of` (sample, count, seed, workspace, reductions) and
+            of `strutwork.studies.study.Study.run` (workers, progress, folder, executor); `out` and
+            `resume` as `strutwork.studies.study_store.run_to_file`.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        ModelError
+            The machine was changed or moved since it was loaded; else as `Study`.
+        """
+        from strutwork.studies.study import Study
+        from strutwork.studies.study_store import run_to_file
+
+        running = ("workers", "progress", "folder", "executor", "resume")
+        how = {k: options.pop(k) for k in running if k in options}
+        out = options.pop("out", None)
+        study = Study.of(self, parameters, *answers, **options)
+        return study.run(**how) if out is None else run_to_file(study, out, **how)
 
     def report(self, folder: Path | str | None = None) -> WrittenReport:
         """Write the report with all that applies to the machine.

@@ -108,8 +108,6 @@ class Mass:
     Parameters
     ----------
     columns : tuple of Column
-    coordinates : mapping of dimension to labels
-        None.
     """
 
     columns: tuple[Column, ...] = (Column("mass", "kg", "mass of all parts", (), "largest"),)

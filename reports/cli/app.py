@@ -34,6 +34,7 @@ from strutwork.reports.cli.reversals_command import reversals
 from strutwork.reports.cli.schema_command import schema
 from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
+from strutwork.reports.cli.study_command import study
 from strutwork.reports.cli.trajectory_command import trajectory
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
@@ -378,4 +379,5 @@ app.command()(speaking(reversals))
 app.command()(schema)
 app.command()(speaking(singularities))
 app.command()(speaking(trajectory))
+app.command()(speaking(study))
 app.command()(report)
