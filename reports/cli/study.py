@@ -50,7 +50,15 @@ def list_paths(target: str, *, json: bool) -> None:
     out.print(table("Numbers", ["path", "meaning", "unit", "value, SI"], rows, names=3))
 
 
-def run(file: str, out: str | None, *, resume: bool, workers: int | None, json: bool) -> None:
+def run(
+    file: str,
+    out: str | None,
+    report: str | None = None,
+    *,
+    resume: bool,
+    workers: int | None,
+    json: bool,
+) -> None:
     """Run a study and print how its answers follow its parameters."""
     study = read_study(file)
     with shown("machines") as started:
@@ -62,6 +70,10 @@ def run(file: str, out: str | None, *, resume: bool, workers: int | None, json: 
     result = _result(file, study, found)
     if out is not None:
         result["data"] = [out, str(Path(out).with_suffix(".csv"))]
+    if report is not None:
+        from strutwork.reports.study_page import write_study_report
+
+        result["report"] = str(write_study_report(study, found, Path(report)).report)
     if json:
         print_json(result)
     else:
@@ -71,7 +83,7 @@ def run(file: str, out: str | None, *, resume: bool, workers: int | None, json: 
 def _to_file(study: Study, out: str, **options: Any) -> xr.Dataset:
     try:
         return run_to_file(study, out, **options)
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, SystemExit):
         if parts_of(study, Path(out)).is_dir():
             tell(f"What is finished is kept beside {out}: give --resume to go on.")
         raise
@@ -163,6 +175,8 @@ def _print(study: Study, found: xr.Dataset, result: dict[str, Any]) -> None:
     )
     for path in result["data"]:
         out.print(visible(path), markup=False, soft_wrap=True)
+    if "report" in result:
+        out.print(f"Report: {visible(result['report'])}", markup=False, soft_wrap=True)
     _print_best(out, columns, parameters, result)
 
 

@@ -26,6 +26,9 @@ def study(
             "is finished is kept beside it until then.",
         ),
     ] = None,
+    report: Annotated[
+        str | None, typer.Option("--report", metavar="DIR", help="Write a report of it there.")
+    ] = None,
     resume: Annotated[
         bool,
         typer.Option("--resume", help="Go on from what an interrupted run had finished."),
@@ -47,4 +50,4 @@ def study(
         return
     if resume and out is None:
         raise typer.BadParameter("--resume needs --out, beside which finished parts are kept.")
-    work.run(file, out, resume=resume, workers=workers, json=json)
+    work.run(file, out, report, resume=resume, workers=workers, json=json)
