@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from strutwork.errors import ModelError
 from strutwork.reports.build import Composed, WrittenReport, page_of, write_page
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Answer, Answers, Chapter, Column, Figure, Row, Table, Text
@@ -45,9 +46,13 @@ def write_study_report(study: Study, found: xr.Dataset, folder: Path) -> Written
     ------
     OutputError
         The folder cannot be written, or holds a report on something else.
+    ModelError
+        No answer is finite.
     """
     parameters = parameter_columns(found)
     answers = main_answers(study, found)
+    if not answers:
+        raise ModelError("study", "has no finite answer to show.", "Ask for something else.")
     chapters: tuple[Chapter, ...] = (
         _cover(study, found, parameters, answers),
         _effects(study, parameters, answers, answer_columns(found)),
