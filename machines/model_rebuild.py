@@ -142,4 +142,6 @@ def _reshaped(before: ModelTable, after: ModelTable, differ: frozenset[str]) -> 
         old.elements != new.elements for old, new in zip(before.beams, after.beams, strict=True)
     ):
         return True
-    return "materials" in differ and bool(before.solids)
+    changed = {n for n, m in after.materials.items() if m is not before.materials[n]}
+    used = {name for s in after.solids for name in (s.material, *(s.materials or {}).values())}
+    return bool(changed & used)

@@ -225,3 +225,20 @@ def test_where_it_comes_from() -> None:
         Parametric.of("missing.toml")
     with pytest.raises(ModelError, match="states no numbers"):
         Parametric.of(3)
+
+
+def test_a_solid_is_reduced_again_only_where_its_material_changes(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = Parametric.of(MACHINES / "gantry.toml")
+    base = machine.model()
+
+    def refuse(*_: object) -> None:
+        raise AssertionError("built anew")
+
+    monkeypatch.setattr(model_rebuild, "build_model", refuse)
+    for path in ("materials.steel.youngs_modulus", "joints.y1.stiffness.x"):
+        changed = machine.model({path: 1.01 * machine.paths[path].value})
+        assert changed.structure.elements is base.structure.elements
+    with pytest.raises(AssertionError, match="built anew"):
+        machine.model({"materials.granite.density": "2800 kg/m^3"})
