@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING, Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from strutwork.errors import ModelError, UnitError
 from strutwork.machines.model_schema import ModelTable
+from strutwork.names import meant
 from strutwork.units import shown
 
 if TYPE_CHECKING:
@@ -108,10 +108,8 @@ def _nearest(loc: tuple[int | str, ...]) -> str:
     """Remedy for an unknown key: the nearest key that its table knows."""
     top = ModelTable.model_fields
     known = list(top) if len(loc) == 1 else sorted(_keys(top[str(loc[0])].annotation))
-    close = difflib.get_close_matches(str(loc[-1]), known, 1)
-    if close:
-        return f'Did you mean "{close[0]}"?'
-    return "Remove it, or check its spelling in docs/model-file.md."
+    question = meant(str(loc[-1]), known).rstrip()
+    return question or "Remove it, or check its spelling in docs/model-file.md."
 
 
 def _keys(annotation: Any) -> set[str]:

@@ -17,6 +17,7 @@ from strutwork.msa.loads import LoadCase
 from strutwork.msa.point_mass import mass_weight
 from strutwork.msa.structure import PlacedStructure, rigid_map
 from strutwork.msa.topology import Topology
+from strutwork.names import choices
 
 Array = NDArray[Any]
 
@@ -172,7 +173,7 @@ class System(Clusters):
                     raise ModelError(
                         f"load case {case.name}",
                         f'names the unknown joint "{name}".',
-                        "Define the joint.",
+                        choices("Joints", name, linkage.joint_index),
                     )
                 j = linkage.joint_index[name]
                 resists = [DIRECTIONS[d] for d in np.flatnonzero(states[j] != State.FREE)]

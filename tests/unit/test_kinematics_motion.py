@@ -219,7 +219,7 @@ def test_a_screw_joint_is_measured_along_its_axis() -> None:
         ({}, "is given no target"),
         ({"task": {"u": 1.0}}, 'unknown direction "u"'),
         ({"task": {"x": np.nan}}, "x of target 0 is not finite"),
-        ({"joints": {("crnak", "rz"): 0.1}}, 'unknown joint "crnak".\nNearest are crank'),
+        ({"joints": {("crnak", "rz"): 0.1}}, 'unknown joint "crnak".\nDid you mean "crank"'),
         ({"joints": {("crank", "z"): 0.1}}, '"z" does not move in it.\nIts coordinates are rz'),
         ({"task": {"x": [0.1, 0.2]}, "joints": {("pin", "rz"): [1, 2, 3]}}, "do not go together"),
         ({"tool": Poses.of([0, 0, 0.0]), "task": {"x": 0.0}}, "both a pose and a task"),
