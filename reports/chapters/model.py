@@ -21,7 +21,7 @@ from strutwork.reports.content import (
 )
 from strutwork.reports.data_files import json_file
 from strutwork.reports.figures.model import model_view
-from strutwork.reports.free_motions import joint_words, tool_words
+from strutwork.reports.freedom_words import freedom_words, joint_words
 from strutwork.reports.model_check import ModelCheck
 from strutwork.reports.model_solution import ModelSolution
 from strutwork.reports.numbers import MINUS, clean, count, significant
@@ -125,12 +125,11 @@ def check_chapter(check: ModelCheck) -> Chapter:
         ("With the drives free", found.driven_motions),
     ):
         if motions:
-            words = tool_words(model, motions)
             lines = [[str(i), joint_words(m)] for i, m in enumerate(motions[:SHOWN], 1)]
             columns = (Column("motion", "", False), Column("joints that move", "", False))
             table = Table(f"{when}: joints that move", columns, lines, "check.json")
             blocks += [
-                Text(f"{when}: {words[0].lower()}{words[1:]}"),
+                Text(f"{when} {freedom_words(model, motions)}."),
                 Details(f"The joints of {count(len(motions), 'motion')}", (table,)),
             ]
     if found.self_stress:
