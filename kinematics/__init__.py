@@ -45,11 +45,9 @@ if TYPE_CHECKING:
     from strutwork.kinematics.motion import Motion, Moved
     from strutwork.kinematics.regions import Regions
     from strutwork.kinematics.reversals import Reversals
-    from strutwork.kinematics.singularities import (
-        Singularity,
-        singularities_on_line,
-        singularity_distance,
-    )
+    from strutwork.kinematics.singular_distance import singularity_distance
+    from strutwork.kinematics.singular_poses import Singularity
+    from strutwork.kinematics.singularities import singularities_on_line
     from strutwork.kinematics.singularity_curves import (
         SingularCurve,
         SingularPlane,
@@ -152,7 +150,7 @@ _LATER = {
     "Reversals": "reversals",
     "SingularCurve": "singularity_curves",
     "SingularPlane": "singularity_curves",
-    "Singularity": "singularities",
+    "Singularity": "singular_poses",
     "TaskGrid": "task_grid",
     "ToolDriveSpace": "tool_drive_space",
     "Trajectory": "trajectory",
@@ -163,7 +161,7 @@ _LATER = {
     "roughness": "trajectory",
     "singularities_in_plane": "singularity_curves",
     "singularities_on_line": "singularities",
-    "singularity_distance": "singularities",
+    "singularity_distance": "singular_distance",
     "velocity_ellipsoids": "transmission",
     "velocity_zonotope": "capability",
 }

@@ -19,7 +19,7 @@ from strutwork.kinematics.grid_lines import (
 from strutwork.kinematics.lost_motion import Kind, kinds
 from strutwork.kinematics.pose_family import PoseFamily, Progress
 from strutwork.kinematics.reach_end import ReachEnds, reach_ends
-from strutwork.kinematics.singularities import (
+from strutwork.kinematics.singular_poses import (
     PARTS,
     Singularity,
     before_the_end,

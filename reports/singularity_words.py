@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.kinematics.lost_motion import Kind, Lost
-from strutwork.kinematics.singularities import Singularity
+from strutwork.kinematics.singular_poses import Singularity
 from strutwork.kinematics.singularity_curves import SingularCurve, SingularPlane
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.motion_table import targets_of_words

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 
 from strutwork.kinematics import mobility
-from strutwork.kinematics.singularities import singularity_distance
+from strutwork.kinematics.singular_distance import singularity_distance
 from strutwork.kinematics.tool_drive_space import tool_drive_space
 from strutwork.machines import HexelHexapod, MovingBridge, SerialFiveAxis
 from strutwork.papers.son_2002.measured_statements import TESTS

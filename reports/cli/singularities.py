@@ -13,7 +13,8 @@ from strutwork.errors import ModelError
 from strutwork.files import write_text
 from strutwork.kinematics import characteristic_length
 from strutwork.kinematics.pose_family import PoseFamily
-from strutwork.kinematics.singularities import Singularity, singularities_on_line
+from strutwork.kinematics.singular_poses import Singularity
+from strutwork.kinematics.singularities import singularities_on_line
 from strutwork.kinematics.singularity_curves import SingularPlane, singularities_in_plane
 from strutwork.machines.load import load
 from strutwork.machines.model import Model

@@ -13,12 +13,9 @@ from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_f
 from strutwork.kinematics.lost_motion import Kind
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.pose_family import PoseFamily, TaskSection, joined
-from strutwork.kinematics.singularities import (
-    Singularity,
-    classify,
-    singularities_on_line,
-    singularity_distance,
-)
+from strutwork.kinematics.singular_distance import singularity_distance
+from strutwork.kinematics.singular_poses import Singularity, classify
+from strutwork.kinematics.singularities import singularities_on_line
 from strutwork.kinematics.singularity_curves import singularities_in_plane
 from strutwork.kinematics.tool_drive_space import tool_drive_space
 from tests.linkages import chain, slider_crank
