@@ -20,7 +20,7 @@ from strutwork.reports.figures.vibration import mode_view
 from strutwork.reports.model_solution import solve_model
 from strutwork.reports.numbers import significant, times
 from strutwork.reports.vibration_study import study_model_vibration
-from strutwork.studies.dataset_units import stated_unit, unit_of_label
+from strutwork.studies.dataset_units import stated_unit, unit_at
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -119,7 +119,7 @@ def survey_figure(dataset: xr.Dataset, name: str | None, label: str | None) -> g
             "Select some first: dataset.sel(z=0.0), or dataset.isel(z=0).",
         )
     chosen, word = _labelled(dataset[name], poses, label)
-    unit, scale = _shown_unit(unit_of_label(stated_unit(dataset[name]), word))
+    unit, scale = _shown_unit(unit_at(dataset, name, word))
     at_one = {d: 0 for d in poses if d not in wide}
     values = scale * chosen.isel(at_one).transpose(*wide).to_numpy()
     axes = [_shown_axis(dataset, d) for d in wide]

@@ -15,6 +15,7 @@ from strutwork.errors import ModelError, NumericalError
 from strutwork.fea import modes
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import PlacedStructure, axis_stiffness_free, compliance_budget, tool_compliance
+from strutwork.studies.dataset_units import LabelledUnits, unit_attributes, unit_coordinate
 from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents, removal_exponents
 from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
 
@@ -25,6 +26,8 @@ FACTORS: tuple[float, ...] = tuple(float(2.0 ** (k / 2)) for k in range(-4, 5))
 
 #: Laws of the joints that the thesis speaks of.
 LAWS = (SIMILAR, ROLLERS, UNSCALED)
+
+_STIFFNESS = LabelledUnits("N/m; N m/rad", ("N/m",) * 3 + ("N m/rad",) * 3)
 
 
 @dataclass(frozen=True)
@@ -178,7 +181,7 @@ class ScaleStudy:
                 "stiffness": (
                     (*head, "direction"),
                     self.stiffness,
-                    {"component_units": "N/m; N m/rad", "meaning": "1/C_ii at the tool"},
+                    unit_attributes(str(_STIFFNESS)) | {"meaning": "1/C_ii at the tool"},
                 ),
                 "frequency": ((*head, "mode"), self.frequencies, {"units": "Hz"}),
                 "stiffness_exponent": ((*head, "direction"), stiffness, {"units": "1"}),
@@ -189,6 +192,7 @@ class ScaleStudy:
                 "law": [str(law) for law in self.laws],
                 "factor": ("factor", self.factors, {"units": "1"}),
                 "direction": list(DIRECTIONS),
+                **unit_coordinate("stiffness", "direction", _STIFFNESS),
                 "mode": np.arange(1, self.frequencies.shape[-1] + 1),
             },
         )

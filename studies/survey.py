@@ -22,6 +22,7 @@ from strutwork.machines.model_poses import moved
 from strutwork.source_digest import source_digest
 from strutwork.studies.answers import Answer
 from strutwork.studies.chunks import Arrays
+from strutwork.studies.dataset_units import LabelledUnits, motion_units, unit_coordinate
 from strutwork.studies.description import plain, versions
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import PoseStatus
@@ -164,22 +165,26 @@ def _dataset(
     model: Model, grid: TaskGrid, answers: Sequence[Answer], arrays: Arrays, words: list[str]
 ) -> xr.Dataset:
     dims = tuple(grid.axes)
+    joints = motion_units([d for _, d in model.motion.joints.names])
     variables: dict[str, xr.Variable] = {
         "status": flags("pose", arrays["status"]),
         "reason": named("pose", arrays["reason"], "1", "index into reason_text"),
         "joint_coordinate": named(
-            ("pose", "joint"), arrays["joint_coordinate"], "m or rad", "joint coordinates"
+            ("pose", "joint"), arrays["joint_coordinate"], joints, "joint coordinates"
         ),
     }
     labels: dict[str, Any] = {
         "joint": [f"{joint}:{d}" for joint, d in model.motion.joints.names],
         "reason_text": words,
+        **unit_coordinate("joint_coordinate", "joint", joints),
     }
     for answer in answers:
         for column in answer.columns:
             variables[column.name] = named(
                 ("pose", *column.dims), arrays[column.name], column.unit, column.meaning
             )
+            if isinstance(column.unit, LabelledUnits):
+                labels |= unit_coordinate(column.name, column.dims[-1], column.unit)
         labels |= {k: list(v) for k, v in answer.coordinates.items()}
     folded = {
         name: xr.Variable(
