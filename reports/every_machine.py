@@ -37,6 +37,12 @@ ALL = "all machines"
 NONE = "–"
 CSV = "comparison.csv"
 
+#: Its own data a page carries, the reports of others it does not.
+BESIDE = (
+    "Each report lies in the folder of its name, beside this page. Passed on alone, this page "
+    "keeps its own data, and its links to the reports lead nowhere: pass on the entire folder."
+)
+
 
 @dataclass(frozen=True)
 class Compared:
@@ -226,7 +232,8 @@ def _remarks(compared: Sequence[Compared]) -> Iterator[str]:
 def _reports(links: Sequence[tuple[str, str]], failed: Mapping[str, str]) -> Chapter:
     lines = tuple(f"{name}: {' '.join(why.split())}" for name, why in failed.items())
     without = (Text("Without a report:"), Points(lines)) if lines else ()
-    return Chapter("reports", "Where are their reports?", (Links(tuple(links)), *without))
+    blocks = (Text(BESIDE), Links(tuple(links))) if links else ()
+    return Chapter("reports", "Where are their reports?", (*blocks, *without))
 
 
 def _csv(compared: Sequence[Compared]) -> DataFile:
