@@ -42,6 +42,7 @@ class WalkRows:
         What is given depends on itself or on the joints.
     """
 
+    length: float
     joint: Indices
     direction: Indices
     asked: NDArray[np.bool_]
