@@ -24,8 +24,6 @@ print(*sorted(sys.modules), sep="\\n")
 #: Libraries and parts of the package that a check of a model file has no use for.
 NEEDLESS = {
     "numba",
-    "numpy.ma",
-    "numpy.testing",
     "pandas",
     "pint",
     "plotly",
@@ -41,7 +39,6 @@ NEEDLESS = {
     "strutwork.reports.cli.workspace_command",
     "strutwork.studies",
     "threadpoolctl",
-    "unittest",
     "xarray",
 }
 
