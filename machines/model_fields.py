@@ -99,7 +99,8 @@ class Quantity:
 class Table(BaseModel):
     """A table whose keys are all known."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # a file's tables are made ready once, together, when the first file is read
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 def _shown(name: str) -> str:

@@ -13,7 +13,6 @@ import typer
 
 from strutwork import __version__
 from strutwork.names import visible
-from strutwork.reports.cli.accuracy_command import accuracy
 from strutwork.reports.cli.choices import (
     JointAt,
     Json,
@@ -25,23 +24,48 @@ from strutwork.reports.cli.choices import (
     Target,
 )
 from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
-from strutwork.reports.cli.manner import speaking
-from strutwork.reports.cli.map_command import map_command
-from strutwork.reports.cli.move_command import move
-from strutwork.reports.cli.new_command import new
-from strutwork.reports.cli.report_command import report
-from strutwork.reports.cli.reversals_command import reversals
-from strutwork.reports.cli.schema_command import schema
-from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
-from strutwork.reports.cli.trajectory_command import trajectory
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
-from strutwork.reports.cli.workspace_command import workspace
+
+_HERE = "strutwork.reports.cli"
+
+#: Where each command stands, in the order in which help lists them.
+COMMANDS = {
+    "machines": f"{_HERE}.app:machines",
+    "check": f"{_HERE}.app:check",
+    "solve": f"{_HERE}.app:solve",
+    "map": f"{_HERE}.map_command:map_command",
+    "modes": f"{_HERE}.app:modes",
+    "frf": f"{_HERE}.app:frf",
+    "compare": f"{_HERE}.app:compare",
+    "tolerance": f"{_HERE}.app:tolerance",
+    "scale": f"{_HERE}.app:scale",
+    "accuracy": f"{_HERE}.accuracy_command:accuracy",
+    "move": f"{_HERE}.move_command:move",
+    "workspace": f"{_HERE}.workspace_command:workspace",
+    "new": f"{_HERE}.new_command:new",
+    "reversals": f"{_HERE}.reversals_command:reversals",
+    "schema": f"{_HERE}.schema_command:schema",
+    "singularities": f"{_HERE}.singularities_command:singularities",
+    "trajectory": f"{_HERE}.trajectory_command:trajectory",
+    "report": f"{_HERE}.report_command:report",
+}
+
+#: Those that print no tables, and take neither --csv nor --verbose.
+SILENT = ("new", "report", "schema")
+
+
+class Program(Commands):
+    """The program, whose commands are made when they are called or listed."""
+
+    places = COMMANDS
+    silent = SILENT
+
 
 app = typer.Typer(
     name="strutwork",
-    cls=Commands,
+    cls=Program,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
     epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
     "3 a result cannot be written, 130 interrupted, 141 nobody reads the output any more.",
@@ -90,8 +114,6 @@ def program(
     """Stiffness, mobility and joint forces of parallel and hybrid machines."""
 
 
-@app.command()
-@speaking
 def machines(json: Json = False) -> None:
     """List the machines of the literature, with their papers."""
     from strutwork.reports.cli import machines as work
@@ -99,8 +121,6 @@ def machines(json: Json = False) -> None:
     work.run(json)
 
 
-@app.command()
-@speaking
 def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
     """Count freedoms and redundant constraints of a machine, and name them."""
     from strutwork.reports.cli import check as work
@@ -109,8 +129,6 @@ def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
     work.run(subject(target, pose, joint), json)
 
 
-@app.command()
-@speaking
 def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
     """Solve the load cases of a machine, and the stiffness at its tool."""
     from strutwork.reports.cli import solve as work
@@ -119,11 +137,6 @@ def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
     work.run(subject(target, pose, joint), json)
 
 
-app.command("map")(speaking(map_command))
-
-
-@app.command()
-@speaking
 def modes(
     target: Target,
     count: Annotated[
@@ -162,8 +175,6 @@ def modes(
     )
 
 
-@app.command()
-@speaking
 def frf(
     target: Target,
     given: Annotated[
@@ -218,8 +229,6 @@ def frf(
     )
 
 
-@app.command()
-@speaking
 def compare(
     computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
     measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
@@ -253,8 +262,6 @@ def compare(
     )
 
 
-@app.command()
-@speaking
 def tolerance(
     target: Target,
     pose: Pose = None,
@@ -307,8 +314,6 @@ def tolerance(
     work.run(target, limit or (), options, out, at=where(pose, joint), json=json)
 
 
-@app.command()
-@speaking
 def scale(
     machine: Annotated[
         str,
@@ -368,14 +373,3 @@ def scale(
     span = (0.1 if low is None else low, 3.0 if high is None else high)
     count = 30 if lengths is None else lengths
     study(machine, span, count, width_ratio, tilt, out, granite=granite, json=json)
-
-
-app.command()(speaking(accuracy))
-app.command()(speaking(move))
-app.command()(speaking(workspace))
-app.command()(new)
-app.command()(speaking(reversals))
-app.command()(schema)
-app.command()(speaking(singularities))
-app.command()(speaking(trajectory))
-app.command()(report)
