@@ -26,7 +26,8 @@ HARD_SPACE = "\N{NO-BREAK SPACE}"
 
 #: Between a number and its unit, and between a direction and its coordinate.
 _UNIT = re.compile(
-    r"(?<=\d) (?=(?:%|°|[mµn]?m[²³]?\b|[µm]?rad\b|deg\b|k?N²?\b|Hz\b|kg\b|[GM]Pa\b|[sJW]\b|times\b))"
+    r"(?<=\d) (?=(?:%|°|[mµn]?m[²³]?\b|[µm]?rad\b|deg\b|k?N²?\b|Hz\b"
+    r"|kg\b|[GM]Pa\b|[sJW]\b|times\b))"
     r"|(?<=\b[xyz]) (?=[−\d])|(?<=\br[xyz]) (?=[−\d])"
 )
 

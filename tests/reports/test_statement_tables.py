@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from strutwork.papers.statements import Statement, statements_chapter
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import Statement
 from strutwork.reports.build import write_report
 from strutwork.reports.content import Table
 from tests.reports.browser import Browser

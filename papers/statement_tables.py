@@ -1,0 +1,231 @@
+"""The chapter of a document's statements: tables turned, notes below, tests behind a line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import groupby
+
+from strutwork.papers.statement_notes import Notes, marks
+from strutwork.papers.statement_pivot import Turned, turned
+from strutwork.papers.statements import NONE, Statement, difference_cell, printed, shown
+from strutwork.papers.tables import texts
+from strutwork.reports.content import Block, Cell, Chapter, Column, Details, Points, Table, Text
+from strutwork.reports.long_tables import LONGEST, together
+from strutwork.reports.numbers import count
+from strutwork.reports.pivot import Entry, pivoted
+
+HARD_SPACE = "\N{NO-BREAK SPACE}"
+
+Letters = Callable[[Sequence[Statement]], str]
+
+
+def statements_chapter(key: str, title: str, said: Sequence[Statement], data: str = "") -> Chapter:
+    """A chapter with every statement, and below the tables notes and tests, each once.
+
+    What a place says of several things stands in columns side by side; inputs that were taken
+    as printed are a sentence; the others are rows, in several tables where they are many.
+
+    Parameters
+    ----------
+    key, title : str
+        Of the chapter.
+    said : sequence of Statement
+    data : str
+        File beside the report that holds them, one a row.
+    """
+    notes = Notes(said)
+    tests = list(dict.fromkeys(s.test for s in said))
+
+    def letters(some: Sequence[Statement]) -> str:
+        return ", ".join(dict.fromkeys(_letter(tests.index(s.test)) for s in some))
+
+    held = letters if len(tests) > 1 else None
+    side_by_side = [
+        (place, table)
+        for place, some in _by_place(said).items()
+        if (table := turned(some)) is not None
+    ]
+    # the same statement may be made twice
+    taken = {id(s) for _, table in side_by_side for s in table.said}
+    left = [s for s in said if id(s) not in taken]
+    inputs = [some for some in _alike(left, _input) if len(some) > 1]
+    taken |= {id(s) for some in inputs for s in some}
+    rows = _alike([s for s in left if id(s) not in taken], _words)
+    blocks: list[Block] = [*_plain(rows, notes, held, len(said), data)]
+    blocks += [_side_by_side(place, table, notes, held, data) for place, table in side_by_side]
+    if inputs:
+        blocks.append(Points(tuple(_sentence(some, notes) for some in inputs)))
+    if notes.lines:
+        blocks.append(Points(notes.lines))
+    if held is None:
+        blocks.append(Text(f"Held by {tests[0]}."))
+    else:
+        lines = (Text(f"{_letter(n)}:{HARD_SPACE}{test}") for n, test in enumerate(tests))
+        blocks.append(Details(f"{count(len(tests), 'test')} that hold these results", tuple(lines)))
+    return Chapter(key, title, tuple(blocks))
+
+
+def _by_place(said: Sequence[Statement]) -> dict[str, list[Statement]]:
+    found: dict[str, list[Statement]] = {}
+    for statement in said:
+        found.setdefault(statement.place, []).append(statement)
+    return found
+
+
+def _alike(
+    said: Sequence[Statement], kind: Callable[[Statement], object]
+) -> list[tuple[Statement, ...]]:
+    """Neighbours of one kind together; those without a kind by themselves."""
+    found: list[tuple[Statement, ...]] = []
+    for what, group in groupby(said, key=kind):
+        some = tuple(group)
+        found += [some] if what is not None else [(s,) for s in some]
+    return found
+
+
+def _input(said: Statement) -> object:
+    """Numbers that were taken as printed and chosen so: neighbours of a place and a reason."""
+    same = not isinstance(said.published, str) and said.published == said.computed
+    return (said.place, said.reason) if same and said.status == "calibrated" else None
+
+
+def _words(said: Statement) -> object:
+    """What is no number and the same in all but its name."""
+    if not isinstance(said.published, str):
+        return None
+    return (said.published, str(said.computed), said.status, said.reason)
+
+
+def _sentence(some: Sequence[Statement], notes: Notes) -> str:
+    first = some[0]
+    thing, colon, _ = first.what.partition(": ")
+    common = colon and all(s.what.startswith(f"{thing}: ") for s in some)
+    values = ", ".join(
+        f"{printed(s.what.removeprefix(f'{thing}: ') if common else s.what)} "
+        f"{shown(s.published, s.unit)}"
+        for s in some
+    )
+    of = f" of {thing}" if common else ""
+    return f"{first.place}{of}, taken as printed {marks(notes.of(first))}: {values}."
+
+
+def _plain(
+    rows: Sequence[tuple[Statement, ...]],
+    notes: Notes,
+    held: Letters | None,
+    number: int,
+    data: str,
+) -> list[Table]:
+    """One statement a row, or neighbours that differ by their name alone."""
+    said = [s for some in rows for s in some]
+    # among words a unit stands with its number, which leaves the words more room
+    words = any(isinstance(v, str) for s in said for v in (s.published, s.computed))
+    columns = (
+        Column("place", "", False, width="narrow"),
+        Column("what", "", False, width="wide"),
+        # words wrap, numbers stand to the right
+        Column("published", "", not any(isinstance(s.published, str) for s in said)),
+        Column("computed", "", not any(isinstance(s.computed, str) for s in said)),
+        *(() if words else texts("unit")),
+        Column("difference"),
+        Column("status", "", False, width="narrow"),
+        *(texts("test") if held else ()),
+    )
+    runs = [
+        [_row(some, notes, held, words) for some in run]
+        for _, run in groupby(rows, key=lambda r: r[0].place)
+    ]
+    parts = together(runs, LONGEST)
+    tables = []
+    for part in parts:
+        places = [str(row[0]) for row in part]
+        of = f"{places[0]} to {places[-1]}" if places[0] != places[-1] else places[0]
+        caption = f"{of}: published and computed"
+        if len(parts) == 1:
+            caption = f"Published and computed: {len(said)}"
+            caption += f" of {number}, the others below" if number > len(said) else ""
+        tables.append(Table(caption, columns, part, data))
+    return tables
+
+
+def _row(
+    some: tuple[Statement, ...], notes: Notes, held: Letters | None, words: bool
+) -> list[str | Cell]:
+    first = some[0]
+    return [
+        "; ".join(dict.fromkeys(s.place for s in some)),
+        "; ".join(printed(s.what) for s in some),
+        *(shown(v, first.unit if words else "") for v in (first.published, first.computed)),
+        *(() if words else (printed(first.unit),)),
+        difference_cell(first),
+        f"{first.status} {marks(notes.of(first))}".strip(),
+        *([held(some)] if held else []),
+    ]
+
+
+def _side_by_side(
+    place: str, table: Turned, notes: Notes, held: Letters | None, data: str
+) -> Table:
+    said = table.said
+    words = any(isinstance(v, str) for s in said for v in (s.published, s.computed))
+    by_line: dict[str, list[Statement]] = {line: [] for line in table.lines}
+    for (_, line), statement in zip(table.places, said, strict=True):
+        by_line[line].append(statement)
+    once = all(len({str(s.published) for s in some}) == 1 for some in by_line.values())
+    # of inputs that were taken as printed one number says both
+    single = all(_input(s) is not None for s in said)
+    units = len({s.unit for s in said if not isinstance(s.computed, str)}) > 1 or not words
+    numeric = not words
+    heads = [
+        Column("", "", False, width="wide"),
+        *(texts("unit") if units and not words else ()),
+        *([Column("published", "", numeric)] if once and not single else []),
+        Column("status", "", False, width="narrow"),
+        *(texts("test") if held else ()),
+    ]
+    columns = [Column("computed", "", numeric)]
+    if not once and not single:
+        columns.insert(0, Column("published", "", numeric))
+    if single or once:
+        columns = [Column("", "", numeric)]
+    entries = []
+    for (column, line), s in zip(table.places, said, strict=True):
+        some = by_line[line]
+        states = dict.fromkeys(o.status for o in some)
+        common = set.intersection(*(set(notes.of(o)) for o in some))
+        status = f"{s.status} {marks(sorted(common))}" if len(states) == 1 else "in the columns"
+        row: list[str | Cell] = [
+            printed(line),
+            *([printed(some[0].unit)] if units and not words else []),
+            *([shown(s.published, s.unit if words else "")] if once and not single else []),
+            status.strip(),
+            *([held(some)] if held else []),
+        ]
+        own = marks(n for n in notes.of(s) if n not in common)
+        difference = difference_cell(s)
+        detail = "" if single or difference.text == NONE else difference.text
+        detail = f"{detail} {own}".strip()
+        if len(states) > 1:
+            detail = f"{s.status} {detail}".strip()
+        cells: list[str | Cell] = [
+            Cell(shown(s.computed, s.unit if words else ""), difference.tone, detail)
+        ]
+        if not once and not single:
+            cells.insert(0, shown(s.published, s.unit if words else ""))
+        entries.append(Entry(row, printed(column), cells))
+    caption = f"{place}: {count(len(said), 'result')}"
+    if single:
+        caption += ", taken as printed"
+    elif once:
+        caption += ", computed values in the columns"
+    return pivoted(caption, heads, columns, entries, data)
+
+
+def _letter(number: int) -> str:
+    """A to z, then aa and so on."""
+    text = ""
+    number += 1
+    while number:
+        number, digit = divmod(number - 1, 26)
+        text = chr(ord("a") + digit) + text
+    return text
