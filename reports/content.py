@@ -241,9 +241,17 @@ class Links:
 
 @dataclass(frozen=True)
 class Points:
-    """A list of short statements."""
+    """A list of short statements.
+
+    Parameters
+    ----------
+    items : tuple of str
+    title : str
+        Stands above them.
+    """
 
     items: tuple[str, ...]
+    title: str = ""
     kind: ClassVar[str] = "points"
 
 

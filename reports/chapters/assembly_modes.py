@@ -53,8 +53,8 @@ def write(subject: Subject) -> Chapter:
     blocks: list[Block] = [Text(_text(modes)), Facts(tuple(_facts(modes)))]
     if len(modes) > 1:
         table = _table(task)
-            more = Details(f"The {len(modes)} places of the tool in numbers", (table,))
-            blocks += [_figures(modes, task), table if len(modes) <= LONGEST else more]
+        more = Details(f"The {len(modes)} places of the tool in numbers", (table,))
+        blocks += [_figures(modes, task), table if len(modes) <= LONGEST else more]
     file = csv_file(
         "assembly-modes.csv",
         "place of the tool, m, and its rotation vector from home, rad, in every assembly mode",
