@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from strutwork.papers.statements import Statement
+from strutwork.papers.statements import Statement, printed
 
 BETWEEN = "; "
 
@@ -32,7 +32,7 @@ class Notes:
     @property
     def lines(self) -> tuple[str, ...]:
         """Every note that was needed, with its number."""
-        return tuple(f"({n}) {p[0].upper()}{p[1:]}." for p, n in self._numbers.items())
+        return tuple(printed(f"({n}) {p[0].upper()}{p[1:]}.") for p, n in self._numbers.items())
 
 
 def marks(numbers: Iterable[int]) -> str:

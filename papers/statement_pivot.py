@@ -58,6 +58,9 @@ class Turned:
             and 2 <= len(self.columns) <= MOST_COLUMNS
             and len(self.lines) <= LONGEST
             and self.filled >= FILLED
+            # what has another unit is another quantity
+            and len({(line, s.unit) for (_, line), s in zip(self.places, self.said, strict=True)})
+            == len(self.lines)
         )
 
 

@@ -166,59 +166,82 @@ def _row(
 def _side_by_side(
     place: str, table: Turned, notes: Notes, held: Letters | None, data: str
 ) -> Table:
+    """Published and computed of each thing in columns; what is the same in all is said above."""
     said = table.said
     words = any(isinstance(v, str) for s in said for v in (s.published, s.computed))
     by_line: dict[str, list[Statement]] = {line: [] for line in table.lines}
     for (_, line), statement in zip(table.places, said, strict=True):
         by_line[line].append(statement)
-    once = all(len({str(s.published) for s in some}) == 1 for some in by_line.values())
+    heads: dict[str, list[str]] = {
+        "unit": [] if words else [printed(some[0].unit) for some in by_line.values()],
+        "status": [_status(some, notes) for some in by_line.values()],
+        "test": [held(some) for some in by_line.values()] if held else [],
+    }
     # of inputs that were taken as printed one number says both
     single = all(_input(s) is not None for s in said)
-    units = len({s.unit for s in said if not isinstance(s.computed, str)}) > 1 or not words
-    numeric = not words
-    heads = [
-        Column("", "", False, width="wide"),
-        *(texts("unit") if units and not words else ()),
-        *([Column("published", "", numeric)] if once and not single else []),
-        Column("status", "", False, width="narrow"),
-        *(texts("test") if held else ()),
-    ]
-    columns = [Column("computed", "", numeric)]
-    if not once and not single:
-        columns.insert(0, Column("published", "", numeric))
-    if single or once:
-        columns = [Column("", "", numeric)]
+    once = not single and all(len({str(s.published) for s in o}) == 1 for o in by_line.values())
+    parts = [count(len(said), "result"), *(["taken as printed"] if single else [])]
+    for head, cells in heads.items():
+        if len(set(cells)) == 1:
+            parts.append(f"test {cells[0]}" if head == "test" else cells[0])
+    kept = {head: cells for head, cells in heads.items() if len(set(cells)) > 1}
+    if once:
+        kept["published"] = [
+            shown(some[0].published, some[0].unit if words else "") for some in by_line.values()
+        ]
+    first = {line: [cells[n] for cells in kept.values()] for n, line in enumerate(by_line)}
+    columns = [Column("" if single or once else "computed", "", not words)]
+    if not single and not once:
+        columns.insert(0, Column("published", "", not words))
     entries = []
     for (column, line), s in zip(table.places, said, strict=True):
         some = by_line[line]
-        states = dict.fromkeys(o.status for o in some)
-        common = set.intersection(*(set(notes.of(o)) for o in some))
-        status = f"{s.status} {marks(sorted(common))}" if len(states) == 1 else "in the columns"
-        row: list[str | Cell] = [
-            printed(line),
-            *([printed(some[0].unit)] if units and not words else []),
-            *([shown(s.published, s.unit if words else "")] if once and not single else []),
-            status.strip(),
-            *([held(some)] if held else []),
-        ]
-        own = marks(n for n in notes.of(s) if n not in common)
-        difference = difference_cell(s)
-        detail = "" if single or difference.text == NONE else difference.text
-        detail = f"{detail} {own}".strip()
-        if len(states) > 1:
-            detail = f"{s.status} {detail}".strip()
-        cells: list[str | Cell] = [
-            Cell(shown(s.computed, s.unit if words else ""), difference.tone, detail)
-        ]
-        if not once and not single:
+        cells: list[str | Cell] = [_computed(s, some, notes, words)]
+        if not single and not once:
             cells.insert(0, shown(s.published, s.unit if words else ""))
-        entries.append(Entry(row, printed(column), cells))
-    caption = f"{place}: {count(len(said), 'result')}"
-    if single:
-        caption += ", taken as printed"
-    elif once:
-        caption += ", computed values in the columns"
-    return pivoted(caption, heads, columns, entries, data)
+        entries.append(Entry([printed(line), *first[line]], printed(column), cells))
+    return pivoted(
+        f"{place}: {', '.join(part for part in parts if part)}",
+        [
+            Column("", "", False, width="wide"),
+            *(
+                Column(
+                    "published, and computed:" if head == "published" else head,
+                    "",
+                    head == "published" and not words,
+                    width="narrow" if head == "status" else "",
+                )
+                for head in kept
+            ),
+        ],
+        columns,
+        entries,
+        data,
+    )
+
+
+def _common(some: Sequence[Statement], notes: Notes) -> list[int]:
+    """Notes that all of them have."""
+    return sorted(set.intersection(*(set(notes.of(s)) for s in some)))
+
+
+def _status(some: Sequence[Statement], notes: Notes) -> str:
+    states = dict.fromkeys(s.status for s in some)
+    text = next(iter(states)) if len(states) == 1 else "in the columns"
+    return f"{text} {marks(_common(some, notes))}".strip()
+
+
+def _computed(said: Statement, some: Sequence[Statement], notes: Notes, words: bool) -> Cell:
+    """The computed value; below it the difference and what its neighbours do not have."""
+    found = difference_cell(said)
+    same = not isinstance(said.published, str) and said.published == said.computed
+    parts = (
+        said.status if len({s.status for s in some}) > 1 else "",
+        "" if found.text == NONE or same else found.text,
+        marks(n for n in notes.of(said) if n not in _common(some, notes)),
+    )
+    value = shown(said.computed, said.unit if words else "")
+    return Cell(value, found.tone, " ".join(part for part in parts if part))
 
 
 def _letter(number: int) -> str:

@@ -45,13 +45,13 @@ def assumed(title: str, rows: Sequence[Sequence[str]]) -> Points:
         Assumption, value, source.
 
     >>> assumed("Dimensions", [("Rod", "1 m", "assumed"), ("Load", "none", "assumed")]).items
-    ('Assumed. Rod: 1 m. Load: none.',)
+    ('Rod: 1 m; Load: none (assumed).',)
     """
     found: dict[str, list[str]] = {}
     for what, value, source in rows:
-        found.setdefault(source, []).append(f"{what}: {value}.")
+        found.setdefault(source, []).append(f"{what}: {value}" if value else what)
     return Points(
-        tuple(f"{s[0].upper()}{s[1:]}. {' '.join(values)}" for s, values in found.items()), title
+        tuple(f"{'; '.join(values)} ({source})." for source, values in found.items()), title
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from strutwork.reports.alike import DIFFERS, label, pattern, word
-from strutwork.reports.content import Block, Column, Details, Table, Text
+from strutwork.reports.content import Block, Cell, Column, Details, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.numbers import significant
 from strutwork.reports.pivot import Entry, pivoted
@@ -138,7 +138,12 @@ def _each(groups: Sequence[Sequence[JointRange]], data: str) -> list[Block]:
     blocks: list[Block] = []
     for members, family in families.items():
         entries = [
-            Entry([_title(group), one.unit], member, [_span(one.low, one.high)])
+            Entry(
+                [_title(group), one.unit],
+                member,
+                # one number above the other: six spans side by side are too wide
+                [Cell(_number(one.low), "plain", f"to {_number(one.high)}")],
+            )
             for group in family
             for member, one in zip(members, group, strict=True)
         ]

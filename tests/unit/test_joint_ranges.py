@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from strutwork.reports.content import Details, Table, Text
+from strutwork.reports.content import Cell, Details, Table, Text
 from strutwork.reports.joint_ranges import JointRange, range_blocks, range_file
 
 
@@ -37,7 +37,7 @@ def test_each_leg_is_a_column_and_what_stands_still_a_sentence() -> None:
     (table,) = more.items
     assert isinstance(table, Table)
     assert [c.title for c in table.columns[2:]] == [f"leg{k}" for k in range(1, 7)]
-    assert table.cells[0][2].text == "499.0 to 801.0"
+    assert table.cells[0][2] == Cell("499.0", "plain", "to 801.0")
     last = blocks[-1]
     assert isinstance(last, Text)
     assert last.text == "These do not move: pin of the legs (6), rx."
