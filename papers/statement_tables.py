@@ -190,16 +190,24 @@ def _side_by_side(
             shown(some[0].published, some[0].unit if words else "") for some in by_line.values()
         ]
     first = {line: [cells[n] for cells in kept.values()] for n, line in enumerate(by_line)}
-    columns = [Column("" if single or once else "computed", "", not words)]
-    if not single and not once:
+    # beside other columns there is no room for two of each of many things
+    below = not single and not once and len(table.columns) > 2 and bool(kept)
+    apart = not single and not once and not below
+    columns = [Column("computed" if apart else "", "", not words)]
+    if apart:
         columns.insert(0, Column("published", "", not words))
     entries = []
     for (column, line), s in zip(table.places, said, strict=True):
         some = by_line[line]
-        cells: list[str | Cell] = [_computed(s, some, notes, words)]
-        if not single and not once:
-            cells.insert(0, shown(s.published, s.unit if words else ""))
+        published = shown(s.published, s.unit if words else "")
+        cells: list[str | Cell] = [
+            _computed(s, some, notes, words, f"published {published}" if below else "")
+        ]
+        if apart:
+            cells.insert(0, published)
         entries.append(Entry([printed(line), *first[line]], printed(column), cells))
+    if below:
+        parts.append("computed above published")
     return pivoted(
         f"{place}: {', '.join(part for part in parts if part)}",
         [
@@ -231,11 +239,14 @@ def _status(some: Sequence[Statement], notes: Notes) -> str:
     return f"{text} {marks(_common(some, notes))}".strip()
 
 
-def _computed(said: Statement, some: Sequence[Statement], notes: Notes, words: bool) -> Cell:
+def _computed(
+    said: Statement, some: Sequence[Statement], notes: Notes, words: bool, published: str
+) -> Cell:
     """The computed value; below it the difference and what its neighbours do not have."""
     found = difference_cell(said)
     same = not isinstance(said.published, str) and said.published == said.computed
     parts = (
+        published,
         said.status if len({s.status for s in some}) > 1 else "",
         "" if found.text == NONE or same else found.text,
         marks(n for n in notes.of(said) if n not in _common(some, notes)),

@@ -10,7 +10,7 @@ from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES
 from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.published_table import PublishedTable
 from strutwork.papers.tables import beside, numbers, rows_file, texts
-from strutwork.reports.content import Block, Points, Table, Text
+from strutwork.reports.content import Block, Column, Points, Table, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.numbers import significant
 from strutwork.reports.pivot import Entry, pivoted
@@ -53,7 +53,7 @@ def _beside(caption: str, rows: tuple[PublishedRow, ...], file: str) -> Table:
     """Published and computed of every machine side by side, a quantity a row."""
     return pivoted(
         caption,
-        texts("quantity", "unit", "status"),
+        (*texts("quantity", "unit"), Column("status", "", False, width="narrow")),
         numbers("published", "computed"),
         [
             Entry(
