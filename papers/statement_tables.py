@@ -246,13 +246,13 @@ def _computed(
     found = difference_cell(said)
     same = not isinstance(said.published, str) and said.published == said.computed
     parts = (
-        published,
         said.status if len({s.status for s in some}) > 1 else "",
         "" if found.text == NONE or same else found.text,
         marks(n for n in notes.of(said) if n not in _common(some, notes)),
     )
     value = shown(said.computed, said.unit if words else "")
-    return Cell(value, found.tone, " ".join(part for part in parts if part))
+    own = " ".join(part for part in parts if part)
+    return Cell(value, found.tone, ", ".join(part for part in (published, own) if part))
 
 
 def _letter(number: int) -> str:
