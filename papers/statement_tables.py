@@ -181,15 +181,15 @@ def _side_by_side(
     single = all(_input(s) is not None for s in said)
     once = not single and all(len({str(s.published) for s in o}) == 1 for o in by_line.values())
     parts = [count(len(said), "result"), *(["taken as printed"] if single else [])]
-    for head, cells in heads.items():
-        if len(set(cells)) == 1:
-            parts.append(f"test {cells[0]}" if head == "test" else cells[0])
-    kept = {head: cells for head, cells in heads.items() if len(set(cells)) > 1}
+    for head, texts_below in heads.items():
+        if len(set(texts_below)) == 1:
+            parts.append(f"test {texts_below[0]}" if head == "test" else texts_below[0])
+    kept = {head: column for head, column in heads.items() if len(set(column)) > 1}
     if once:
         kept["published"] = [
             shown(some[0].published, some[0].unit if words else "") for some in by_line.values()
         ]
-    first = {line: [cells[n] for cells in kept.values()] for n, line in enumerate(by_line)}
+    first = {line: [column[n] for column in kept.values()] for n, line in enumerate(by_line)}
     # beside other columns there is no room for two of each of many things
     below = not single and not once and len(table.columns) > 2 and bool(kept)
     apart = not single and not once and not below
