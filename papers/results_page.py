@@ -13,11 +13,7 @@ from pathlib import Path
 
 from strutwork.errors import ModelError
 from strutwork.files import write_text
-from strutwork.papers.published_rows import Status
-from strutwork.papers.statements import Statement, read_statements, shown
-
-#: Kinds of status in the order in which they are counted.
-STATUSES: tuple[Status, ...] = ("predicted", "calibrated", "not reproducible")
+from strutwork.papers.statements import STATUSES, Statement, read_statements, shown
 
 HEAD = """# Published results
 

@@ -19,7 +19,13 @@ from strutwork.papers.chablat_2003.squares import (
 from strutwork.papers.chablat_2003.statements import statements
 from strutwork.papers.chablat_2003.third_leg import SIDE, range_map
 from strutwork.papers.published_rows import file_name
-from strutwork.papers.statements import NONE, count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import (
+    NONE,
+    count_text,
+    statements_file,
+    statements_name,
+)
 from strutwork.papers.tables import rows_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter, Column, Figure, Table, Text
@@ -47,7 +53,10 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters of the document's own page."""
     said = statements()
     table = statements_chapter(
-        "statements", "Every printed result beside the computed values", said
+        "statements",
+        "Every printed result beside the computed values",
+        said,
+        statements_name(CHABLAT_2003.key),
     )
     rows = square_rows()
     beside = Chapter(

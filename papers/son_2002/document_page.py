@@ -6,7 +6,8 @@ from itertools import groupby
 
 from strutwork.machines.literature import SON_2002
 from strutwork.papers.son_2002.statements import statements
-from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import count_text, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter, Text
 from strutwork.studies.progress import Teller
@@ -75,7 +76,7 @@ def document_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[C
     }
     chapters = [
         summary,
-        *(statements_chapter(key, title, by_part[key]) for key, title, _ in _PARTS),
+        *(statements_chapter(key, title, by_part[key], file.name) for key, title, _ in _PARTS),
     ]
     chapters.append(closing_chapter(SON_2002.key, {}, {}, chapters))
     return (

@@ -9,10 +9,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
-from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Row, Table, Text
+from strutwork.reports.content import (
+    Block,
+    Chapter,
+    Column,
+    Details,
+    Fact,
+    Facts,
+    Figure,
+    Row,
+    Table,
+    Text,
+)
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.theme import PALETTE, layout
-from strutwork.reports.numbers import significant
+from strutwork.reports.long_tables import LONGEST
+from strutwork.reports.numbers import MINUS, significant
 from strutwork.reports.subject import Subject
 from strutwork.studies.machine_modes import MachineModes
 
@@ -40,7 +52,9 @@ def write(subject: Subject) -> Chapter:
     task = subject.model.motion.task_of(modes.tool)
     blocks: list[Block] = [Text(_text(modes)), Facts(tuple(_facts(modes)))]
     if len(modes) > 1:
-        blocks += [_figures(modes), _table(task)]
+        table = _table(task)
+        more = Details(f"The {len(modes)} places of the tool in numbers", (table,))
+        blocks += [_figures(modes, task), table if len(modes) <= LONGEST else more]
     file = csv_file(
         "assembly-modes.csv",
         "place of the tool, m, and its rotation vector from home, rad, in every assembly mode",
@@ -117,11 +131,20 @@ def _table(task: Array) -> Table:
     )
 
 
+def _place(row: Array) -> str:
+    """Place of the tool and its turn, what is not zero, in whole mm and degrees."""
+    turned = [f"{d} {round(degrees(v)) + 0}°" for d, v in zip(DIRECTIONS[3:], row[3:], strict=True)]
+    placed = [f"{d} {round(1e3 * v) + 0}" for d, v in zip(DIRECTIONS[:3], row[:3], strict=True)]
+    words = ", ".join(w for w in turned if not w.endswith(" 0°"))
+    text = ", ".join(placed) + " mm" + (f"; {words}" if words else "")
+    return text.replace("-", MINUS)
+
+
 #: A view that tells the three axes apart: right, up.
 _VIEW = np.array([[0.77, 0.64, 0.0], [-0.26, 0.31, 0.91]])
 
 
-def _figures(modes: MachineModes) -> Row:
+def _figures(modes: MachineModes, task: Array) -> Row:
     every = 1e3 * np.concatenate([line for lines in modes.lines for line in lines]) @ _VIEW.T
     middle = 0.5 * (every.max(axis=0) + every.min(axis=0))
     half = 0.55 * float(np.ptp(every, axis=0).max())
@@ -129,13 +152,13 @@ def _figures(modes: MachineModes) -> Row:
         tuple(
             Figure(
                 f"assembly-mode-{k + 1}",
-                f"Mode {k + 1}{', the machine as it is' if k == 0 else ''}.",
+                f"Mode {k + 1}{', the machine as it is' if k == 0 else ''}: {_place(row)}.",
                 _sketch(lines, modes.tool.position[k], middle, half, k == 0),
                 f"Lines of the bodies in assembly mode {k + 1}, seen from aside.",
                 "assembly-modes.csv",
                 210,
             )
-            for k, lines in enumerate(modes.lines[:DRAWN])
+            for k, (lines, row) in enumerate(zip(modes.lines[:DRAWN], task, strict=False))
         ),
         width=200,
     )

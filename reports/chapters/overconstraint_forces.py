@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.reports.alike import grouped, word
+from strutwork.reports.alike import label as names
 from strutwork.reports.chapters.overconstraint import (
     UNITS,
     governing,
@@ -25,6 +26,7 @@ from strutwork.reports.figures.charts import stacked_shares
 from strutwork.reports.figures.curves import histogram
 from strutwork.reports.figures.force_bars import ForceBars, force_bars
 from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.long_tables import LONGEST
 from strutwork.reports.numbers import significant
 from strutwork.reports.part_groups import REST, told_apart
 from strutwork.studies.tolerance_result import ToleranceStudy
@@ -153,13 +155,12 @@ def _force_table(study: ToleranceStudy, key: str) -> Table:
         columns.append(Column("worst pose", "", False))
     top = governing(study)
     top_unit = "N" if top is None else study.quantities[top].unit
-    rows: list[list[str | Cell]] = []
+    rows: list[tuple[int, str, list[str | Cell]]] = []
     for i in loaded(study):
         q = study.quantities[i]
         text = shown(float(study.largest[i]), q.unit)
         row: list[str | Cell] = [
-            q.joint or "",
-            q.kind.removesuffix(" force") + (", governs" if i == top else ""),
+            q.kind.removesuffix(" force"),
             *([UNITS[q.unit][0]] if mixed else []),
             text,
         ]
@@ -179,13 +180,34 @@ def _force_table(study: ToleranceStudy, key: str) -> Table:
         row.append(main_cause(study, i))
         if poses:
             row.append(pose(study, int(study.worst_pose[i])))
-        rows.append(row)
+        rows.append((i, q.joint or "", row))
     caption = f"{study.title}: forces that the tolerances can lock in"
     if limited and not each:
         caption += f", limit {shown(common.pop(), top_unit)} {UNITS[top_unit][0]} each"
     if found is not None and poses:
         caption += f"; quantiles at {pose(study, study.governing)}"
-    return Table(caption, columns, rows, f"{key}-forces.csv")
+    return Table(caption, columns, _same(rows, study, top), f"{key}-forces.csv")
+
+
+def _same(
+    rows: Sequence[tuple[int, str, list[str | Cell]]], study: ToleranceStudy, top: int | None
+) -> list[list[str | Cell]]:
+    """Rows of joints that say the same as one; the largest first where they are many."""
+    found: dict[tuple[str, ...], list[tuple[int, str, list[str | Cell]]]] = {}
+    for row in rows:
+        key = tuple(c.text if isinstance(c, Cell) else c for c in row[2])
+        found.setdefault(key, []).append(row)
+    groups = list(found.values())
+    if len(groups) > LONGEST:
+        groups.sort(key=lambda some: -float(study.largest[some[0][0]]))
+    return [
+        [
+            names([joint for _, joint, _ in some]),
+            f"{some[0][2][0]}{', governs' if any(i == top for i, *_ in some) else ''}",
+            *some[0][2][1:],
+        ]
+        for some in groups
+    ]
 
 
 def _force_file(study: ToleranceStudy, key: str) -> DataFile:

@@ -13,6 +13,7 @@ from strutwork.reports.axis_words import direction_words
 from strutwork.reports.content import Block, Chapter, Column, Details, Figure, Table, Text
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.charts import stacked_shares
+from strutwork.reports.long_tables import shortened
 from strutwork.reports.numbers import count, share, significant
 from strutwork.reports.part_groups import PartGroup, part_groups, split, titles, told_apart
 
@@ -50,7 +51,8 @@ def budget_chapter(model: Model) -> Chapter:
             FILE,
             height=330,
         ),
-        _table(named, budgets),
+        # the sum stays below the largest shares
+        *shortened(_table(named, budgets), kept=1),
         *(
             _details(title, group, by_part, frames)
             for title, group in named.items()

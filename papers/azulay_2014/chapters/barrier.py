@@ -9,6 +9,7 @@ from strutwork.papers.tables import numbers, texts
 from strutwork.reports.chapters.stiffness import AXES
 from strutwork.reports.content import Chapter, Table, Text
 from strutwork.reports.numbers import micro, significant
+from strutwork.reports.pivot import Entry, pivoted
 
 NONE = "–"
 
@@ -64,38 +65,39 @@ def regions_chapter(found: Mapping[str, Barred], first: str) -> Chapter:
 
 
 def regions_table(found: Mapping[str, Barred], first: str, own: bool) -> Table:
-    """Statistics for each connected region as well as for all points."""
-    rows = []
-    for label, one in found.items():
-        for side, words in SIDES.items():
-            rows += _rows(one, label, words, side, own)
-    columns = (
-        *texts(first, "region", "axis"),
-        *numbers("mean", unit="N/µm"),
-        *numbers("variance", unit="N²/µm²"),
-        *numbers("minimum", "maximum", unit="N/µm"),
-        *numbers("points"),
+    """Statistics for each connected region as well as for all points, axes side by side."""
+    entries = [
+        Entry([label, words, f"{one.kept(own, side)}"], f"K{axis * 2}", cells)
+        for label, one in found.items()
+        for side, words in SIDES.items()
+        for axis, cells in _by_axis(one, side, own).items()
+    ]
+    return pivoted(
+        f"Blocked stiffness by region; joint ranges kept: {RANGES[own]}",
+        (*texts(first, "region"), *numbers("points")),
+        (
+            *numbers("mean", unit="N/µm"),
+            *numbers("variance", unit="N²/µm²"),
+            *numbers("least to largest", unit="N/µm"),
+        ),
+        entries,
+        "report.json",
     )
-    return Table(f"By region; joint ranges kept: {RANGES[own]}", columns, rows, "report.json")
 
 
-def _rows(one: Barred, label: str, words: str, side: Side, own: bool) -> list[list[str]]:
+def _by_axis(one: Barred, side: Side, own: bool) -> dict[str, list[str]]:
     part = one.parts[own, side]
     if part is None:
-        return [[label, words, NONE, NONE, NONE, NONE, NONE, "0"]]
-    return [
-        [
-            label,
-            words,
-            f"K{axis * 2}",
-            micro(part.axis(axis).statistics.mean),
-            significant(part.axis(axis).statistics.variance / 1e12),
-            micro(part.axis(axis).worst.value),
-            micro(part.axis(axis).best.value),
-            str(part.points_kept),
+        return {axis: [NONE] * 3 for axis in AXES}
+    found = {}
+    for axis in AXES:
+        values = part.axis(axis)
+        found[axis] = [
+            micro(values.statistics.mean),
+            significant(values.statistics.variance / 1e12),
+            f"{micro(values.worst.value)} to {micro(values.best.value)}",
         ]
-        for axis in AXES
-    ]
+    return found
 
 
 def ranges_table(found: Mapping[str, Barred], first: str) -> Table:
@@ -116,4 +118,4 @@ def ranges_table(found: Mapping[str, Barred], first: str) -> Table:
         *numbers(*(f"K{a * 2}" for a in AXES), unit="N/µm", group="mean"),
     )
     count = next(iter(found.values())).points
-    return Table(f"Of {count} check points", columns, rows, "report.json")
+    return Table(f"Of {count} check points; stiffness blocked", columns, rows, "report.json")

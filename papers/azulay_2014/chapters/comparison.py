@@ -39,6 +39,7 @@ from strutwork.reports.content import (
     Text,
 )
 from strutwork.reports.figures.charts import Bars, grouped, stacked_shares
+from strutwork.reports.long_tables import parted
 from strutwork.reports.numbers import micro, significant
 
 #: Short names for axes of charts.
@@ -334,15 +335,20 @@ def poses_chapter(study: Comparison) -> Chapter:
             study.azulay.summaries[name, "spherical"],
         )
     ]
+    # machines are compared axis by axis
+    rows.sort(key=lambda row: str(row[1]))
     return Chapter(
         "poses",
         "Worst poses and dropped poses",
         (
-            Table(
-                "Worst and best poses, true spherical joints",
-                pose_columns("machine"),
-                rows,
-                "report.json",
+            *parted(
+                Table(
+                    "Worst and best poses, stiffness blocked, true spherical joints",
+                    pose_columns("machine"),
+                    rows,
+                    "report.json",
+                ),
+                1,
             ),
             dropped_table(maps, "machine"),
         ),

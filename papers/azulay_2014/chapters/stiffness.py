@@ -95,7 +95,9 @@ def poses_chapter(study: MachineStudy) -> Chapter:
         for model, label in MODEL_NAMES.items()
         for row in pose_rows(label, study.maps[model], study.summaries[model])
     ]
-    table = Table("Worst and best poses", pose_columns("model"), rows, "report.json")
+    table = Table(
+        "Worst and best poses, stiffness blocked", pose_columns("model"), rows, "report.json"
+    )
     dropped = dropped_table({label: study.maps[m] for m, label in MODEL_NAMES.items()}, "model")
     return Chapter(
         "poses",

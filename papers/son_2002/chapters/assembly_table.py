@@ -12,13 +12,14 @@ from strutwork.papers.son_2002.figures.assembly_scene import strut_assembly_view
 from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study
 from strutwork.papers.son_2002.published import TABLE_2
 from strutwork.papers.son_2002.strut_assembly import CASES, TILT, StrutAssembly
-from strutwork.papers.tables import nearly, numbers, ours, rows_file, texts
+from strutwork.papers.tables import nearly, numbers, rows_file, texts
 from strutwork.reports.chapters.overconstraint import label, leading, shown
 from strutwork.reports.chapters.overconstraint_forces import Published
 from strutwork.reports.content import Block, Cell, Figure, Note, Points, Table, Text
 from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import assembled
 from strutwork.reports.numbers import micro, percent, significant, times
+from strutwork.reports.pivot import Entry, pivoted
 
 RECONSTRUCTED = (
     "Reconstructed: figures 40 and 42 of the thesis, which show the structure and its dimensions, "
@@ -86,24 +87,25 @@ def misfit_blocks(study: MitSS1Study, case: str = "I") -> tuple[list[Block], lis
 def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     """All 36 forces beside the computed values, with both fits."""
     file = file_name(TABLE_2.key)
-    columns = (*texts("case"), *numbers("joint"), *texts("force"), *numbers("published", unit="kN"))
-    rows: list[list[str | Cell]] = []
+    entries = []
     for pair in zip(*study.table_2.values(), strict=True):
-        _, case, _, joint = pair[0].row.split()
-        row: list[str | Cell] = [case, joint, pair[0].quantity]
-        row.append(f"{pair[0].published:.1f}")
+        first = pair[0]
+        _, case, _, joint = first.row.split()
+        cells: list[str | Cell] = [f"{first.published:.1f}"]
         for entry in pair:
-            row += [f"{entry.computed:.2f}", _difference(entry), entry.status]
-        rows.append(row)
+            found = _difference(entry)
+            cells.append(Cell(f"{entry.computed:.2f}", found.tone, found.text))
+        entries.append(Entry([joint, first.quantity], f"Case {case}", cells))
     on_one, on_all = study.calibrations
     blocks: list[Block] = [
         Note(RECONSTRUCTED),
         Points(STRUCTURE),
         _fits(study),
-        Table(
-            f"Table 2 of the thesis: {TABLE_2.title}",
-            (*columns, *ours(_HEADS.values(), "kN")),
-            rows,
+        pivoted(
+            f"Table 2 of the thesis: {TABLE_2.title}; both fits calibrated",
+            texts("joint", "force"),
+            numbers("published", *_HEADS.values(), unit="kN"),
+            entries,
             file,
         ),
         Text(

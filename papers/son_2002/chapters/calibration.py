@@ -12,6 +12,7 @@ from strutwork.papers.tables import nearly, numbers, texts
 from strutwork.reports.content import Block, Cell, Chapter, Figure, Points, Table, Text
 from strutwork.reports.data_files import csv_file, json_file
 from strutwork.reports.figures.modes import singular_values
+from strutwork.reports.long_tables import parted
 from strutwork.reports.numbers import MINUS, count, percent, significant
 from strutwork.studies.calibrate import Calibration
 
@@ -62,8 +63,8 @@ def calibration_chapter(study: WholeStudy) -> Chapter:
             "which combinations of parameters they determine. A standard error is that of the "
             "weights, to first order, and says nothing about what the model leaves out."
         ),
-        _parameters(found),
-        _targets(found),
+        *parted(_parameters(found), 6),
+        *parted(_targets(found), 6),
         Figure(
             "singular-values",
             "Singular values of the targets' sensitivities, beside the largest of each step. "

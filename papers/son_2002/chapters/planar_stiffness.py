@@ -40,6 +40,7 @@ from strutwork.reports.content import (
 from strutwork.reports.data_files import DataFile, json_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import MINUS, fixed, micro, percent, significant
+from strutwork.reports.pivot import Entry, pivoted
 
 MAP, FITS = "planar-stiffness.csv", "table-6-fits.json"
 
@@ -131,40 +132,28 @@ def _maps(found: xr.Dataset) -> Row:
 
 
 def _table_6(rows: tuple[PublishedRow, ...]) -> Table:
-    lines: list[list[str | Cell]] = []
     size = len(rows) // len(READINGS)
-    printed, swapped = rows[:size], rows[size:]
-    for one, other in zip(printed, swapped, strict=True):
-        lines.append(
-            [
-                one.row.removesuffix(", as printed").replace("-", MINUS),
-                one.quantity,
-                significant(one.computed),
-                *_beside(one),
-                *_beside(other),
-            ]
+    entries = [
+        Entry(
+            [one.row.removesuffix(", as printed").replace("-", MINUS)],
+            one.quantity,
+            [significant(one.computed), _beside(one), _beside(other)],
         )
-    groups = ("as printed", "last two rows swapped")
-    return Table(
+        for one, other in zip(rows[:size], rows[size:], strict=True)
+    ]
+    return pivoted(
         "Table 6 of the thesis, measured stiffness, beside the computed values at the tool tip, "
         "N/µm: "
         "not reproducible",
-        (
-            *texts("place", "along"),
-            *numbers("computed"),
-            *(
-                Column(head, "", True, group)
-                for group in groups
-                for head in ("published", "difference")
-            ),
-        ),
-        lines,
+        texts("place"),
+        numbers("computed", "as printed", "last two rows swapped"),
+        entries,
         file_name(TABLE_6.key),
     )
 
 
-def _beside(row: PublishedRow) -> tuple[str, Cell]:
-    return significant(row.published), Cell(percent(row.difference_percent, 0), "poor")
+def _beside(row: PublishedRow) -> Cell:
+    return Cell(significant(row.published), "poor", percent(row.difference_percent, 0))
 
 
 def _fits_table(fits: tuple[ColumnFit, ...]) -> Table:

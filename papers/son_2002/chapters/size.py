@@ -12,6 +12,7 @@ from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Row,
 from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from strutwork.reports.figures.scaling import deflection_powers, frequency_powers, stiffness_powers
 from strutwork.reports.numbers import fixed, micro, share, significant
+from strutwork.reports.pivot import Entry, pivoted
 from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents
 from strutwork.studies.scale import ScaleStudy
 
@@ -85,7 +86,7 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
             "a similar machine. n is 3 for motors of similar shape and 3.5 for the industrial "
             "brushless motors of the thesis; with n = 1 the deflection is the same at any size."
         ),
-        _removal(both),
+        *_removal(both),
         Figure(
             "size-deflection",
             "Deflection in x at constant removal rate, rails held, beside that of the machine's "
@@ -157,22 +158,28 @@ def _exponents(both: dict[str, ScaleStudy]) -> Table:
     )
 
 
-def _removal(both: dict[str, ScaleStudy]) -> Table:
+def _removal(both: dict[str, ScaleStudy]) -> tuple[Text, Table]:
     rows = [
         row
         for name, study in both.items()
         for i, law in enumerate(study.laws)
         for row in removal_rows(f"{name}, {law}", study.removal(i), _power)
     ]
-    return Table(
-        "Exponents of the size at constant removal rate, drives' force ~ Lⁿ (eqs 19 to 23)",
-        (
-            *texts("machine and joints"),
-            *numbers("n", "feed", "cutting force"),
-            *(Column(a, "", True, "deflection") for a in "xyz"),
+    # feed and force follow from n alone
+    given = {n: f"L^{feed} and L^{force}" for _, n, feed, force, *_ in rows}
+    rates = "; ".join(f"for n = {n} with {powers}" for n, powers in given.items())
+    return (
+        Text(
+            "At constant removal rate, with drives' force ~ Lⁿ, feed and cutting force go "
+            f"{rates}, whatever the joints (eqs 19 to 23)."
         ),
-        rows,
-        "size.json",
+        pivoted(
+            "Exponents of the deflection at constant removal rate, drives' force ~ Lⁿ",
+            texts("machine and joints"),
+            numbers(*"xyz"),
+            [Entry([name], f"n = {n}", some) for name, n, _, _, *some in rows],
+            "size.json",
+        ),
     )
 
 

@@ -12,7 +12,7 @@ from strutwork.papers.son_2002.figures.whole_machine import whole_machine_view
 from strutwork.papers.son_2002.published import FIGURE_29_TICK, MACHINE, STIFFNESS
 from strutwork.papers.son_2002.whole_study import WholeStudy
 from strutwork.papers.tables import assumed
-from strutwork.reports.content import Block, Column, Fact, Facts, Figure, Row, Table, Text
+from strutwork.reports.content import Block, Column, Fact, Facts, Figure, Points, Row, Table, Text
 from strutwork.reports.data_files import DataFile, json_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import fixed, micro, significant
@@ -164,7 +164,7 @@ def _at_home(study: WholeStudy) -> Table:
     )
 
 
-def whole_assumptions(whole: MitSS1Whole) -> Table:
+def whole_assumptions(whole: MitSS1Whole) -> Points:
     """What the entire machine assumes, with the sources."""
     frame, machine = whole.frame, whole.machine
     mm = 1e3
