@@ -144,7 +144,8 @@ def table(found: dict[str, Rates]) -> str:
     lines = [
         "# Performance of inverse kinematics",
         "",
-        "Written by `python -m benchmarks.inverse_speed --compile --write`: compare ratios. One thread,",
+        "Written by `python -m benchmarks.inverse_speed --compile --write`: compare ratios.",
+        "One thread,",
         "processor time.",
         machine_line(),
         "",

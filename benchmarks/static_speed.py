@@ -196,8 +196,8 @@ def table(
         [
             "# Performance: statics",
             "",
-            "Written by `python -m benchmarks.static_speed --write`: compare ratios. One thread, unless",
-            "said by processor time; rates are poses per second.",
+            "Written by `python -m benchmarks.static_speed --write`: compare ratios.",
+            "One thread; processor time where stated; rates are poses per second.",
             machine_line(),
             "",
             "## Three-legged frame",

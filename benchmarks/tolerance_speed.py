@@ -175,7 +175,8 @@ def table(samples: int, assemblies: int) -> str:
         [
             "# Performance: tolerances",
             "",
-            "Written by `python -m benchmarks.tolerance_speed --write`: compare ratios. One thread.",
+            "Written by `python -m benchmarks.tolerance_speed --write`: compare ratios.",
+            "One thread.",
             machine_line(),
             "",
             "Three struts on six elastic bearings, three tilted axes; both forces of each bearing.",
