@@ -41,7 +41,7 @@ PARTS: tuple[Part, ...] = ("drives", "tool", "passive")
 
 @dataclass(frozen=True)
 class Singularity:
-    """One singular pose, or an end of reach.
+    """One singular pose, or a limit of reach.
 
     Parameters
     ----------
@@ -164,7 +164,7 @@ def classify(
 def singularities_on_line(
     family: PoseFamily, values: ArrayLike, progress: Progress | None = None
 ) -> tuple[Singularity, ...]:
-    """Singular poses and ends of reach along a line of poses, in its order.
+    """Singular poses and limits of reach along a line of poses, in its order.
 
     Between neighbours a minor of the motions' tool or drive part changes its sign at a simple
     singularity; others (where it touches zero, or of machines with more drives than freedoms)
