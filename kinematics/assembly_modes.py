@@ -25,7 +25,7 @@ SAME = 1e-6
 
 @dataclass(frozen=True)
 class AssemblyModes:
-    """Ways to put together a machine whose drives stand, real ones first.
+    """Assembly modes of a machine with its drives held, real ones first.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ LOOSE = 1e-7
 
 @dataclass(frozen=True)
 class Branches:
-    """Ways to put a linkage together in which what is given has its values.
+    """Assemblies of a linkage in which the given coordinates have their values.
 
     Parameters
     ----------

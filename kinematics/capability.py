@@ -107,7 +107,7 @@ class Zonotope:
 
 
 def force_zonotope(inverse: ArrayLike, limits: ArrayLike) -> Zonotope:
-    """Forces that the tool can exert within the drives' limits, with any moment or none asked.
+    """Forces that the tool can exert within the drives' limits, with any moment or without one.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def force_zonotope(inverse: ArrayLike, limits: ArrayLike) -> Zonotope:
 
 
 def velocity_zonotope(forward: ArrayLike, limits: ArrayLike) -> Zonotope:
-    """Velocities, or errors, of the tool within the drives' limits; any rotation comes along.
+    """Velocities, or errors, of the tool within the drives' limits, with any rotation.
 
     Parameters
     ----------

@@ -172,7 +172,7 @@ class Forces:
 def inverse_dynamics(
     at: PlacedDynamics, rates: ArrayLike, changes: ArrayLike, wrench: ArrayLike = 0.0
 ) -> Forces:
-    """Forces that make a motion.
+    """Drive forces that produce a motion.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ START_SINGULAR = "the start is a singular pose, from which no branch can be foll
 
 @dataclass(frozen=True)
 class FoundPoses(Poses):
-    """Poses of forward kinematics, and why some have none.
+    """Poses of forward kinematics, with the reasons for missing ones.
 
     Parameters
     ----------

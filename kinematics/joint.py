@@ -33,7 +33,7 @@ JOINT_TYPES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 
 class State(IntEnum):
-    """What a joint direction does in statics, where driven directions are held."""
+    """State of a joint direction in statics, where driven directions are held."""
 
     FREE = 0
     LOCKED = 1

@@ -32,7 +32,7 @@ ROUNDS = 10
 
 @dataclass(frozen=True)
 class LargestShape:
-    """The largest shape of the search, and what keeps it from being larger.
+    """The largest shape found, and what limits its size.
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ PIECE = 1024
 
 @dataclass(frozen=True)
 class Moved:
-    """Where a linkage was moved to.
+    """Configurations that a linkage was moved to.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ class Moved:
 
 @dataclass(frozen=True)
 class Motion:
-    """How a linkage moves: rigid bodies, whose joints' held directions stay closed.
+    """Motion of a linkage of rigid bodies that keeps the locked joint directions closed.
 
     Parameters
     ----------

@@ -47,7 +47,7 @@ class NearMechanism:
 
 
 def near_motions(linkage: Linkage, placement: Placement) -> tuple[NearMechanism, ...]:
-    """Motions that would be free if coordinates agreed to all digits, at a single pose.
+    """Motions that would be free if coordinates agreed exactly, at a single pose.
 
     Elastic directions count as locked, and drives as held. The singular values of each block of
     the linkage's graph are looked at by themselves, so that no unrelated part changes them.

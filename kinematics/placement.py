@@ -124,7 +124,7 @@ class Placement:
 
 
 def check_coincidence(linkage: Linkage, placement: Placement) -> None:
-    """Check that the two nodes of every joint stand at the same place.
+    """Check that the two nodes of every joint coincide.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ STILL = 1e-9
 
 @dataclass(frozen=True)
 class Reversals:
-    """What the drives do over a patch of a surface.
+    """Behaviour of the drives over a patch of a surface.
 
     Parameters
     ----------

@@ -54,7 +54,7 @@ CELL = 1.5
 
 @dataclass(frozen=True)
 class SingularCurve:
-    """A curve of singular poses, or a piece of the border of reach.
+    """A curve of singular poses, or a section of the limit of reach.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ ENDLESS = 10**12
 
 @dataclass(frozen=True)
 class TaskGrid:
-    """Values along task coordinates, each with each.
+    """Grid of values along task coordinates.
 
     Parameters
     ----------

@@ -51,7 +51,7 @@ class Freedoms:
 
 @dataclass(frozen=True)
 class ToolDriveSpace:
-    """Motions that the passive joints allow, reduced to what tool and drives do in them.
+    """Motions that the passive joints allow, reduced to the motions of tool and drives.
 
     The columns of `basis` are an orthonormal basis of that space: twist of the tool (v, L ω) over
     rates of the drives (m/s, L rad/s). A unit motion in which the drives stand has a drive part

@@ -112,7 +112,7 @@ class Platform:
 
 @dataclass(frozen=True, kw_only=True)
 class VibratingLegs:
-    """A machine of three legs with what it needs to vibrate.
+    """A machine of three legs with the data for vibration.
 
     Parameters
     ----------

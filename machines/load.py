@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def load(name: str | Path) -> Model:
-    """A machine by its name or from its file.
+    """Load a machine by its name or from its file.
 
     Parameters
     ----------

@@ -120,7 +120,7 @@ def read_mesh(path: Path | str, unit: str = "m", *, check: bool = True) -> Mesh:
 
 
 def write_mesh(mesh: Mesh, path: Path | str, unit: str = "m") -> Path:
-    """Write a mesh; `read_mesh` says what each format keeps.
+    """Write a mesh; `read_mesh` lists what each format stores.
 
     Parameters
     ----------

@@ -170,7 +170,7 @@ def surface_of(mesh: Mesh, patch: Patch) -> Surface:
 
 
 def welded(surface: Surface, tolerance: float | None = None) -> Surface:
-    """The surface with coincident points merged and triangles without area dropped.
+    """The surface with coincident points merged and triangles without area removed.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def welded(surface: Surface, tolerance: float | None = None) -> Surface:
 
 
 def flipped(surface: Surface) -> Surface:
-    """The surface with its inside out.
+    """The surface with reversed orientation.
 
     Parameters
     ----------
@@ -202,7 +202,7 @@ def flipped(surface: Surface) -> Surface:
 
 
 def check_closed(surface: Surface) -> None:
-    """Pass a surface that bounds a volume: closed, of one orientation, outwards.
+    """Return a surface that bounds a volume: closed, consistently oriented, outwards.
 
     Self-intersections are not looked for: `strutwork.meshes.self_intersections.check_simple`.
 

@@ -25,7 +25,7 @@ COINCIDENT = 1e-9
 def moved(
     mesh: Mesh, rotation: ArrayLike | None = None, translation: ArrayLike | None = None
 ) -> Mesh:
-    """The mesh turned about the origin, then shifted.
+    """The mesh rotated about the origin, then translated.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class System(Clusters):
-    """The clusters of a structure at a flat batch of p poses, with what loads them.
+    """The clusters of a structure at a flat batch of p poses, with their loads.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from strutwork.kinematics import DIRECTIONS
 
 @dataclass(frozen=True)
 class Spring:
-    """A spring; to ground in global axes, else in those that its first node's body carries.
+    """A spring; to ground in global axes, otherwise in axes that move with its first node's body.
 
     Parameters
     ----------

@@ -98,7 +98,7 @@ def distribution(
     limits: Limits | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Distribution:
-    """Sample the tolerances and spread out the quantities, a chunk at a time.
+    """Sample the tolerances and the resulting quantities in chunks.
 
     Parameters
     ----------

@@ -26,12 +26,12 @@ Array = NDArray[Any]
 
 
 class UndeterminedWarning(UserWarning):
-    """Forces of which the sum alone is determined."""
+    """Only the sum of some forces is determined."""
 
 
 @dataclass(frozen=True)
 class Influence:
-    """What every misfit causes, at a batch of poses.
+    """Effect of every misfit, at a batch of poses.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ class Influence:
 
 @dataclass(frozen=True)
 class AssemblyForces:
-    """What given misfits cause.
+    """Forces and tool displacement due to given misfits.
 
     Parameters
     ----------

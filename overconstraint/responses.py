@@ -23,7 +23,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Quantity:
-    """The size of one or two components of a joint's force, or of the tool's displacement.
+    """Magnitude of one or two components of a joint force or of the tool displacement.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ def tolerance_responses(
     tolerances: Sequence[Tolerance],
     quantities: Sequence[Quantity] | None = None,
 ) -> Responses:
-    """From a structure and its tolerances to all that is asked of them.
+    """Responses of a structure to its tolerances.
 
     Parameters
     ----------

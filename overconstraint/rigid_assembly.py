@@ -54,7 +54,7 @@ class RigidAssembly:
 
 @dataclass(frozen=True)
 class RigidEquilibrium:
-    """Where the body comes to rest.
+    """Equilibrium of the rigid body.
 
     Parameters
     ----------

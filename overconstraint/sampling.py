@@ -91,7 +91,7 @@ def points_per_scramble(samples: int) -> int:
 
 
 def draw(sources: MisfitSources, uniform: Array) -> Array:
-    """Parameters z as their tolerances' distributions say.
+    """Sample the parameters z from the distributions of their tolerances.
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ STEPS = 40
 
 @dataclass(frozen=True)
 class WorstCase:
-    """Largest size of every quantity that the tolerances allow.
+    """Largest magnitude of every quantity that the tolerances allow.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ _MEASURED = re.compile(r"\b\d+(\.\d+)?e[+-]?\d+\b")
 
 @dataclass(frozen=True)
 class Outcome:
-    """Which poses of a batch have an answer; the numbers of the others are missing (NaN).
+    """Which poses of a batch were solved; the values of the others are missing (NaN).
 
     Parameters
     ----------

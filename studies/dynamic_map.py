@@ -52,7 +52,7 @@ _VARIABLES = {
 
 @dataclass(frozen=True)
 class Vibration:
-    """How a machine's vibration is looked at.
+    """Options for the vibration of a machine.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 @dataclass(frozen=True)
 class PoseValue:
-    """A value and where it is.
+    """A value and its pose.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class PoseValue:
 
 @dataclass(frozen=True)
 class Statistics:
-    """Numbers that sum up a sample.
+    """Statistics of a sample.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Statistics:
 def statistics(
     values: ArrayLike, weights: ArrayLike | None = None, sample: bool = False
 ) -> Statistics:
-    """Sum up a sample.
+    """Statistics of a sample.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ class AxisSummary:
 
 @dataclass(frozen=True)
 class Summary:
-    """A stiffness map summed up.
+    """Summary of a stiffness map.
 
     Parameters
     ----------
@@ -212,7 +212,7 @@ def summary(
     weights: Weights = "points",
     sample: bool = False,
 ) -> Summary:
-    """Sum up the points of a map that count.
+    """Summarise the points of a map that count.
 
     Parameters
     ----------

@@ -41,7 +41,7 @@ Objective = Literal["uniform", "cost"]
 
 @dataclass(frozen=True, kw_only=True)
 class StudyOptions:
-    """What is computed beside the worst case.
+    """What is computed in addition to the worst case.
 
     Parameters
     ----------
