@@ -27,7 +27,7 @@ def tool_words(model: Model, motions: Sequence[FreeMotion]) -> str:
     left = len(motions) - len(names)
     if left:
         verb = "moves" if left == 1 else "move"
-        words += f"; {count(left, 'further motion')} {verb} parts and not the tool"
+        words += f"; {count(left, 'further motion')} {verb} parts but not the tool"
     return f"{words}."
 
 

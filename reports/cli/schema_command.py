@@ -12,7 +12,7 @@ def schema(
     out: Annotated[
         str | None,
         typer.Option(
-            "--out", "-o", metavar="FILE", help="Write it there; by default it is printed."
+            "--out", "-o", metavar="FILE", help="Write it to this file; by default it is printed."
         ),
     ] = None,
 ) -> None:
