@@ -53,7 +53,7 @@ def require_ours(folder: Path, names: Iterable[str], about: str = "") -> Manifes
     if about and found.about and found.about != about:
         raise OutputError(
             str(folder),
-            f'contains the report on "{visible(found.about)}", but this one is on "{visible(about)}".',
+            f'contains the report on "{visible(found.about)}", but this is on "{visible(about)}".',
             "Choose another folder, or remove that report.",
         )
     foreign = [

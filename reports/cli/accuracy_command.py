@@ -52,7 +52,7 @@ def accuracy(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find how far tolerances, drive errors and play may carry the tool."""
+    """Find how far tolerances, drive errors and play can displace the tool."""
     from strutwork.reports.cli import accuracy as work
 
     options = work.Options(tuple(drive_error or ()), tuple(play or ()), tolerances)

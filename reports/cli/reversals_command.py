@@ -55,7 +55,7 @@ def reversals(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find where the drives of a machine turn back as its tool goes over a surface."""
+    """Find where the drives of a machine reverse as its tool moves over a surface."""
     from strutwork.reports.cli import reversals as work
 
     work.run(target, over, (surface, orientation.value), feed, out, json=json)

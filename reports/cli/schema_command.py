@@ -16,7 +16,7 @@ def schema(
         ),
     ] = None,
 ) -> None:
-    """Print the JSON schema of the model file, by which editors complete and check it."""
+    """Print the JSON schema of the model file, with which editors complete and check it."""
     from strutwork.files import write_text
     from strutwork.machines.schema_file import schema_text
     from strutwork.names import visible

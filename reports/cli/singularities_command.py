@@ -77,7 +77,7 @@ def singularities(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find singular poses of a machine, which kind they are and what motion is lost there."""
+    """Find singular poses of a machine, their type and the motion that is lost there."""
     if line is not None and plane is not None:
         raise typer.BadParameter("give --line or --plane.")
     if line is None and plane is None and (at or out or low or high):

@@ -114,7 +114,7 @@ def workspace(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find the poses that a machine can take: how large, how many pieces, bounded by what."""
+    """Find the poses that a machine can reach: size, number of pieces and limits."""
     if tilt is not None and dexterous is not None:
         raise typer.BadParameter("give --tilt or --dexterous, not both.")
     if radius is not None and interference:

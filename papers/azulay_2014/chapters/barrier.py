@@ -13,10 +13,10 @@ from strutwork.reports.numbers import micro, significant
 NONE = "–"
 
 BARRIER = (
-    "With six drives no way leads from the pole to a tilt of 90° on this hemisphere: at every roll "
-    "one tilt between them is a type 2 singularity, where the platform moves though all drives are "
-    "held. The singular poses fill the ring between the two dashed circles, one distance for each "
-    "roll. A seventh drive would be needed to cross it."
+    "With six drives no path leads from the pole to a tilt of 90° on this hemisphere: at every "
+    "roll one tilt between them is a type 2 singularity, where the platform can move although "
+    "all drives are held. The singular poses fill the ring between the two dashed circles, one "
+    "distance for each roll. A seventh drive would be needed to cross it."
 )
 
 
@@ -43,12 +43,12 @@ def regions_chapter(found: Mapping[str, Barred], first: str) -> Chapter:
     """
     return Chapter(
         "regions",
-        "What six drives and the joint ranges leave",
+        "What is reached with six drives and the joint ranges",
         (
             ring_text(found),
             Text(
                 "A machine works on one side of the ring only. Each side is connected over tilts "
-                "and rolls; a point belongs to the side of the pose that is chosen there."
+                "and rolls; a point belongs to the side of the pose chosen for it."
             ),
             regions_table(found, first, own=True),
             regions_table(found, first, own=False),
@@ -76,7 +76,7 @@ def regions_table(found: Mapping[str, Barred], first: str, own: bool) -> Table:
         *numbers("minimum", "maximum", unit="N/µm"),
         *numbers("points"),
     )
-    return Table(f"By region; joint ranges kept: {RANGES[own]}", columns, rows, "report.json")
+    return Table(f"By region; joint ranges respected: {RANGES[own]}", columns, rows, "report.json")
 
 
 def _rows(one: Barred, label: str, words: str, side: Side, own: bool) -> list[list[str]]:
@@ -111,7 +111,7 @@ def ranges_table(found: Mapping[str, Barred], first: str) -> Table:
         for own in RANGES
     ]
     columns = (
-        *texts(first, "joint ranges kept"),
+        *texts(first, "joint ranges respected"),
         *numbers("all", "pole's side", "beyond", group="check points kept"),
         *numbers(*(f"K{a * 2}" for a in AXES), unit="N/µm", group="mean"),
     )
