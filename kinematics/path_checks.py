@@ -95,7 +95,7 @@ def singular_at(trajectory: Trajectory, when: float, kind: str) -> SingularPoseE
     return SingularPoseError(
         _place(trajectory, when),
         f"passes through a singularity, {kind}.",
-        "Lead the path round it.",
+        "Lead the path around it.",
     )
 
 

@@ -94,13 +94,15 @@ def _figure_9(machine: str) -> tuple[Statement, ...]:
         lowest = float(study.frequency_law(law).exponent[0])
         # along which axis they differ the figure does not say: the one farthest from 1
         exponents = (float(stiffness[np.abs(stiffness - 1.0).argmax()]), lowest)
-        why = ("the figure carries no numbers and no dimensions; computed here is the template "
-              f"“{}”, {}")
+        why = (
+            "the figure carries no numbers and no dimensions; the template “{}” is computed "
+            "here, {}"
+        )
         said = (
             "exact"
             if law == 0
             else f"whose joints give {100 * float(study.joint_share[:3].max()):.0f} % of the "
-                 "deflection, so the 0.8 is visible; section 3.3 takes it as 1"
+            "deflection, so the 0.8 is visible; section 3.3 takes it as 1"
         )
         for what, published, ours in zip(
             ("static stiffness", "lowest frequency"),

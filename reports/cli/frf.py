@@ -40,10 +40,8 @@ def run(
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if out is not None and found.is_relative:
         tell(
-
-                "Note: a universal file cannot contain the motion between two nodes; only CSV is "
-                "written."
-
+            "Note: a universal file cannot contain the motion between two nodes; only CSV is "
+            "written."
         )
     if not found.least.certified:
         tell("Warning: the proof of the minimum was not completed.")

@@ -45,7 +45,7 @@ def test_words_for_people(strutwork: Program) -> None:
     assert run.status == 0, run.err
     assert "on a sphere:r=200mm, tool normal; 25 can be reached" in run.out
     assert "Longest straight path without a reversal along y" in run.out
-    assert "Plates that the grid tells apart" in run.out
+    assert "Plates that the grid distinguishes" in run.out
 
 
 @pytest.mark.parametrize(

@@ -90,8 +90,8 @@ def test_a_model_file_ends_in_a_stretched_leg(strutwork: Program) -> None:
     [
         (("--plane", "x,y"), "has no --from"),
         (("--plane", "x,y", "--from", "x=0,y=0", "--to", "x=1mm"), "does not name just x,y"),
-        (("--plane", "x=0..1mm"), "is no two ranges"),
-        (("--line", "x=5mm"), "Give each a range"),
+        (("--plane", "x=0..1mm"), "is not two ranges"),
+        (("--line", "x=5mm"), "Give each the same number"),
         (("--line", "x=0..9mm", "--at", "x=1mm"), "names x twice"),
         (("--line", "x=0..9mm", "--length", "-1mm"), "Give a positive length"),
         (("--plane", "x,y", "--from", "x=0,y=0", "--to", "x=9mm,y=9mm", "--steps", "9999"), "GB"),

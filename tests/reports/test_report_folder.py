@@ -83,7 +83,7 @@ def test_a_report_on_something_else_is_not_replaced(tmp_path: Path) -> None:
         write_set(folder, {PAGE: lambda path: path.write_text(content)}, about)
 
     write("6-ups.toml", "first")
-    with pytest.raises(OutputError, match=r'"6-ups\.toml", and this one is on "mit-ss1"') as caught:
+    with pytest.raises(OutputError, match=r'"6-ups\.toml", but this is on "mit-ss1"') as caught:
         write("mit-ss1", "second")
     assert "another folder" in caught.value.remedy
     assert lying(folder) == {PAGE: "first"}

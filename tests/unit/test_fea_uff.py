@@ -216,9 +216,9 @@ def test_labels_name_units(tmp_path: Path, labels: tuple[str, str], factor: floa
     ("labels", "words"),
     [
         (("strange", "N"), '"strange", an unknown unit of acceleration'),
-        (("mm", "N"), '"mm", which is no unit of acceleration'),
+        (("mm", "N"), '"mm", which is not a unit of acceleration'),
         (("m/s^2", "EU"), '"EU", an unknown unit of force'),
-        (("m/s^2", "mn"), '"mn", which is no unit of force'),
+        (("m/s^2", "mn"), '"mn", which is not a unit of force'),
         (("g/N", "kN"), "per force and beside it"),
     ],
 )
@@ -253,7 +253,7 @@ def test_what_is_no_response_is_ignored_and_said(tmp_path: Path) -> None:
     assert len(found.functions) == 1
     assert found.ignored == (
         "coherence (function of type 6)",
-        "function that is no motion per force in a direction",
+        "function that is not a motion per force in a direction",
     )
 
 
@@ -329,7 +329,7 @@ def spoiled(tmp_path: Path, name: str) -> Path:
         ("only units", "no function and no mode, only nodes and units"),
         ("time response", r"no function and no mode, only time response \(function of type 1"),
         ("other sets", "only data set 9999"),
-        ("no motion", "does not tell displacement"),
+        ("no motion", "does not state displacement"),
         ("NaN in a function", "not finite"),
         ("infinity in a mode", "not finite"),
         ("units of zero", "unit factor"),

@@ -135,7 +135,7 @@ def test_drawings(machine: Machine) -> None:
     first, second = (np.array(machine.plot(mode=m).data[1].z, dtype=float) for m in (1, 2))
     assert np.nanmax(np.abs(first - second)) > 0.0
     assert "times as large" in machine.plot(case="cutting").layout.title.text
-    with pytest.raises(ModelError, match="for a case and for a mode"):
+    with pytest.raises(ModelError, match="for both a case and a mode"):
         machine.plot(case="cutting", mode=1)
     with pytest.raises(ModelError, match="99 does not exist"):
         machine.plot(mode=99)

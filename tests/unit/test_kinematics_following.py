@@ -200,7 +200,7 @@ def test_the_fastest_within_speed_limits() -> None:
     assert abs(home_again.work) < 1e-9 * np.abs(home_again.powers).max()
     with pytest.raises(ModelError, match="bound no drive"):
         within_speeds(dynamics, make, np.full(6, np.inf))
-    with pytest.raises(ModelError, match="not one positive number a drive"):
+    with pytest.raises(ModelError, match="not one positive number per drive"):
         fastest(found, [1.0, 2.0])
 
 

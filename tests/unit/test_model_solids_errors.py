@@ -78,7 +78,7 @@ WRONG: dict[str, tuple[list[Edit], list[str]]] = {
         [drop("materials.granite.density")],
         ["solids.column.material", "density", "materials.granite"],
     ),
-    "cannot be compressed": (
+    "is incompressible": (
         [put("materials.granite.poissons_ratio", 0.5)],
         ["solids.column", "Poisson's ratio"],
     ),

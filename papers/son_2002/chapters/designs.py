@@ -61,7 +61,7 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
             "its place (height along y and two tilts, its corners within the zone); every rail "
             f"lies on its datum within {1e6 * RAIL_HEIGHT:g} µm (the parallelism of section 8.6) "
             f"over {1e3 * RAIL_LENGTH:g} mm of length; surfaces are {1e3 * MARGIN:g} mm wider "
-            "than their rails stand apart. In (b) rails 1 and 2 share, those of the equal "
+            "than the spacing of their rails. In (b) rails 1 and 2 share, those of the equal "
             "struts. A deviation of a common datum, equal for all its rails, locks in no force: "
             "from (a) to (c) the rails' share of the largest radial force falls "
             f"{significant(gain, 2)}-fold, and the parallelism of the pins is what remains. All "
