@@ -160,7 +160,7 @@ class DeckModel:
                 return method(place, inner, open_)
         raise self.deck.fail(
             piece.where,
-            f"begins a set that names {name!r}, which is not a {what} set of the file",
+            f"begins a set that names {name!r}, which is not among the {what} sets of the file",
             "Check the name.",
         )
 

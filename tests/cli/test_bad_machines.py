@@ -172,7 +172,7 @@ def test_a_pose_out_of_reach_offers_one_that_is_not(command: str, strutwork: Pro
     run = strutwork(command, PLANAR, "--pose", "x=900mm")
     assert (run.status, run.out) == (1, "")
     assert "out of reach" in run.err
-    near = run.err.split("gets to ")[1].strip().rstrip(".").replace(" ", "")
+    near = run.err.split("reaches ")[1].strip().rstrip(".").replace(" ", "")
     again = strutwork("move", PLANAR, "--pose", near, "--json")
     assert again.result["reached"] == 1
 
@@ -259,7 +259,7 @@ def test_time_and_memory_in_python(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
         with pytest.raises(ModelError, match=r"3,600 poses.* GB; 6 hours, 0.0005 GB are the"):
             survey(model, grid, [Stiffness()])
         # what goes on from kept chunks has no bound of time, but still one of memory
-        with pytest.raises(ModelError, match=r" GB; 0.0005 GB are the most"):
+        with pytest.raises(ModelError, match=r" GB; at most 0.0005 GB are allowed"):
             survey(model, grid, [Stiffness()], folder=tmp_path)
     margin = MachineMargin(model, ("x", "y"), np.full(2, 1e-3))
     with monkeypatch.context() as patch:

@@ -1,4 +1,4 @@
-"""Sizes and bands out of all proportion end in one message, and never in NumPy's words."""
+"""Sizes and bands out of proportion end in one message, and never in NumPy's words."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ def test_overflow_that_no_check_foresaw_is_withheld(
     run = strutwork("check", write(SAMPLE))
     assert (run.status, run.out) == (1, "")
     assert run.err.startswith("Error: numbers: exceed the range of double precision")
-    assert "out of all proportion" in run.err
+    assert "out of proportion" in run.err
 
 
 def test_numbers_out_of_range_within_a_library_withhold_nothing(

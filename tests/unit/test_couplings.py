@@ -163,7 +163,7 @@ GEAR = '[[couplings]]\nname = "gear"\n'
         ),
         ('between = ["motor:rz", "guide:z"]', "neither ratio nor per_turn"),
         ('between = ["motor:rz", "guide:z"]\nratio = 1\nper_turn = 1', "or both"),
-        ('between = ["motor", "guide:z"]\nratio = 1', 'names "motor", which is no joint'),
+        ('between = ["motor", "guide:z"]\nratio = 1', 'names "motor", which is not a joint'),
         ('between = ["motor:rz", "gide:z"]\nper_turn = 1', 'unknown joint "gide"'),
         ('between = ["motor:rz", "guide:x"]\nper_turn = 1', "guide:x, which is sprung"),
         ('between = ["motor:rz", "motor:rz"]\nratio = 1', "with itself"),

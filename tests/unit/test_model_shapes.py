@@ -105,7 +105,7 @@ def test_shapes_that_collide_at_home_name_both(tmp_path: Path) -> None:
         ('"post.stl"', '"missing.stl"', r'shapes\[0\].surface: there is no file "missing.stl"'),
         ('"post.stl"', '"../post.stl"', "leads out of the folder"),
         ('"post.stl"', '"post.toml"', r"there is no file"),
-        ('"post.stl"', '"arm.toml"', r"suffix '.toml' is none of a surface"),
+        ('"post.stl"', '"arm.toml"', r"suffix '.toml' is not that of a surface"),
         ('"post.stl"', '"open.stl"', "is not watertight"),
         ('"post.stl"', '"two.stl"', "holds 2 separate bodies"),
         ('"post.stl"', '"broken.stl"', "is cut short or not an STL file"),
