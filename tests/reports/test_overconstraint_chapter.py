@@ -171,7 +171,7 @@ def test_what_is_not_published_is_said(planar_report: WrittenReport) -> None:
     text = text_of(planar_report.report)
     section = re.findall(r'<section id="table-2".*?</section>', text, re.DOTALL)[0]
     assert "Reconstructed" in section
-    assert "not at hand" in section
+    assert "not available" in section
     assert (
         "as interpreted here"
         in re.findall(r'<section id="designs".*?</section>', text, re.DOTALL)[0]

@@ -38,7 +38,7 @@ def test_every_drive_has_its_row(hexapod: Subject) -> None:
     assert sum(lines.values()) > 0
     assert {str(row[6]) for row in table.rows} == {"yes"}
     (figure,) = [b for b in chapter.blocks if isinstance(b, Figure)]
-    drawn = [t for t in figure.spec["data"] if t["name"].endswith("turns back")]
+    drawn = [t for t in figure.spec["data"] if t["name"].endswith("reverses")]
     assert len(drawn) == sum(lines.values())
     # in mm, as the axis says
     for trace in drawn:

@@ -59,7 +59,7 @@ def test_a_coordinate_system_that_is_missing_is_asked_for(tmp_path: Path) -> Non
     kept = lines[:start] + lines[start + 17 :]
     file = tmp_path / "x.uff"
     file.write_text("\n".join(kept) + "\n")
-    with pytest.raises(ModelError, match="coordinate system 2, which the file does not hold"):
+    with pytest.raises(ModelError, match="coordinate system 2, which the file does not contain"):
         read_universal(file)
 
 

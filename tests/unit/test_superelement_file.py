@@ -72,7 +72,7 @@ def test_damage_is_found_and_mended(tmp_path: Path, damage: str) -> None:
     path.write_bytes(whole)
     with pytest.raises(ModelError, match="is damaged or not a superelement"):
         read_superelement(path)
-    with pytest.warns(CacheWarning, match="made anew"):
+    with pytest.warns(CacheWarning, match="made again"):
         same(first, make(tmp_path))
     same(first, read_superelement(path))
 
@@ -86,7 +86,7 @@ def test_where_it_cannot_be_stored(tmp_path: Path) -> None:
     element = make(tmp_path)
     blocked = tmp_path / "file"
     blocked.write_text("a file where a folder should be")
-    with pytest.warns(CacheWarning, match="cannot be kept"):
+    with pytest.warns(CacheWarning, match="cannot be stored"):
         same(element, cached_superelement(["x"], lambda: element, blocked / "below"))
 
 
