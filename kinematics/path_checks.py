@@ -70,7 +70,7 @@ def placed_along(
         first = int(bad[0])
         raise UnreachableError(
             _place(trajectory, float(times[first])),
-            f"cannot be taken: {moved.placement.reason(first)}.",
+            f"cannot be reached: {moved.placement.reason(first)}.",
             "Keep the path within reach of the machine.",
         )
     placed = dynamics.bodies.at(moved)

@@ -116,7 +116,7 @@ class Reversals:
         """
         g = self.field.gradient(np.asarray(point, dtype=float)[None])[0]
         if np.isnan(g).any():
-            raise UnreachableError("point", "cannot be taken.", "Choose one within reach.")
+            raise UnreachableError("point", "cannot be reached.", "Choose one within reach.")
         still = np.setdiff1d(np.arange(len(g)), self.moving)
         g[still] = 0.0
         return sectors(g)

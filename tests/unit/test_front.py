@@ -109,7 +109,7 @@ def test_elsewhere(machine: Machine) -> None:
     assert there.stiffness().free[2] < machine.stiffness().free[2]
     leg = machine.at(joints={"drive1:z": "880 mm"})
     assert leg.motion.joints is not None
-    with pytest.raises(UnreachableError, match="cannot be taken"):
+    with pytest.raises(UnreachableError, match="cannot be reached"):
         machine.at(z=3.0)
     with pytest.raises(UnitError, match="x"):
         machine.at(x="20 kg")

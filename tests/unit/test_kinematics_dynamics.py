@@ -366,7 +366,7 @@ def test_what_is_refused() -> None:
     massless = Dynamics(motion, none, Coordinates(("x",)))
     with pytest.raises(NumericalError, match="have no mass"):
         _ = massless.at(motion.move(task={"x": [0.38]})).mass
-    with pytest.raises(UnreachableError, match="cannot be taken"):
+    with pytest.raises(UnreachableError, match="cannot be reached"):
         massless.at(motion.move(task={"x": [0.5]}))
 
 

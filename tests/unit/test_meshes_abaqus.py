@@ -245,7 +245,7 @@ WRONG = [
     (ROW + CELLS, "element 1 is given twice"),
     (ROW.replace("3., 1., 0.", "3., one, 0."), "line 15 holds '14, 3., one, 0.'"),
     (NODES.replace("*NODE", "*NODE, SYSTEM=S") + CELLS, "line 1 gives nodes in the system 'S'"),
-    ("1, 2, 3\n" + ROW, "line 1 holds '1, 2, 3' before the first keyword"),
+    ("1, 2, 3\n" + ROW, "line 1 contains '1, 2, 3' before the first keyword"),
     (ROW + "*INCLUDE, INPUT=none.inc\n", "line 27 includes 'none.inc'; there is no such file"),
     ("*SYSTEM\n0., 0., 0., 0., 0., 0.\n" + ROW, "line 1 begins a system whose points"),
     (ROW + "*SURFACE, NAME=T, COMBINE=UNION\nA, B\n", "line 27 makes the surface 'T' of others"),

@@ -68,9 +68,7 @@ def test_a_rigid_body_with_two_nodes_at_one_place() -> None:
 
 
 def test_a_file_whose_beams_end_under_two_names_warns_and_the_error_says_why() -> None:
-    with pytest.warns(
-        ModelWarning, match="nodes B of beam b1 and B2 of beam b2 are at one place"
-    ):
+    with pytest.warns(ModelWarning, match="nodes B of beam b1 and B2 of beam b2 are at one place"):
         model = read_model(CASES / "f8_unjoined.toml")
     with pytest.raises(MechanismError, match="Probably nodes B of beam b1 and B2 of beam b2"):
         solve(model.placed, model.cases)
