@@ -54,8 +54,8 @@ def _text(modes: MachineModes) -> str:
     if len(modes) > 1:
         text = (
             "With its drives held at home, the joints allow these poses of the tool; the first "
-            "is the machine's own. Unless it is taken apart, it passes from one to another only "
-            "through a singularity (type 2). "
+            "is the machine's own. Unless it is taken apart, the machine passes from one to "
+            "another only through a singularity (type 2). "
         )
     else:
         text = (

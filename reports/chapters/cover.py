@@ -172,7 +172,9 @@ def _stiffness(
         where = places[0] if len(set(places)) == 1 else listed(places, ";")
         after = f" along {along}, at {where}."
         key = workspace_stiffness.KEY
-        said.append(Answer("In its workspace it falls to ", f"{numbers} N/µm", after, key))
+        said.append(
+            Answer("In its workspace the stiffness falls to ", f"{numbers} N/µm", after, key)
+        )
     if found is not None:
         amount = found.part.share
         # of its compliance the part keeps 1/1.1
@@ -304,7 +306,7 @@ def _reach(subject: Subject) -> tuple[Answer, ...]:
             verb = ("crosses" if len(inner) == 1 else "cross") if inner else "lies in"
             after += f"; {many} {verb} the plane of its first two directions"
     key = workspace_stiffness.KEY if workspace_size.missing(subject) else workspace_size.KEY
-    return (Answer("It reaches ", f"{kept} of {asked}", f"{after}.", key),)
+    return (Answer("The machine reaches ", f"{kept} of {asked}", f"{after}.", key),)
 
 
 def answers_by_chapter(blocks: tuple[Block, ...]) -> dict[str, str]:

@@ -148,7 +148,7 @@ WRONG: dict[str, tuple[list[Edit], list[str]]] = {
     "empty file": ([from_file("empty.msh")], ["solids.column.mesh", "empty"]),
     "inverted cells": ([from_file("inverted.msh")], ["solids.column.mesh", "16 of 16 cells"]),
     "unknown unit": ([from_file("part.msh", unit="inch")], ["solids.column.unit", '"inch"']),
-    "unit of a block": ([put("solids.0.unit", "mm")], ["solids.column.unit", "not a key of a block"]),
+    "unit of a block": ([put("solids.0.unit", "mm")], ["solids.column.unit", "not a key of a"]),
 }  # fmt: skip
 
 
