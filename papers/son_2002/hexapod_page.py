@@ -150,8 +150,8 @@ def _summary(study: HexapodStudy) -> Chapter:
         f"6.2). Values are computed at y = 0, {significant(1e3 * LEVEL)} mm over the work table."
     )
     note = (
-        "The thesis prints the dimensions but neither the stiffness of a leg nor, in the text at "
-        "hand, the drawing of Appendix A. Stiffness is proportional to the leg's, which is "
+        "The thesis prints the dimensions but neither the stiffness of a leg nor, in the available "
+        "text, the drawing of Appendix A. Stiffness is proportional to the leg's, which is "
         "assumed: its variation is meaningful, not its size."
     )
     return Chapter("summary", "Summary", (Text(text), Facts(facts), Note(note)))
