@@ -146,7 +146,7 @@ def assembly_modes(
         raise ModelError(
             "assembly modes",
             f"cannot be found all at once: {found}.",
-            "Look for some by several starts: strutwork.kinematics.branches.",
+            "Search for some from several starts: strutwork.kinematics.branches.",
         )
     batch = placement.batch
     count = int(np.prod(batch, dtype=int))

@@ -107,7 +107,7 @@ def branches(
     if wanted.poses != 1 or starts < 1:
         raise ModelError(
             "branches",
-            f"are asked for {wanted.poses} targets from {starts} starts.",
+            f"are requested for {wanted.poses} targets from {starts} starts.",
             "Give one target and one start or more.",
         )
     many = given(

@@ -85,13 +85,13 @@ def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
         raise ModelError(
             "velocity ellipsoid",
             f"got an inverse Jacobian of shape {matrix.shape}.",
-            "Give one row a drive and one column a freedom, with at least as many rows.",
+            "Give one row per drive and one column per freedom, with at least as many rows.",
         )
     if np.any(np.isnan(matrix)):
         raise ModelError(
             "velocity ellipsoid",
             "got an inverse Jacobian with entries that are not numbers.",
-            "Leave out poses that the machine cannot take.",
+            "Omit poses that the machine cannot reach.",
         )
     freedoms = matrix.shape[-1]
     stuck = np.isinf(matrix).any(axis=-2)

@@ -214,9 +214,9 @@ def _checked(family: PoseFamily, axes: tuple[ArrayLike, ArrayLike]) -> tuple[Arr
     if count > LARGEST:
         raise ModelError(
             "plane",
-            f"has {count:,} poses, more than the {LARGEST:,} that are taken: about "
+            f"has {count:,} poses, more than the {LARGEST:,} that are allowed: about "
             f"{SECONDS * count / 60:.0f} minutes and {BYTES * count / 1e9:.1f} GB.",
-            "Take fewer steps: curves are refined whatever the grid.",
+            "Use fewer steps: curves are refined whatever the grid.",
         )
     return x, y
 

@@ -233,7 +233,7 @@ def _supports(tables: ModelTable) -> dict[str, Joint]:
     for table in tables.supports:
         if not table.fixed:
             raise ModelError(
-                f"support of node {table.node}", "fixes no direction.", 'Name some, or say "all".'
+                f"support of node {table.node}", "fixes no direction.", 'Name some, or use "all".'
             )
         for direction in table.fixed:
             if direction in fixed.setdefault(table.node, []):

@@ -110,8 +110,8 @@ def _shown(name: str) -> str:
             "range",
             "{problem}",
             {
-                "problem": f'"{visible(name)}" holds a character that is not shown.',
-                "remedy": "Leave out control characters, ends of lines and marks of direction.",
+                "problem": f'"{visible(name)}" contains a character that is not shown.',
+                "remedy": "Remove control characters, ends of lines and marks of direction.",
             },
         )
     return name

@@ -142,7 +142,7 @@ def _add_limits(
             if kind not in carried:
                 raise ModelError(
                     part,
-                    f"limits the {kind} of {name}, which is free to give way.",
+                    f"limits the {kind} of {name}, which is free and carries no load.",
                     f"It carries: {', '.join(carried) or 'nothing'}.",
                 )
             if (name, kind) in limits:

@@ -137,7 +137,7 @@ def require_mass(found: NamedMachine) -> NamedMachine:
         return found
     raise ModelError(
         f"machine {found.name}",
-        "is a model for statics: its platform has no mass, so it cannot be asked how it vibrates.",
+        "is a model for statics: its platform has no mass, so its vibration cannot be computed.",
         "Name a model that can: " + ", ".join(heavy) + ".",
     )
 

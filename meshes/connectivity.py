@@ -133,7 +133,7 @@ def check_connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivi
     if len(found.part_regions) > 1:
         raise _apart(mesh, found)
     for cells, what, remedy in (
-        (found.collapsed, "use a node twice", "Mesh that place anew, or use tetrahedra there."),
+        (found.collapsed, "use a node twice", "Remesh that region, or use tetrahedra there."),
         (found.doubled, "have the nodes of another", "Delete the copies."),
     ):
         if len(cells):

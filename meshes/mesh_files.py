@@ -165,7 +165,7 @@ def _format(path: Path) -> Format:
     if suffix not in FORMATS:
         raise ModelError(
             str(path),
-            f"the suffix {suffix!r} is none of a mesh file that is read.",
+            f"the suffix {suffix!r} is not that of a supported mesh file.",
             f"Use {', '.join(FORMATS)} (ParaView and Gmsh save other formats as these); "
             "STL, OBJ and glTF are surfaces (`strutwork.meshes.surfaces`).",
         )

@@ -55,7 +55,7 @@ class Spring:
                 raise ModelError(
                     f"spring {self.name}",
                     f"stiffness in {direction} is {value!r}.",
-                    "Give a positive number, or leave the direction out.",
+                    "Give a positive number, or omit the direction.",
                 )
 
     @property

@@ -242,7 +242,7 @@ def _words(objective: str, quantile: float | None, samples: int) -> tuple[str, s
             "least sum of costs over sizes within the exact worst case, by cutting planes",
             "global optimum: a convex problem; certified by its Lagrange dual to the gap",
         )
-    kept = f"{quantile:.6g} of {samples} sampled assemblies keep all limits"
+    kept = f"{quantile:.6g} of {samples} sampled assemblies meet all limits"
     error = 1.96 * np.sqrt(quantile * (1 - quantile) / samples)
     doubt = f"as a share of all assemblies this is known to ±{error:.2g} (95 %)"
     if objective == "uniform":

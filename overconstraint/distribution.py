@@ -144,7 +144,7 @@ def distribution(
         raise ModelError(
             "distribution",
             f"{len(variables.span)} quantities at all poses are too many at once.",
-            "Take fewer poses at a time.",
+            "Use fewer poses at a time.",
         )
     spread_out = 2 ** int(np.log2(fineness)) * BINS
     chunk = 2 ** int(np.log2(max(64, CHUNK // len(variables.span))))

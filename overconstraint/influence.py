@@ -266,9 +266,9 @@ def _warn_of_rigid_shares(linkage: Linkage, forces: Array, open_: NDArray[np.boo
     ]
     if named:
         warnings.warn(
-            f"joints {', '.join(named)}: rigid parts alone decide how these share a force, so only "
-            "their sum is sure; the least forces in balance are given. Give one of these joints "
-            "or bodies its real stiffness.",
+            f"joints {', '.join(named)}: rigid parts alone decide how these share a force, so "
+            "only their sum is certain; the least forces in balance are given. Give one of these "
+            "joints or bodies its real stiffness.",
             UndeterminedWarning,
             stacklevel=3,
         )

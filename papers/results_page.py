@@ -18,8 +18,8 @@ from strutwork.papers.statements import STATUSES, Statement, read_statements, sh
 HEAD = """# Published results
 
 Every result that the five documents print, beside the computed one, with its status, the reason,
-and the test that holds it. *Predicted* means that no choice was made with the published value in
-sight; *calibrated*, that one was; *not reproducible*, that the document does not say enough, or
+and the test that holds it. *Predicted* means that no choice was made to match the published
+value; *calibrated*, that one was; *not reproducible*, that the document does not state enough, or
 that it errs, as the reason states.
 The page is written from the reports' files:
 

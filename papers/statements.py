@@ -125,9 +125,9 @@ def count_text(said: Sequence[Statement]) -> Text:
     counts = Counter(s.status for s in said)
     parts = ", ".join(f"{counts[status]} {status}" for status in STATUSES if status in counts)
     return Text(
-        f"{len(said)} results of the document stand beside the computed values: {parts}. "
-        f"Predicted means that no "
-        "choice was made with the published value in sight; calibrated, that one was."
+        f"{len(said)} results of the document are shown beside the computed values: {parts}. "
+        "Predicted means that no choice was made to match the published value; calibrated, that "
+        "one was."
     )
 
 

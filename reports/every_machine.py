@@ -127,7 +127,7 @@ def comparison_page(
     content = {"machines": {c.name: c.answers.to_dict() for c in compared}}
     closing = closing_chapter("all machines", {"task": TASK}, content, chapters)
     all_ = (*chapters, closing)
-    subtitle = f"{len(compared)} machines, asked the same questions in the same task"
+    subtitle = f"{len(compared)} machines, compared at the same task"
     files = tuple(f for chapter in all_ for f in chapter.files)
     return Composed(page_of(TITLE, subtitle, all_), files)
 
@@ -166,17 +166,17 @@ def _comparison(compared: Sequence[Compared]) -> Chapter:
         Column("redundant constraints"),
         Column("condition, least to largest"),
         Column("task reached"),
-        Column("whole workspace"),
+        Column("entire workspace"),
     )
     parts = _parts(compared)
     blocks = (
         Text(
-            "Every machine stands at home with its drives held and is asked the same. The task is "
-            f"{TASK}."
+            "Every machine is at home with its drives held, and the same is computed for each. "
+            f"The task is {TASK}."
         ),
         *(
             Table(
-                "How stiff it is at the tool centre point, the other directions free to follow"
+                "Stiffness at the tool centre point, with the other directions free to follow"
                 + words,
                 stiff,
                 [
@@ -194,7 +194,7 @@ def _comparison(compared: Sequence[Compared]) -> Chapter:
         ),
         *(
             Table(
-                "How it moves; redundant constraints with the drives held" + words,
+                "Mobility; redundant constraints are those with the drives held" + words,
                 moves,
                 [
                     [
@@ -286,7 +286,7 @@ def _csv(compared: Sequence[Compared]) -> DataFile:
         ]
         for c in compared
     ]
-    return csv_file(CSV, "the same questions to all machines, SI", columns, rows)
+    return csv_file(CSV, "the same quantities of all machines, SI", columns, rows)
 
 
 def _stiffness(value: float) -> str:

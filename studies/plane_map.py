@@ -152,9 +152,7 @@ def stiffness_falls(found: xr.Dataset, directions: tuple[str, ...] = ("x", "y", 
         near = (away[0][:, None] <= 0.25 + 1e-9) & (away[1] <= 0.25 + 1e-9)
         middle = np.where(near, values, np.nan)
         if not np.isfinite(middle).any():
-            raise ModelError(
-                "stiffness map", "has no pose in its middle that counts.", "Move the map."
-            )
+            raise ModelError("stiffness map", "has no valid pose in its middle.", "Move the map.")
         i, j = np.unravel_index(int(np.nanargmin(values)), values.shape)
         falls.append(
             Fall(

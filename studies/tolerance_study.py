@@ -113,7 +113,7 @@ def tolerance_study(
     if options.objective is not None and not known:
         raise ModelError(
             "force limits",
-            "are none, and an allocation has to keep some.",
+            "are not given, and an allocation needs some.",
             "Add [[force_limits]], or give --limit.",
         )
     responses = in_a_row(tolerance_responses(placed, tolerances, quantities))

@@ -56,9 +56,10 @@ def write(subject: Subject) -> Chapter:
         )
     blocks: list[Block] = [
         Text(
-            f"Over the reachable ones of {grid_text(subject.grid)}, by the joints alone: no "
-            "formula of the machine is needed. Turns are counted on along the way from home; a "
-            "spherical joint's three are the components of its rotation vector."
+            f"The ranges cover the reachable ones of {grid_text(subject.grid)}. They follow from "
+            "the joints alone, without a formula of the machine. Rotations are counted "
+            "continuously from home; the three of a spherical joint are the components of its "
+            "rotation vector."
         ),
         *range_blocks(ranges, FILE),
     ]
@@ -66,9 +67,9 @@ def write(subject: Subject) -> Chapter:
     if free:
         blocks.append(
             Note(
-                f"{free} of {found.attrs['poses']} poses do not count; the chapter on stiffness "
-                "over the workspace says why. Those outside a joint's limits alone are in the "
-                "ranges above."
+                f"{free} of {found.attrs['poses']} poses are excluded; the chapter on stiffness "
+                "over the workspace says why. Those that are only outside a joint's limits are "
+                "in the ranges above."
             )
         )
     return Chapter(KEY, TITLE, tuple(blocks), (range_file(ranges, FILE),))

@@ -292,9 +292,9 @@ def spread_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Da
     where = f" at {pose(study, study.governing)}" if len(study.poses) > 1 else ""
     text = (
         f"{found.samples:,} assemblies{where}, {METHODS.get(found.method, found.method)}; each "
-        f"tolerance falls {' or '.join(_FALLS[d] for d in distributions)}. The largest "
-        f"{label(study.quantities[i])} sampled is {reach:.1f} % of the exact worst case; no sample "
-        f"may exceed it. Quantiles stand in the data file with their confidence intervals "
+        f"deviation lies {' or '.join(_FALLS[d] for d in distributions)}. The largest sampled "
+        f"{label(study.quantities[i])} is {reach:.1f} % of the exact worst case, which no sample "
+        "can exceed. The data file gives the quantiles with their confidence intervals "
         f"({found.confidence})."
     )
     blocks: list[Block] = [Text(text), Row(tuple(figures), 380)]
@@ -314,9 +314,12 @@ METHODS = {"monte_carlo": "Monte Carlo", "quasi_monte_carlo": "quasi-Monte Carlo
 _HISTOGRAM = ("quantity", "from_N", "to_N", "samples")
 
 _FALLS = {
-    "surface": "anywhere on its zone's surface",
+    "surface": "anywhere on the surface of its zone",
     "uniform": "anywhere in its zone",
-    "normal": "normally, its limit at three standard deviations",
+    "normal": (
+        "about the middle of its zone, normally distributed with its limit at three standard "
+        "deviations"
+    ),
 }
 
 
@@ -342,7 +345,7 @@ def cause_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Dat
     file = f"{key}-shares.csv"
     figure = Figure(
         f"shares-{key}",
-        f"{study.title}: what each tolerance adds to each worst-case force.",
+        f"{study.title}: contribution of each tolerance to each worst-case force.",
         stacked_shares(categories, chart, "share"),
         "Stacked bars: share of each tolerance in the worst case of each force.",
         file,

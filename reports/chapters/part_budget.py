@@ -35,9 +35,9 @@ def budget_chapter(model: Model) -> Chapter:
     frames = _frames(model)
     blocks: list[Block] = [
         Text(
-            "A force at the tool does work on the parts in proportion to their strain energy; the "
-            "shares of one force add to 100 %. Other directions are free to follow. Parts whose "
-            "names differ by their numbers alone are one group."
+            "A force at the tool does work on the parts in proportion to their strain energy; "
+            "the shares of one force add up to 100 %. Other directions are free to follow. Parts "
+            "whose names differ only in their numbers form one group."
         ),
         Figure(
             "budget-bars",
@@ -73,7 +73,7 @@ def budget_chapter(model: Model) -> Chapter:
 
 def _table(named: dict[str, PartGroup], budgets: list[ComplianceBudget]) -> Table:
     deflections = [
-        "all of it, µm/N",
+        "total, µm/N",
         *(significant(1e6 * float(b.deflection), 3) for b in budgets),
     ]
     rows = [

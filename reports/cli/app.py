@@ -67,8 +67,8 @@ app = typer.Typer(
     name="strutwork",
     cls=Program,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
-    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
-    "3 a result cannot be written, 130 interrupted, 141 nobody reads the output any more.",
+    epilog="Exit status: 0 success, 1 the model is wrong or cannot be solved, 2 wrong usage, 3 a "
+    "result cannot be written, 130 interrupted, 141 the reader of the output has gone.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -145,14 +145,16 @@ def modes(
             "--count",
             "-n",
             min=1,
-            help="Elastic modes; rigid-body modes come first and in addition.",
+            help="Number of elastic modes; rigid-body modes come first, in addition.",
         ),
     ] = 10,
     pose: Pose = None,
     joint: JointAt = None,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write them there as a universal file."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write them to this folder as a universal file."
+        ),
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
@@ -185,23 +187,31 @@ def frf(
     ],
     low: Annotated[
         float | None,
-        typer.Option("--from", help="Start of the band, Hz; without a band, one that covers."),
+        typer.Option(
+            "--from",
+            help="Start of the band, Hz; by default, the band is chosen to cover the response.",
+        ),
     ] = None,
     high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
         typer.Option(
-            "--output", callback=typed, metavar="NODE:DIR", help="What moves; the input by default."
+            "--output",
+            callback=typed,
+            metavar="NODE:DIR",
+            help="Where the motion is computed; the input by default.",
         ),
     ] = None,
     pose: Pose = None,
     joint: JointAt = None,
     lines: Annotated[
-        int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
+        int, typer.Option(min=2, max=1_000_000, help="Number of frequency lines, evenly spaced.")
     ] = 1000,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write it there as UFF-58 and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write it to this folder as UFF-58 and CSV."
+        ),
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
@@ -233,17 +243,18 @@ def compare(
     computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
     measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
     window: Annotated[
-        float, typer.Option(help="Pairs differ by at most this share of the frequency.")
+        float, typer.Option(help="Largest difference of a pair, as a share of the frequency.")
     ] = 0.3,
     least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = 0.5,
     doublet: Annotated[
-        float, typer.Option(help="Neighbours within this share are one span.")
+        float,
+        typer.Option(help="Neighbouring modes within this share of the frequency are one span."),
     ] = 0.01,
     unit: Annotated[
         list[str] | None,
         typer.Option(
             metavar="LABEL=UNIT",
-            help='Unit of an axis label that is not known, as in --unit "EU=mm/s^2". Repeatable.',
+            help='Unit of an unknown axis label, as in --unit "EU=mm/s^2". Repeatable.',
         ),
     ] = None,
     json: Json = False,
@@ -271,29 +282,36 @@ def tolerance(
         typer.Option(
             callback=typed,
             metavar="[JOINT:]KIND=VALUE",
-            help="A force limit beside the file's, as in --limit radial_force=2kN. Repeatable.",
+            help=(
+                "A force limit in addition to the file's, as in --limit radial_force=2kN. "
+                "Repeatable."
+            ),
         ),
     ] = None,
     allocation: Annotated[
         Objective | None,
-        typer.Option("--allocate", help="Find the largest tolerances that keep all limits."),
+        typer.Option("--allocate", help="Find the largest tolerances that meet all limits."),
     ] = None,
     quantile: Annotated[
         float | None,
         typer.Option(
-            min=0.0, max=1.0, help="Share of the assemblies the allocation keeps; all by default."
+            min=0.0,
+            max=1.0,
+            help="Share of the assemblies that must meet the limits; all by default.",
         ),
     ] = None,
     samples: Annotated[
-        int, typer.Option(min=0, max=100_000_000, help="Assemblies drawn; 0 for none.")
+        int, typer.Option(min=0, max=100_000_000, help="Number of assemblies sampled; 0 for none.")
     ] = 100_000,
-    seed: Annotated[int, typer.Option(min=0, help="Of the random numbers.")] = 2002,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 2002,
     quasi: Annotated[
-        bool, typer.Option("--quasi", help="Draw scrambled Sobol' points in place of random ones.")
+        bool, typer.Option("--quasi", help="Use scrambled Sobol' points instead of random ones.")
     ] = False,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write them to this folder as NetCDF and CSV."
+        ),
     ] = None,
     json: Json = False,
 ) -> None:
@@ -327,8 +345,9 @@ def scale(
         float | None,
         typer.Option(
             "--from",
-            help="Smallest size beside its own, 0.25 by default; where its document studies its "
-            "size, what that names, as the shortest struts in m.",
+            help="Smallest size relative to its own, 0.25 by default; where its document "
+            "studies the size, the quantity varied there, such as the shortest struts in "
+            "m.",
         ),
     ] = None,
     high: Annotated[
@@ -338,19 +357,28 @@ def scale(
     lengths: Annotated[
         int | None,
         typer.Option(
-            min=2, max=10_000, help="Sizes: 9 by default, 30 where a document has a study."
+            min=2,
+            max=10_000,
+            help="Number of sizes: 9 by default, 30 where a document has a study.",
         ),
     ] = None,
-    width_ratio: Annotated[float, typer.Option(help="Width of a strut over its length.")] = 0.2,
+    width_ratio: Annotated[
+        float, typer.Option(help="Ratio of the width of a strut to its length.")
+    ] = 0.2,
     tilt: Annotated[
         str, typer.Option(metavar="ANGLE", help="Parallelism of the axes: half-angle of the cone.")
     ] = "300 um/m",
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write them to this folder as NetCDF and CSV."
+        ),
     ] = None,
     granite: Annotated[
-        bool, typer.Option("--granite", help="Stiffness and frequencies on the granite's solid.")
+        bool,
+        typer.Option(
+            "--granite", help="Include the granite as a solid in stiffness and frequencies."
+        ),
     ] = False,
     json: Json = False,
 ) -> None:

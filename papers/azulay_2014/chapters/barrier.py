@@ -14,10 +14,10 @@ from strutwork.reports.pivot import Entry, pivoted
 NONE = "–"
 
 BARRIER = (
-    "With six drives no way leads from the pole to a tilt of 90° on this hemisphere: at every roll "
-    "one tilt between them is a type 2 singularity, where the platform moves though all drives are "
-    "held. The singular poses fill the ring between the two dashed circles, one distance for each "
-    "roll. A seventh drive would be needed to cross it."
+    "With six drives no path leads from the pole to a tilt of 90° on this hemisphere: at every "
+    "roll one tilt between them is a type 2 singularity, where the platform can move although "
+    "all drives are held. The singular poses fill the ring between the two dashed circles, one "
+    "distance for each roll. A seventh drive would be needed to cross it."
 )
 
 
@@ -44,12 +44,12 @@ def regions_chapter(found: Mapping[str, Barred], first: str) -> Chapter:
     """
     return Chapter(
         "regions",
-        "What six drives and the joint ranges leave",
+        "What is reached with six drives and the joint ranges",
         (
             ring_text(found),
             Text(
                 "A machine works on one side of the ring only. Each side is connected over tilts "
-                "and rolls; a point belongs to the side of the pose that is chosen there."
+                "and rolls; a point belongs to the side of the pose chosen for it."
             ),
             regions_table(found, first, own=True),
             regions_table(found, first, own=False),
@@ -73,7 +73,7 @@ def regions_table(found: Mapping[str, Barred], first: str, own: bool) -> Table:
         for axis, cells in _by_axis(one, side, own).items()
     ]
     return pivoted(
-        f"Blocked stiffness by region; joint ranges kept: {RANGES[own]}",
+        f"Blocked stiffness by region; joint ranges respected: {RANGES[own]}",
         (*texts(first, "region"), *numbers("points")),
         (
             *numbers("mean", unit="N/µm"),
@@ -113,7 +113,7 @@ def ranges_table(found: Mapping[str, Barred], first: str) -> Table:
         for own in RANGES
     ]
     columns = (
-        *texts(first, "joint ranges kept"),
+        *texts(first, "joint ranges respected"),
         *numbers("all", "pole's side", "beyond", group="check points kept"),
         *numbers(*(f"K{a * 2}" for a in AXES), unit="N/µm", group="mean"),
     )

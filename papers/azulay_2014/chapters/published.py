@@ -18,11 +18,12 @@ from strutwork.reports.pivot import Entry, pivoted
 Rows = Mapping[Model, tuple[PublishedRow, ...]]
 
 READING = (
-    "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
-    "other five directions are held. This is the meaning that agrees with the paper. All means "
-    "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
-    "were chosen with the means of these tables in view. To the variances nothing was fitted; as "
-    "a set they do not come out and are called not reproducible. Nothing is rescaled."
+    "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while "
+    "its other five directions are held. This is the meaning that agrees with the paper. All "
+    "means are called calibrated, close or not: heights of the pole, lengths and the model of "
+    "the drives were chosen to match the means of these tables. Nothing was fitted to the "
+    "variances; as a set they are not reproduced and are called not reproducible. Nothing is "
+    "rescaled."
 )
 
 

@@ -54,18 +54,17 @@ def stiffness_chapter() -> Chapter:
             "Each strut with its bearings is a spring k_i (eq. 51); blocks and guides are rigid. "
             "The thesis's J⁻ᵀ K J⁻¹ puts these springs at the drives, along z, which makes a "
             "leaning strut stiffer by 1/u_z². Corrected, K = Σ a aᵀ/c with a a strut's line at "
-            "the tool tip and c = 1/k_i + u_x²/k_tr + u_z²/k_screw: what the structure of this "
-            "report gives to 1e-9. The thesis's term in k_tr is right."
+            "the tool tip and c = 1/k_i + u_x²/k_tr + u_z²/k_screw: the structure of this report "
+            "gives the same to 1e-9. The thesis's term in k_tr is right."
         ),
         _facts(found),
         _maps(found),
         Text(
             f"k_i = {micro(STRUT_STIFFNESS)} N/µm is calibrated: with it the flat part of the map "
             "lies at 150 N/µm, the highest tick of Fig. 29-(a), which prints no value. The "
-            "stiffness is 1/C_xx at the tool tip, tilt and z free to follow. The computed one in "
-            "Table 6 is "
-            "the entire structure with the bearings that are calibrated to the thesis's numerical "
-            "frequencies and to its K_y of 35 N/µm at home."
+            "stiffness is 1/C_xx at the tool tip, with tilt and z free to follow. The computed "
+            "one in Table 6 is that of the entire structure with the bearings calibrated to the "
+            "thesis's numerical frequencies and to its K_y of 35 N/µm at home."
         ),
         _table_6(rows),
         _fits_table(fits),
@@ -188,13 +187,13 @@ def _shown(stiffness: float) -> str:
 def _verdict(fits: tuple[ColumnFit, ...]) -> str:
     null = fits[0].rms
     return (
-        "Table 6 was measured at the spindle housing after a dead zone of 2 to 4 µm; where on it "
-        "is not published. In x and z together no model comes nearer than one constant a column, "
-        f"whose residuals are {', '.join(fixed(v or 0.0, 2) for v in null)} and which knows "
-        "nothing of the machine. Section 9.2.1 calls the stiffness at x = −50 mm, b = −30° small, "
-        "where the table prints its largest numbers: as if the last two rows had changed places; "
-        f"that is not proven. {_swap(fits)} What can be said is the trend: soft at the two corners "
-        "where the struts come near a common point."
+        "Table 6 was measured at the spindle housing after a dead zone of 2 to 4 µm; the place "
+        "on it is not published. In x and z together no model is closer than one constant per "
+        f"column, whose residuals are {', '.join(fixed(v or 0.0, 2) for v in null)} and which "
+        "does not depend on the machine. Section 9.2.1 calls the stiffness at x = −50 mm, b = "
+        "−30° small, where the table prints its largest numbers: as if the last two rows had "
+        f"changed places; that is not proven. {_swap(fits)} Only the trend is certain: the "
+        "machine is soft at the two corners where the struts come near a common point."
     )
 
 

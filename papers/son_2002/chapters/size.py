@@ -36,13 +36,13 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
     blocks: list[Block] = [
         Text(
             "Chapter 3 of the thesis: a structure all of whose lengths are L times as large is L "
-            "times as stiff (eqs 14 and 15), and its natural frequencies are divided by L "
-            "(eq. 24). That takes joints whose stiffness grows with L as well; roller bearings of "
-            "a catalogue grow with L^0.8, which section 3.3 takes for L, and a machine that keeps "
-            "its bearings has stiffer and stiffer struts between the same joints. At L = 1 the "
-            "slope of the stiffness is 1 − s (1 − a), s the joints' share in the deflection and "
-            "a the exponent of their stiffness; that of a frequency −1 − s (1 − a)/2, s their "
-            "share in the mode's strain energy."
+            "times as stiff (eqs 14 and 15), and its natural frequencies are divided by L (eq. "
+            "24). That requires joints whose stiffness grows with L as well; roller bearings of "
+            "a catalogue grow with L^0.8, which section 3.3 takes for L, and a machine that "
+            "keeps its bearings has stiffer and stiffer struts between the same joints. At L = 1 "
+            "the slope of the stiffness is 1 − s (1 − a), s the joints' share in the deflection "
+            "and a the exponent of their stiffness; that of a frequency −1 − s (1 − a)/2, s "
+            "their share in the mode's strain energy."
         ),
         Text(_finding(moving, whole)),
         Row(
@@ -50,8 +50,8 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
                 Figure(
                     "size-stiffness",
                     "Stiffness at the tool against size, rails held, 1/Cᵢᵢ. Both axes are "
-                    "logarithmic: a power is a straight line, and its exponent stands behind its "
-                    "name.",
+                    "logarithmic: a power is a straight line, and its exponent is given after "
+                    "its name.",
                     stiffness_powers(moving),
                     "Lines of the stiffness in x, y and z over the size, for three laws of joints.",
                     FILE,
@@ -72,7 +72,7 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
         Figure(
             "size-frequency-whole",
             "Frequencies of the machine on its granite against size, counted from the lowest at "
-            "every size; the first six, in which the granite moves on its mounts, are left out.",
+            "every size; the first six, in which the granite moves on its mounts, are omitted.",
             frequency_powers(whole, tuple(k for k in SHOWN if k < whole.frequencies.shape[-1])),
             "Lines of four frequencies over the size, for three laws of the joints.",
             FILE,
@@ -89,8 +89,8 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
         *_removal(both),
         Figure(
             "size-deflection",
-            "Deflection in x at constant removal rate, rails held, beside that of the machine's "
-            "own size. Above 1 the machine of that size cuts less precisely.",
+            "Deflection in x at constant removal rate, rails held, relative to that at the "
+            "machine's own size. Above 1 the machine of that size cuts less precisely.",
             deflection_powers(moving),
             "Lines of the deflection over the size for three laws of joints and three drives.",
             FILE,
@@ -120,11 +120,11 @@ def _finding(moving: ScaleStudy, whole: ScaleStudy) -> str:
     slower, slowest = (fixed(float(moving.frequency_law(i).exponent[0]), 2) for i in (1, 2))
     return (
         f"The calibrated machine at home, {micro(float(k))} N/µm in x and {significant(float(f))} "
-        f"Hz with the rails held. With similar joints its exponents are 1 and −1 within "
+        "Hz with the rails held. With similar joints its exponents are 1 and −1 within "
         f"{significant(error, 1)}. Its bearings give {share(float(moving.joint_share[0]))} of the "
-        f"deflection in x and {share(float(moving.joint_share[1]))} in y: with roller bearings the "
-        f"stiffness in x goes with L^{rollers} and the lowest frequency with L^{slower}, with the "
-        f"same bearings with L^{same} and L^{slowest}. A larger machine wants larger bearings."
+        f"deflection in x and {share(float(moving.joint_share[1]))} in y: with roller bearings "
+        f"the stiffness in x varies as L^{rollers} and the lowest frequency with L^{slower}, with "
+        f"the same bearings with L^{same} and L^{slowest}. A larger machine needs larger bearings."
     )
 
 
