@@ -19,7 +19,7 @@ from strutwork.studies.run import Chunk, Run, fill
 KEY = "0123456789abcdef" * 4
 
 
-class InterruptError(Exception):
+class InterruptError(BaseException):
     """Stands for the user's Ctrl-C in the middle of a study."""
 
 
