@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
@@ -39,23 +40,27 @@ class Cluster:
             process.wait()
 
 
-def _started(*arguments: str) -> subprocess.Popen[bytes]:
+def _started(*arguments: str, **more: str) -> subprocess.Popen[bytes]:
     return subprocess.Popen(
         [sys.executable, "-m", "dask", *arguments],
         cwd=ROOT,
-        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        env={**os.environ, "PYTHONPATH": str(ROOT), **more},
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
 
 
 @contextmanager
-def cluster(folder: Path, workers: int) -> Iterator[Cluster]:
-    """A scheduler that answers, and workers that may still be starting."""
+def cluster(folder: Path, workers: int, deaths: int = 3) -> Iterator[Cluster]:
+    """A scheduler that answers, and workers that may still be starting.
+
+    A chunk may end `deaths` workers before it is given up with the next one.
+    """
     stated = folder / "scheduler.json"
     scheduler = _started(
         "scheduler", "--port", "0", "--host", "127.0.0.1", "--no-dashboard",
         "--scheduler-file", str(stated),
+        DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES=str(deaths),
     )  # fmt: skip
     made = Cluster(folder, scheduler, "")
     try:
@@ -64,8 +69,6 @@ def cluster(folder: Path, workers: int) -> Iterator[Cluster]:
             assert scheduler.poll() is None, "the scheduler ended"
             assert time.monotonic() < end, "the scheduler does not start"
             time.sleep(0.1)
-        import json
-
         made.address = str(json.loads(stated.read_text(encoding="utf-8"))["address"])
         for _ in range(workers):
             made.add_worker()
