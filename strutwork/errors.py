@@ -64,7 +64,7 @@ class NumericalError(StrutworkError):
 
 
 class StudyError(StrutworkError):
-    """Chunks of a study that could not be computed; the message says what of it is kept, and where."""
+    """Chunks of a study that could not be computed; the message says what is kept, and where."""
 
 
 class ClusterError(StrutworkError):

@@ -154,7 +154,7 @@ class _Flow:
     def _take(self, future: Any) -> None:
         number, chunk = self.under_way[future]
         try:
-            found = self._result(future, chunk)
+            found = self._result(future)
         except TimeoutError:
             # its worker died with the result: the scheduler has it computed again
             self.look()
@@ -166,7 +166,7 @@ class _Flow:
         if self.keep is not None:
             self.keep(chunk, found)
 
-    def _result(self, future: Any, chunk: Any) -> Any:
+    def _result(self, future: Any) -> Any:
         from distributed import KilledWorker  # noqa: PLC0415 - where the extra is installed
         from distributed.client import FutureCancelledError  # noqa: PLC0415
 

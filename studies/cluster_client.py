@@ -49,7 +49,7 @@ def client_of(address: str, patience: float, workers: int | None = None) -> Any:
             return known
         made = _connected(address, patience, workers)
         try:
-            check_versions(address, made)
+            check_versions(made)
         except BaseException:
             _close(made)
             raise
@@ -103,13 +103,11 @@ def _connected(address: str, patience: float, workers: int | None) -> Any:
     return client
 
 
-def check_versions(address: str, client: Any) -> None:
+def check_versions(client: Any) -> None:
     """Compare the workers' versions with those here.
 
     Parameters
     ----------
-    address : str
-        For messages.
     client : distributed.Client
 
     Raises

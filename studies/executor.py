@@ -127,7 +127,8 @@ class Place:
     folder: Path | None = None
 
 
-_PLACE: ContextVar[Place] = ContextVar("place", default=Place())
+_HERE = Place()
+_PLACE: ContextVar[Place] = ContextVar("place", default=_HERE)
 
 
 def place() -> Place:

@@ -143,7 +143,8 @@ class Failures:
             words += f" ({self.inputs(chunk)})"
         self._each.append((words, failed))
         if self.store is None:
-            if isinstance(failed.error, StrutworkError):
+            # numbers out of range have a message of the program's own
+            if isinstance(failed.error, StrutworkError | ArithmeticError | Warning):
                 failed.error.add_note(f"at {words}, counted from zero")
                 raise failed.error
             raise StudyError(

@@ -100,7 +100,8 @@ class Lines:
         if finished:
             text += f", done in {elapsed:.0f} s"
         elif done > self._first:
-            text += f", about {elapsed * (total - done) / (done - self._first):.0f} s left"
+            rate = (done - self._first) / elapsed
+            text += f", {rate:.3g} per s, about {(total - done) / rate:.0f} s left"
         stream = sys.stderr if self.stream is None else self.stream
         stream.write(visible(text) + "\n")
         stream.flush()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -82,6 +82,15 @@ class Run:
         folder = self.folder if self.folder is not None else place().folder
         return None if folder is None else Path(folder)
 
+    def in_folder(self, folder: Path) -> Run:
+        """The same, with its finished chunks elsewhere.
+
+        Parameters
+        ----------
+        folder : Path
+        """
+        return replace(self, folder=folder)
+
     @property
     def bounded(self) -> bool:
         """Whether nothing but this process computes, and nothing of it would be kept."""
@@ -94,6 +103,8 @@ class Run:
         size: int,
         key: Callable[[], str],
         poses_per_item: int = 1,
+        *,
+        first: int = 0,
     ) -> Iterator[tuple[Chunk, Arrays]]:
         """Every chunk with its result, in order.
 
@@ -112,6 +123,8 @@ class Run:
             Gives the hash of the study's inputs; called only when a folder is given.
         poses_per_item : int
             What progress counts.
+        first : int
+            Chunk to begin with; those before it are done and kept elsewhere.
 
         Raises
         ------
@@ -122,14 +135,15 @@ class Run:
         ClusterError
             The executor went away; names the folder as well.
         """
-        parts = chunks_of(items, size)
+        parts = chunks_of(items, size)[first:]
         folder = self.kept_in
         store = ChunkStore(folder, key()) if folder is not None else None
         state = _State(store, parts, self.inputs, poses_per_item)
         executor = self.executor or default_executor(self.workers)
         progress = self.progress or silent
         total = items * poses_per_item
-        done = sum(c.stop - c.start for c in parts if state.seems_kept(c)) * poses_per_item
+        asked = sum(c.stop - c.start for c in parts if not state.seems_kept(c))
+        done = total - asked * poses_per_item
         progress(done, total)
         results = executor.map(Guarded(function), state.missing(), state.keep, Failed.of)
         try:

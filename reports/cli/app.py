@@ -29,6 +29,7 @@ from strutwork.reports.cli.manner import speaking
 from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
 from strutwork.reports.cli.new_command import new
+from strutwork.reports.cli.placing import placed
 from strutwork.reports.cli.report_command import report
 from strutwork.reports.cli.reversals_command import reversals
 from strutwork.reports.cli.schema_command import schema
@@ -119,7 +120,7 @@ def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
     work.run(subject(target, pose, joint), json)
 
 
-app.command("map")(speaking(map_command))
+app.command("map")(speaking(placed(map_command)))
 
 
 @app.command()
@@ -309,6 +310,7 @@ def tolerance(
 
 @app.command()
 @speaking
+@placed
 def scale(
     machine: Annotated[
         str,
@@ -370,9 +372,9 @@ def scale(
     study(machine, span, count, width_ratio, tilt, out, granite=granite, json=json)
 
 
-app.command()(speaking(accuracy))
+app.command()(speaking(placed(accuracy)))
 app.command()(speaking(move))
-app.command()(speaking(workspace))
+app.command()(speaking(placed(workspace)))
 app.command()(new)
 app.command()(speaking(reversals))
 app.command()(schema)

@@ -11,11 +11,14 @@ from functools import partial
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
+    ProgressColumn,
+    Task,
     TextColumn,
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
 from rich.progress import Progress as Bars
+from rich.text import Text
 
 from strutwork.names import visible
 from strutwork.reports.cli.output import progress_console
@@ -69,11 +72,20 @@ class _Counting:
             sys.stderr.flush()
 
 
+class _Rate(ProgressColumn):
+    """How many are done per second."""
+
+    def render(self, task: Task) -> Text:
+        """Empty until something is done."""
+        return Text(f"{task.speed:.3g} per s" if task.speed else "")
+
+
 def _bars() -> Bars:
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
+        _Rate(),
         TimeRemainingColumn(),
     )
     return Bars(*columns, console=progress_console(), transient=True)
