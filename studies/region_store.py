@@ -89,7 +89,8 @@ class RegionStore:
             The disk is full, or refuses.
         """
         start = number * self.size
-        with self._written():
+        # a chunk that holds nothing but the fill value is a file as well: missing is damaged
+        with self._written(), _zarr().config.set({"array.write_empty_chunks": True}):
             group = self._group()
             for name, variable in variables.items():
                 if name not in group:
@@ -105,12 +106,26 @@ class RegionStore:
         rest : xarray.Dataset
         """
         with self._written():
-            rest.to_zarr(self.path, mode="a", consolidated=False, zarr_format=3)
-            self._group().attrs.update({**rest.attrs, _COMPLETE: True})
+            group = self._group()
+            for name, variable in rest.variables.items():
+                # text of one length each has no place in the specification yet
+                text = variable.dtype.kind in "UO"
+                array = group.create_array(
+                    str(name),
+                    shape=variable.shape,
+                    dtype=str if text else variable.dtype,
+                    dimension_names=variable.dims,
+                    attributes={k: _plain(v) for k, v in variable.attrs.items()},
+                    overwrite=True,
+                )
+                array[...] = variable.to_numpy().astype(object if text else variable.dtype)
+            group.attrs.update({k: _plain(v) for k, v in rest.attrs.items()} | {_COMPLETE: True})
 
     def opened(self) -> xr.Dataset:
         """What is on disk; arrays are read when they are asked for."""
-        return xr.open_zarr(self.path, chunks=None, consolidated=False)
+        found = xr.open_zarr(self.path, chunks=None, consolidated=False)
+        found.attrs = {k: v for k, v in found.attrs.items() if k != _DONE}
+        return found
 
     def _group(self) -> Any:
         return _zarr().open_group(self.path, mode="a", zarr_format=3)
@@ -128,8 +143,6 @@ class RegionStore:
             dimension_names=variable.dims,
             attributes={k: _plain(v) for k, v in variable.attrs.items()},
             compressors=(codecs.ZstdCodec(level=1), codecs.Crc32cCodec()),
-            # a chunk that holds nothing but the fill value is a file as well: missing is damaged
-            config={"write_empty_chunks": True},
         )
 
     def _sound(self, group: Any, number: int) -> bool:
