@@ -15,7 +15,16 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.measure import DOCUMENTS, machine_line, one_thread, parsed, parser, require, shown
+from benchmarks.measure import (
+    DOCUMENTS,
+    joined,
+    machine_line,
+    one_thread,
+    parsed,
+    parser,
+    require,
+    shown,
+)
 from strutwork.machines import Proposed3PPRS
 from strutwork.studies import hemisphere, stiffness_map
 from strutwork.studies.chunks import Arrays, ChunkStore
@@ -104,23 +113,26 @@ def table(*, smallest: bool) -> str:
         require(thread_cost < 0.05 and dask_cost < 0.05, "an executor costs 5 % or more")
         require(peak() < 1.0, "a streamed map takes 1 GB or more")
     load = os.getloadavg()[0]
-    return "\n".join(
+    costs = f"overhead at chunks of {seconds:g} s"
+    disk = f"{took:.0f} s, {size / 1e6:.0f} MB on disk, {peak():.2f} GB of memory at most"
+    return joined(
         [
             "# Studies: what executors cost",
             "",
-            f"{machine_line()} Load when it was written: {load:.1f}; ratios of a machine that does "
-            "other work are indicative.",
+            f"{machine_line()} Load when this was written: {load:.1f}.",
+            "Ratios of a machine that does other work are indicative.",
             "",
             "| what | result | asked |",
             "| --- | --- | --- |",
-            f"| overhead at chunks of {seconds:g} s, a thread | {100 * thread_cost:.1f} % | < 5 % |",
-            f"| overhead at chunks of {seconds:g} s, a Dask worker | {100 * dask_cost:.1f} % | < 5 % |",
+            f"| {costs}, a thread | {100 * thread_cost:.1f} % | < 5 % |",
+            f"| {costs}, a Dask worker | {100 * dask_cost:.1f} % | < 5 % |",
             f"| two threads beside one | {threads:.2f} | 1.8 |",
             f"| two local Dask workers beside one | {dask:.2f} | 1.8 |",
             f"| keeping a chunk of 2048 compliances, and reading it | {1e3 * kept:.1f} ms | |",
-            f"| streamed stiffness map of {streamed:,} poses | {took:.0f} s, {size / 1e6:.0f} MB on "
-            f"disk, {peak():.2f} GB of memory at most | < 1 GB |",
+            f"| streamed stiffness map of {streamed:,} poses | {disk} | < 1 GB |",
             "",
+            "Repeat it on a machine that does nothing else: `python -m benchmarks.executor_speed`.",
+            "`--stream 10000000` streams ten million poses alone.",
         ]
     )
 

@@ -60,6 +60,8 @@ def client_of(address: str, patience: float, workers: int | None = None) -> Any:
 def _connected(address: str, patience: float, workers: int | None) -> Any:
     try:
         from distributed import Client, LocalCluster  # noqa: PLC0415 - an extra
+        from distributed.comm.addressing import parse_address  # noqa: PLC0415
+        from distributed.comm.registry import get_backend  # noqa: PLC0415
     except ImportError as error:
         raise ClusterError(
             "cluster", "needs Dask, which is not installed.", "pip install strutwork[cluster]"
@@ -80,15 +82,18 @@ def _connected(address: str, patience: float, workers: int | None) -> Any:
         client.strutwork_cluster = cluster
         return client
     try:
+        # a scheme that is none leaves a client behind that waits a minute for its end
+        get_backend(parse_address(address)[0])
         with warnings.catch_warnings():
             # versions are compared here, with what matters to a study
             warnings.simplefilter("ignore")
             client = Client(address, timeout=patience, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
-        why = "no scheduler answers" if not isinstance(error, ValueError) else str(error)
+        why = f"no scheduler answers within {patience:g} s"
+        why = str(error) if isinstance(error, ValueError) else why
         raise ClusterError(
             f"cluster {address}",
-            f"cannot be reached: {why} within {patience:g} s.",
+            f"cannot be reached: {why}.",
             'Start it with `dask scheduler` and give the address that it prints, or "local".',
         ) from error
     try:

@@ -159,7 +159,7 @@ class Failures:
     def left(self) -> str:
         """What of the study is kept, and how to go on."""
         if self.store is None:
-            return "nothing of the study is kept; give it a folder to go on from."
+            return "Nothing is kept: give the study a folder to go on from."
         count = sum(self.store.path(number).exists() for number in range(self.chunks))
         folder = self.store.path(0).parent
         return (
@@ -184,7 +184,7 @@ class Failures:
         raise StudyError(
             f"{len(self._each)} of {self.chunks} chunks",
             f"could not be computed: {some}. {report} says where each failed.",
-            f"Of the others, {self.left()}",
+            self.left(),
         ) from self._each[0][1].error
 
     def _written(self, path: Path) -> Path:
@@ -197,6 +197,4 @@ class Failures:
         ----------
         error : ClusterError
         """
-        return ClusterError(
-            error.part, error.problem, f"{error.remedy} Of the study, {self.left()}"
-        )
+        return ClusterError(error.part, error.problem, f"{error.remedy} {self.left()}")
