@@ -8,6 +8,7 @@ import os
 import threading
 import warnings
 from contextlib import suppress
+from importlib import import_module
 from typing import Any
 
 from strutwork.errors import ClusterError, StudyWarning
@@ -59,7 +60,8 @@ def client_of(address: str, patience: float, workers: int | None = None) -> Any:
 
 def _connected(address: str, patience: float, workers: int | None) -> Any:
     try:
-        from distributed import Client, LocalCluster  # noqa: PLC0415 - an extra
+        # by its name: its classes are untyped
+        distributed: Any = import_module("distributed")
         from distributed.comm.addressing import parse_address  # noqa: PLC0415
         from distributed.comm.registry import get_backend  # noqa: PLC0415
     except ImportError as error:
@@ -71,13 +73,13 @@ def _connected(address: str, patience: float, workers: int | None) -> Any:
         logging.getLogger(name).setLevel(logging.CRITICAL)
     if address == LOCAL:
         count = workers or len(os.sched_getaffinity(0))
-        cluster = LocalCluster(
+        cluster = distributed.LocalCluster(
             n_workers=count,
             threads_per_worker=1,
             dashboard_address=None,
             silence_logs=logging.CRITICAL,
         )
-        client = Client(cluster, timeout=patience, set_as_default=False)
+        client = distributed.Client(cluster, timeout=patience, set_as_default=False)
         # closed with the connection
         client.strutwork_cluster = cluster
         return client
@@ -87,7 +89,7 @@ def _connected(address: str, patience: float, workers: int | None) -> Any:
         with warnings.catch_warnings():
             # versions are compared here, with what matters to a study
             warnings.simplefilter("ignore")
-            client = Client(address, timeout=patience, set_as_default=False)
+            client = distributed.Client(address, timeout=patience, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
         why = f"no scheduler answers within {patience:g} s"
         why = str(error) if isinstance(error, ValueError) else why

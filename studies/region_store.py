@@ -123,7 +123,7 @@ class RegionStore:
 
     def opened(self) -> xr.Dataset:
         """What is on disk; arrays are read when they are asked for."""
-        found = xr.open_zarr(self.path, chunks=None, consolidated=False)
+        found: xr.Dataset = xr.open_zarr(self.path, chunks=None, consolidated=False)
         found.attrs = {k: v for k, v in found.attrs.items() if k != _DONE}
         return found
 

@@ -156,8 +156,12 @@ def map_function(
 
     Parameters
     ----------
-    machine, points, rolls, filters
-        As `stiffness_map`.
+    machine : Machine
+    points : CheckPoints, optional
+    rolls : (r,), optional
+        rad.
+    filters : Filters, optional
+        All as `stiffness_map`.
 
     Raises
     ------

@@ -24,8 +24,8 @@ from strutwork.studies.run import Chunk, Run
 from strutwork.studies.stiffness_map import map_function
 from strutwork.studies.variables import named
 
-#: Candidates of a chunk: some megabytes a chunk on disk, and a hundred a worker in memory.
-CHUNK = 16384
+#: Candidates of a chunk: files of some hundred kilobytes, and tens of megabytes a worker.
+CHUNK = 8192
 
 
 def stream_stiffness_map(
@@ -47,8 +47,11 @@ def stream_stiffness_map(
     machine : Machine
     path : Path
         Folder of the Zarr store (version 3).
-    points, rolls, filters
-        As of `strutwork.studies.stiffness_map`.
+    points : CheckPoints, optional
+    rolls : (r,), optional
+        rad.
+    filters : Filters, optional
+        These as of `strutwork.studies.stiffness_map`.
     run : Run, optional
         Workers or executor, and progress; its folder is not used.
 
