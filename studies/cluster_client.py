@@ -76,7 +76,7 @@ def _connected(address: str, patience: float, workers: int | None) -> Any:
         cluster = distributed.LocalCluster(
             n_workers=count,
             threads_per_worker=1,
-            dashboard_address=None,
+            dashboard_address=":0",
             silence_logs=logging.CRITICAL,
         )
         client = distributed.Client(cluster, timeout=patience, set_as_default=False)
