@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import JointMotion
 from strutwork.kinematics.mechanism import Poses
 from strutwork.kinematics.turns import rotation_matrix, rotation_vector
+from strutwork.names import choices
 
 Array = NDArray[Any]
 
@@ -135,7 +135,7 @@ def given(
         )
     except ValueError as error:
         raise ModelError(
-            part, "has targets whose shapes do not go together.", "Give arrays that broadcast."
+            part, "has targets whose shapes do not match.", "Give arrays that broadcast."
         ) from error
     index = [joints.names.index(pair) for pair in pairs]
     values = _flat(batch, [(wanted or {})[pair] for pair in pairs]) - home_values[index]
@@ -186,7 +186,7 @@ def _check_coordinate(joints: JointMotion, pair: tuple[str, str]) -> None:
         ):
             raise ModelError(
                 f"joint {name}",
-                f"turns freely in all ways: {direction} alone is no coordinate of it.",
+                f"rotates freely in all directions: {direction} alone is not a coordinate of it.",
                 f"Give the pose of the tool, or make the {joint.type} joint of single ones.",
             )
         return
@@ -197,8 +197,7 @@ def _check_coordinate(joints: JointMotion, pair: tuple[str, str]) -> None:
             f'"{direction}" does not move in it.',
             f"Its coordinates are {', '.join(mine)}.",
         )
-    known = [n for n, _ in joints.names]
-    near = get_close_matches(name, known, n=3) or known[:5]
+    known = dict.fromkeys(n for n, _ in joints.names)
     raise ModelError(
-        "motion", f'names the unknown joint "{name}".', f"Nearest are {', '.join(near)}."
+        "motion", f'names the unknown joint "{name}".', choices("Joints that move", name, known)
     )

@@ -112,7 +112,7 @@ class Platform:
 
 @dataclass(frozen=True, kw_only=True)
 class VibratingLegs:
-    """A machine of three legs with what it needs to vibrate.
+    """A machine of three legs with the data for vibration.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ class VibratingLegs:
         if not np.isfinite(self.tool_offset):
             raise ModelError("tool_offset", f"is {self.tool_offset!r}.", "Give a length, m.")
         if self.elements < 1:
-            raise ModelError("elements", f"are {self.elements}.", "Give at least one a link.")
+            raise ModelError("elements", f"are {self.elements}.", "Give at least one per link.")
 
     @property
     def linkage(self) -> Linkage:
@@ -269,6 +269,10 @@ def dynamic_machine(name: str, which: DynamicSet = "calibrated") -> VibratingLeg
     return VibratingLegs(base=base, platform=_CALIBRATED_PLATFORM, tool_offset=_CALIBRATED_OFFSET)
 
 
+def _apparent(machine: Callable[[], ThreeLegs]) -> ThreeLegs:
+    return machine().apparent()
+
+
 def models_for_statics_and_vibration(
     name: str, machine: Callable[[], ThreeLegs]
 ) -> tuple[Variant, ...]:
@@ -285,9 +289,9 @@ def models_for_statics_and_vibration(
         Variant("static", "true spherical joints, drives with their stiffness", machine),
         Variant(
             "apparent",
-            "links clamped in the platform, carriages that do not turn: as the paper's static "
+            "links clamped in the platform, carriages that do not rotate: as the paper's static "
             "tables suggest",
-            lambda: machine().apparent(),
+            partial(_apparent, machine),
         ),
         *(
             Variant(which, words, partial(dynamic_machine, name, which))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
 from strutwork.kinematics.coupling import ties_of
-from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
+from strutwork.machines.model_checks import check_tables, ground_name, support_name
 from strutwork.machines.model_couplings import couplings_of
 from strutwork.machines.model_motion_tables import (
     drives_of,
@@ -30,17 +30,15 @@ from strutwork.machines.model_parts import (
     joint_of,
     masses_of,
     springs_of,
-    unknown,
 )
 from strutwork.machines.model_schema import ModelTable
-from strutwork.machines.model_solid_element import SolidElement
-from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Beam, Structure
 from strutwork.msa.unjoined import in_words, unjoined_nodes
 
-#: Bounds that keep a file from asking for more memory than any machine has.
-MAX_MESH_NODES = 20_000
-MAX_JOINTS = 1_000
+if TYPE_CHECKING:
+    from strutwork.kinematics.mesh_shapes import MeshShape
+    from strutwork.machines.model_solid_element import SolidElement
+    from strutwork.overconstraint.tolerance import Tolerance
 
 
 def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
@@ -64,10 +62,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     ModelError
         Names the part that is wrong.
     """
-    _check_size(tables)
-    _check_names(tables)
-    _check_bodies(tables)
-    _check_nodes(tables)
+    check_tables(tables)
     joints = tuple(joint_of(table) for table in tables.joints)
     couplings = couplings_of(tables)
     follows = {
@@ -81,7 +76,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     grounds = tuple(joint.between[0] for joint in supports.values())
     beams, springs, masses = beams_of(tables), springs_of(tables), masses_of(tables)
     cases = load_cases(tables, joints, supports, follows)
-    toleranced = model_tolerances(tables, joints, supports)
+    tolerances, costs, limits = _tolerances(tables, joints, supports)
     # last, for a solid may take minutes
     solids = _solids(tables, folder)
     monitors = {
@@ -125,9 +120,9 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         joints=tuple(joint.name for joint in joints),
         supports={node: joint.name for node, joint in supports.items()},
         damping=damping_of(tables),
-        tolerances=toleranced.tolerances,
-        tolerance_costs=toleranced.costs,
-        force_limits=toleranced.limits,
+        tolerances=tolerances,
+        tolerance_costs=costs,
+        force_limits=limits,
         solids=solids,
         preload=tables.preload,
         limits=joint_limits(linkage),
@@ -157,121 +152,16 @@ def _warn_of_unjoined(model: Model) -> None:
             )
 
 
-def _check_size(tables: ModelTable) -> None:
-    if not tables.nodes:
-        raise ModelError("nodes", "are none.", "Define the nodes of the structure.")
-    mesh = len(tables.nodes) + sum(beam.elements - 1 for beam in tables.beams)
-    if mesh > MAX_MESH_NODES:
-        raise ModelError(
-            "model",
-            f"has {mesh} nodes, those inside divided beams counted; at most {MAX_MESH_NODES} are "
-            "taken.",
-            "Divide beams into fewer elements.",
-        )
-    count = len(tables.joints) + len(tables.supports)
-    if count > MAX_JOINTS:
-        raise ModelError(
-            "model",
-            f"has {count} joints and supports; at most {MAX_JOINTS} are taken.",
-            "Split it.",
-        )
+def _tolerances(
+    tables: ModelTable, joints: Sequence[Joint], supports: Mapping[str, Joint]
+) -> tuple[tuple[Tolerance, ...], Mapping[str, float], Mapping[tuple[str, str], float]]:
+    if not (tables.tolerances or tables.force_limits):
+        return (), {}, {}
+    # only such files wait for what assembly forces are computed with
+    from strutwork.machines.model_tolerances import model_tolerances  # noqa: PLC0415
 
-
-def _check_names(tables: ModelTable) -> None:
-    """Names of one table are unique, and none collides with a name made here."""
-    for kind, names in (
-        ("beam", [t.name for t in tables.beams]),
-        ("solid", [t.name for t in tables.solids]),
-        ("body", [t.name for t in tables.bodies]),
-        ("joint", [t.name for t in tables.joints]),
-        ("spring", [t.name for t in tables.springs if t.name is not None]),
-    ):
-        repeated = [name for name, count in Counter(names).items() if count > 1]
-        if repeated:
-            raise ModelError(
-                f"{kind} {repeated[0]}", "is defined twice.", f"Give every {kind} its own name."
-            )
-    for solid in tables.solids:
-        if solid.name in {t.name for t in tables.beams}:
-            raise ModelError(
-                f"solid {solid.name}", "has the name of a beam.", "Rename one of the two."
-            )
-    supports = {support_name(t.node) for t in tables.supports}
-    for joint in tables.joints:
-        if joint.name in supports:
-            raise ModelError(
-                f"joint {joint.name}", "has the name of a support's joint.", "Rename the joint."
-            )
-    inner = {f"{b.name}/{i}" for b in tables.beams for i in range(1, b.elements)}
-    made = inner | {ground_name(t.node) for t in tables.supports}
-    for node in tables.nodes:
-        if node in made:
-            raise ModelError(
-                f"node {node}",
-                "has the name of a node inside a divided beam or on the ground.",
-                "Rename the node.",
-            )
-
-
-def _check_bodies(tables: ModelTable) -> None:
-    """Rigid bodies have two nodes or more and share none."""
-    owner: dict[str, str] = {}
-    for table in tables.bodies:
-        if len(set(table.nodes)) < 2:
-            raise ModelError(
-                f"body {table.name}",
-                f"has {len(set(table.nodes))} node{'s' if not table.nodes else ''}.",
-                "Give it two nodes at least; a single node needs no body.",
-            )
-        for node in table.nodes:
-            if owner.get(node) == table.name:
-                raise ModelError(
-                    f"body {table.name}", f'names node "{node}" twice.', "Name it once."
-                )
-            if node in owner:
-                raise ModelError(
-                    f"node {node}",
-                    f'is in two rigid bodies, "{owner[node]}" and "{table.name}".',
-                    "Merge the bodies into one.",
-                )
-            owner[node] = table.name
-
-
-def _check_nodes(tables: ModelTable) -> None:
-    """Every node that is named exists, and every node that exists is held by something."""
-    connecting: list[tuple[str, Sequence[str]]] = [
-        *((f"beam {t.name}", (t.from_, t.to)) for t in tables.beams),
-        *((f"body {t.name}", t.nodes) for t in tables.bodies),
-        *(
-            (f"solids.{t.name}.interfaces[{i}].node", (interface.node,))
-            for t in tables.solids
-            for i, interface in enumerate(t.interfaces)
-        ),
-        *((f"joint {t.name}", t.between) for t in tables.joints),
-        *(
-            (f"springs[{i}]", (*(t.between or ()), *((t.node,) if t.node else ())))
-            for i, t in enumerate(tables.springs)
-        ),
-        *((f"support of node {t.node}", (t.node,)) for t in tables.supports),
-    ]
-    others: list[tuple[str, Sequence[str]]] = [
-        *((f"masses[{i}]", (t.node,)) for i, t in enumerate(tables.masses)),
-        *((f"loads[{i}]", (t.node,)) for i, t in enumerate(tables.loads)),
-        *((f"settlements[{i}]", (t.node,)) for i, t in enumerate(tables.settlements)),
-        *(() if tables.tool is None else (("tool", (tables.tool.tcp,)),)),
-    ]
-    for part, nodes in (*connecting, *others):
-        for node in nodes:
-            if node not in tables.nodes:
-                raise unknown(part, "node", node, tables.nodes)
-    held = {node for _, nodes in connecting for node in nodes}
-    for node in tables.nodes:
-        if node not in held:
-            raise ModelError(
-                f"node {node}",
-                "is disconnected: no beam, body, solid, joint, spring or support has it.",
-                "Connect it, or remove it.",
-            )
+    made = model_tolerances(tables, joints, supports)
+    return made.tolerances, made.costs, made.limits
 
 
 def _solids(tables: ModelTable, folder: Path) -> tuple[SolidElement, ...]:
@@ -343,33 +233,13 @@ def _bodies(
     return tuple(bodies), rigid
 
 
-def support_name(node: str) -> str:
-    """Name of the joint that supports a node.
-
-    Parameters
-    ----------
-    node : str
-    """
-    return f"support {node}"
-
-
-def ground_name(node: str) -> str:
-    """Name of the ground node under a supported node.
-
-    Parameters
-    ----------
-    node : str
-    """
-    return f"{node} (ground)"
-
-
 def _supports(tables: ModelTable) -> dict[str, Joint]:
     """The joint that holds each supported node, several tables of one node merged."""
     fixed: dict[str, list[str]] = {}
     for table in tables.supports:
         if not table.fixed:
             raise ModelError(
-                f"support of node {table.node}", "fixes no direction.", 'Name some, or say "all".'
+                f"support of node {table.node}", "fixes no direction.", 'Name some, or use "all".'
             )
         for direction in table.fixed:
             if direction in fixed.setdefault(table.node, []):

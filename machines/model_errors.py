@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from typing import TYPE_CHECKING, Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
 from strutwork.errors import ModelError, UnitError
 from strutwork.machines.model_schema import ModelTable
+from strutwork.names import meant
 from strutwork.units import shown
 
 if TYPE_CHECKING:
@@ -121,10 +121,8 @@ def _nearest(loc: tuple[int | str, ...], schema: type[BaseModel], page: str) -> 
     """Remedy for an unknown key: the nearest key that its table knows."""
     top = schema.model_fields
     known = list(top) if len(loc) == 1 else sorted(_keys(top[str(loc[0])].annotation))
-    close = difflib.get_close_matches(str(loc[-1]), known, 1)
-    if close:
-        return f'Did you mean "{close[0]}"?'
-    return f"Remove it, or check its spelling in {page}."
+    question = meant(str(loc[-1]), known).rstrip()
+    return question or f"Remove it, or check its spelling in {page}."
 
 
 def _keys(annotation: Any) -> set[str]:

@@ -13,7 +13,8 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Placement, Poses, characteristic_length
 from strutwork.kinematics.lost_motion import Kind, Lost
 from strutwork.kinematics.pose_family import PoseFamily, TaskSection, joined
-from strutwork.kinematics.singularities import Distance, classify, singularity_distance
+from strutwork.kinematics.singular_distance import Distance, singularity_distance
+from strutwork.kinematics.singular_poses import classify
 from strutwork.kinematics.tool_drive_space import Freedoms, check_driven, tool_drive_space
 from strutwork.kinematics.turns import rotation_matrix
 from strutwork.machines.limits import Limit, check_limits, joint_limits
@@ -96,7 +97,7 @@ def pose_distance(model: Model, length: float | None = None) -> PoseDistance:
         raise ModelError(
             "tool",
             "moves in no direction at home.",
-            "Put it on a body that moves, or home where it can.",
+            "Place it on a body that moves, or home where it can move.",
         )
     rng = np.random.default_rng(1)
     beside = {

@@ -17,13 +17,14 @@ from strutwork.msa.loads import LoadCase
 from strutwork.msa.point_mass import mass_weight
 from strutwork.msa.structure import PlacedStructure, rigid_map
 from strutwork.msa.topology import Topology
+from strutwork.names import choices
 
 Array = NDArray[Any]
 
 
 @dataclass(frozen=True)
 class System(Clusters):
-    """The clusters of a structure at a flat batch of p poses, with what loads them.
+    """The clusters of a structure at a flat batch of p poses, with their loads.
 
     Parameters
     ----------
@@ -172,14 +173,14 @@ class System(Clusters):
                     raise ModelError(
                         f"load case {case.name}",
                         f'names the unknown joint "{name}".',
-                        "Define the joint.",
+                        choices("Joints", name, linkage.joint_index),
                     )
                 j = linkage.joint_index[name]
                 resists = [DIRECTIONS[d] for d in np.flatnonzero(states[j] != State.FREE)]
                 if direction not in resists:
                     raise ModelError(
                         f"joint {name}",
-                        f"has a misfit in {direction}, which is free or no direction.",
+                        f"has a misfit in {direction}, which is free or not a direction.",
                         "Name a locked or elastic direction: " + ", ".join(resists) + ".",
                     )
                 every[j, DIRECTIONS.index(direction), m] += value

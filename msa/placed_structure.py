@@ -15,6 +15,7 @@ from strutwork.msa.beam import beam_axes, local_stiffness, to_global
 from strutwork.msa.rigid_map import rigid_map, turned_back
 from strutwork.msa.springs import Spring
 from strutwork.msa.stiffening import Stiffening
+from strutwork.names import choices
 
 if TYPE_CHECKING:
     from strutwork.msa.structure import Structure
@@ -152,7 +153,8 @@ class PlacedStructure:
         """
         index = self.structure.linkage.joint_index
         if joint not in index:
-            raise ModelError(part, f'names the unknown joint "{joint}".', "Name a joint.")
+            known = choices("Joints", joint, index)
+            raise ModelError(part, f'names the unknown joint "{joint}".', known)
         return self.placement.frames[..., index[joint], :, :]
 
     @cached_property
@@ -228,5 +230,5 @@ class PlacedStructure:
                     f"spring {spring.name}",
                     f"its nodes are {np.linalg.norm(arm, axis=-1).max():.3g} m apart across its "
                     "direction: it would resist a rigid rotation of both.",
-                    "Put its nodes at one place or along its direction, or use a joint.",
+                    "Place its nodes at one point or along its direction, or use a joint.",
                 )

@@ -17,6 +17,19 @@ from strutwork.reports.beside import Beside, Group, processors
 from strutwork.reports.subject import Subject
 from strutwork.studies.progress import Progress, silent
 
+#: How long questions take, roughly, in s of one processor; one that is not named counts 1. The
+#: share of the work that is done is shown by these, for their number says little of the time.
+SIZES = {
+    "vibration": 20,
+    "reversals": 20,
+    "vibration_survey": 10,
+    "accuracy_survey": 10,
+    "stiffness_survey": 10,
+    "singular_plane": 10,
+    "modes": 10,
+    "assembly_survey": 5,
+}
+
 #: What takes less is not kept for later runs, s of a processor.
 WORTH = 0.2
 
@@ -61,7 +74,7 @@ class Gathered:
     kept : Kept
     beside : Beside
     told : callable
-        How many of the questions are answered.
+        How much of the questions is answered, in the units of `SIZES`.
     """
 
     kept: Kept
@@ -75,7 +88,11 @@ class Gathered:
 
     def tell(self) -> None:
         """Say how far the processes are."""
-        self.told(len(self.beside.found), len(self.beside.asked))
+        self.told(_size(self.beside.found), _size(self.beside.asked))
+
+
+def _size(names: Iterable[str]) -> int:
+    return sum(SIZES.get(name, 1) for name in names)
 
 
 @contextmanager

@@ -42,6 +42,6 @@ def covering_band(
         return (band.low, band.high), ""
     short = [f"{port} {share(part)}" for port, part in band.short]
     return (band.low, band.high), (
-        f"The band stops at {significant(band.high)} Hz, where the modes inside it carry of the "
-        f"static compliance: {', '.join(short)}. The rest belongs to modes beyond."
+        f"The band ends at {significant(band.high)} Hz. The modes in it carry this share of the "
+        f"static compliance: {', '.join(short)}; the rest belongs to higher modes."
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,11 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS, FreeMotion
 from strutwork.machines.extent import model_size
+from strutwork.machines.model import Model
 from strutwork.names import listed, visible
+from strutwork.reports.alike import grouped
 from strutwork.reports.model_check import ModelCheck
+from strutwork.reports.numbers import count
 
 Array = NDArray[Any]
 
@@ -36,12 +40,12 @@ def freedom_sentences(found: ModelCheck) -> list[str]:
     counts, tool = found.mobility, found.model.tool
     said = []
     if counts.driven_motions:
-        said += _freedoms(found, counts.driven_motions)
+        said.append(f"With the drives free {freedom_words(found.model, counts.driven_motions)}.")
     if counts.mobility_locked:
         what = "motion is" if counts.mobility_locked == 1 else "motions are"
         said.append(
             f"With the drives held, {counts.mobility_locked} {what} left: add a constraint or a "
-            "drive, or leave it to a spring."
+            "drive, or hold it with a spring."
         )
     elif found.drives:
         said.append("The drives hold it." if tool is None else "The drives hold the tool.")
@@ -55,26 +59,55 @@ def freedom_sentences(found: ModelCheck) -> list[str]:
             f"{visible(listed(joints)) if len(joints) <= NAMED else f'{len(joints)} joints'}."
         )
     else:
-        said.append("No constraint is redundant: manufacturing errors lock no forces in.")
+        said.append("No constraint is redundant: manufacturing errors lock in no forces.")
     return said
 
 
-def _freedoms(found: ModelCheck, motions: tuple[FreeMotion, ...]) -> list[str]:
-    tool, mobility = found.model.tool, found.mobility.mobility
-    if tool is None:
-        bodies = "freedom" if mobility == 1 else "freedoms"
-        return [f"It has {mobility} {bodies}, and no tool is named."]
-    node = found.model.structure.linkage.node_index[tool]
-    names = tool_freedoms(np.array([m.nodes[node] for m in motions]), model_size(found.model))
-    if not names:
-        return [f"The tool has no freedom; {mobility} motions leave it where it is."]
-    what = "freedom" if len(names) == 1 else "freedoms"
-    said = [f"With the drives free the tool has {len(names)} {what}: {listed(names)}."]
-    rest = mobility - len(names)
+def freedom_words(model: Model, motions: Sequence[FreeMotion]) -> str:
+    """What the tool can do in any combination of some motions, as the rest of a sentence.
+
+    Parameters
+    ----------
+    model : Model
+    motions : sequence of FreeMotion
+        Independent ones, at least one.
+
+    Returns
+    -------
+    str
+        As in "the tool has 2 freedoms: x and y; 1 further motion leaves it where it is".
+    """
+    if model.tool is None:
+        return f"it has {count(len(motions), 'freedom')}, and no tool is named"
+    node = model.structure.linkage.node_index[model.tool]
+    names = tool_freedoms(np.array([m.nodes[node] for m in motions]), model_size(model))
+    words = "the tool has no freedom"
+    if names:
+        words = f"the tool has {count(len(names), 'freedom')}: {listed(names)}"
+    rest = len(motions) - len(names)
     if rest:
-        what = "1 further motion leaves" if rest == 1 else f"{rest} further motions leave"
-        said.append(f"{what} the tool where it is.")
-    return said
+        further = "further motion" if names else "motion"
+        words += f"; {count(rest, further)} {'leaves' if rest == 1 else 'leave'} it where it is"
+    return words
+
+
+def joint_words(motion: FreeMotion) -> str:
+    """The joints that move in a motion, alike ones together.
+
+    Parameters
+    ----------
+    motion : FreeMotion
+
+    Returns
+    -------
+    str
+        As in "drive1 to drive6 (6) in z; column in rx, ry".
+    """
+    directions: dict[str, list[str]] = {}
+    for joint, direction in motion.joints:
+        directions.setdefault(joint, []).append(direction)
+    found = grouped({joint: [", ".join(some)] for joint, some in directions.items()})
+    return "; ".join(f"{g.label} in {g.cells[0]}" for g in found)
 
 
 def tool_freedoms(twists: Array, length: float) -> list[str]:

@@ -36,7 +36,7 @@ class ModelError(StrutworkError):
 
 
 class OutputError(ModelError):
-    """A result that cannot be written: the folder, the disk or standard output refuses."""
+    """A result cannot be written to the folder, the disk or standard output."""
 
 
 class UnitError(ModelError):
@@ -44,7 +44,7 @@ class UnitError(ModelError):
 
 
 class MechanismError(StrutworkError):
-    """The structure moves freely under the load; the message names the joints that let it."""
+    """The structure moves freely under the load; the message names the unconstrained joints."""
 
 
 class InconsistentConstraintsError(StrutworkError):
@@ -63,6 +63,18 @@ class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
 
 
+class StudyError(StrutworkError):
+    """Chunks of a study that could not be computed; the message says what is kept, and where."""
+
+
+class ClusterError(StrutworkError):
+    """A cluster that does not answer, lost its workers, or has other versions than this process."""
+
+
+class StudyWarning(UserWarning):
+    """A study goes on, or can go on, although something in it failed or was interrupted."""
+
+
 class UnverifiedWarning(UserWarning):
     """A number failed its own check and was withheld, while the others stand."""
 
@@ -76,11 +88,11 @@ class ValidityWarning(ModelWarning):
 
 
 class ProportionWarning(ModelWarning):
-    """Dimensions out of all proportion to one another: probably a length that is not in metres."""
+    """Dimensions are out of proportion: probably a length is not in metres."""
 
 
 class PoseWarning(UserWarning):
-    """Some poses of a batch have no answer; the message counts them by reason."""
+    """Some poses of a batch were not solved; the message counts them by reason."""
 
 
 class CacheWarning(UserWarning):

@@ -32,6 +32,7 @@ from strutwork.overconstraint import (
     tool_quantities,
     worst_case,
 )
+from strutwork.studies.dataset_units import LabelledUnits
 from strutwork.studies.least_over_poses import least_over_poses
 from strutwork.studies.variables import AXES
 
@@ -44,7 +45,10 @@ class Column:
 
     Parameters
     ----------
-    name, unit, meaning : str
+    name : str
+    unit : str or LabelledUnits
+        Of all labels, or of each along the last of `dims`.
+    meaning : str
     dims : tuple of str
         Beside the poses.
     worst : "least" or "largest" or ""
@@ -52,7 +56,7 @@ class Column:
     """
 
     name: str
-    unit: str
+    unit: str | LabelledUnits
     meaning: str
     dims: tuple[str, ...] = ()
     worst: str = ""
@@ -218,7 +222,7 @@ class Assembly:
         return (
             Column(
                 "worst_case",
-                "N, N m, m or rad",
+                LabelledUnits("N, N m, m or rad", tuple(q.unit for q in self.quantities)),
                 "largest size that the tolerances allow",
                 ("quantity",),
                 "largest",

@@ -14,7 +14,11 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
-from strutwork.studies.dataset_units import stated_unit, unit_of_label
+from strutwork.studies.dataset_units import (
+    stated_unit,
+    unit_at,
+    without_unit_coordinates,
+)
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.netcdf import netcdf_bytes
 
@@ -37,7 +41,7 @@ def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
 
 
 def read_netcdf(path: Path) -> xr.Dataset:
-    """Read a dataset back, all of it.
+    """Read a complete dataset.
 
     Parameters
     ----------
@@ -58,7 +62,7 @@ def read_netcdf(path: Path) -> xr.Dataset:
 
 
 def write_csv(path: Path, dataset: xr.Dataset) -> Path:
-    """Write what a dataset has along its poses, one row per pose, units in the header.
+    """Write the variables of a dataset along its poses, one row per pose, units in the header.
 
     Flags stand in words; numbers that are missing are empty. Compliance matrices are left out: they
     are in the NetCDF file.
@@ -150,6 +154,7 @@ def to_json(dataset: xr.Dataset) -> dict[str, Any]:
     ----------
     dataset : xarray.Dataset
     """
+    dataset = without_unit_coordinates(dataset)
     return {
         "attributes": {name: _plain(value) for name, value in dataset.attrs.items()},
         "coordinates": {str(n): _plain(c.to_numpy()) for n, c in dataset.coords.items()},
@@ -198,7 +203,7 @@ def _columns(dataset: xr.Dataset, dim: str) -> Iterator[tuple[str, NDArray[Any]]
         ]
         for index in np.ndindex(*(len(items) for items in labels)):
             words = [str(items[i]) for items, i in zip(labels, index, strict=True)]
-            unit = unit_of_label(units, words[-1]) if words else units
+            unit = unit_at(dataset, str(name), words[-1]) if words else units
             head = "_".join([str(name), *words])
             yield (head if unit == "1" else f"{head} [{unit}]"), values[(slice(None), *index)]
 

@@ -80,8 +80,8 @@ def parameters(machine: Machine) -> dict[str, Any]:
     if not is_dataclass(machine) or isinstance(machine, type):
         raise ModelError(
             f"machine {type(machine).__name__}",
-            "does not say its parameters.",
-            "Make its class a dataclass: a study records what it was made of.",
+            "does not state its parameters.",
+            "Make its class a dataclass: a study records its inputs.",
         )
     return {f.name: plain(getattr(machine, f.name), f.name) for f in fields(machine)}
 
@@ -186,6 +186,25 @@ def study_key(
         digest.update(f"{array.dtype}{array.shape}".encode())
         digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()
+
+
+def content_key(study: str, *inputs: object) -> str:
+    """Hash of a study that is made of no named machine, the code included.
+
+    Parameters
+    ----------
+    study : str
+        Which study.
+    *inputs : dataclasses, mappings, arrays and plain values
+        Everything that its numbers depend on.
+    """
+    content = {
+        "study": study,
+        "inputs": [plain(value) for value in inputs],
+        "versions": versions(),
+        "code": source_digest(*_CODE),
+    }
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def attributes(study: str, machine: Machine) -> dict[str, str]:

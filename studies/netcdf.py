@@ -8,6 +8,8 @@ import h5netcdf
 import xarray as xr
 from xarray.backends import H5NetCDFStore
 
+from strutwork.studies.dataset_units import without_unit_coordinates
+
 
 def netcdf_bytes(dataset: xr.Dataset) -> bytes:
     """A dataset as NetCDF-4, made in memory.
@@ -21,5 +23,5 @@ def netcdf_bytes(dataset: xr.Dataset) -> bytes:
     """
     buffer = io.BytesIO()
     with h5netcdf.File(buffer, "w") as file:
-        dataset.dump_to_store(H5NetCDFStore(file))
+        without_unit_coordinates(dataset).dump_to_store(H5NetCDFStore(file))
     return buffer.getvalue()

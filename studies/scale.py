@@ -15,7 +15,11 @@ from strutwork.errors import ModelError, NumericalError
 from strutwork.fea import modes
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import PlacedStructure, axis_stiffness_free, compliance_budget, tool_compliance
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.dataset_units import LabelledUnits, unit_attributes, unit_coordinate
+from strutwork.studies.description import content_key
 from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents, removal_exponents
+from strutwork.studies.run import Chunk, Run
 from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
 
 Array = NDArray[Any]
@@ -25,6 +29,8 @@ FACTORS: tuple[float, ...] = tuple(float(2.0 ** (k / 2)) for k in range(-4, 5))
 
 #: Laws of the joints that the thesis speaks of.
 LAWS = (SIMILAR, ROLLERS, UNSCALED)
+
+_STIFFNESS = LabelledUnits("N/m; N m/rad", ("N/m",) * 3 + ("N m/rad",) * 3)
 
 
 @dataclass(frozen=True)
@@ -71,7 +77,7 @@ def power_law(factors: ArrayLike, values: ArrayLike) -> PowerLaw:
     some = np.asarray(values, dtype=float)
     if not np.all((some > 0) & (some < np.inf)):
         raise NumericalError(
-            "power law", "a value is not positive and finite.", "Leave such values out."
+            "power law", "a value is not positive and finite.", "Remove such values."
         )
     x, y = np.log(sizes), np.log(some)
     across = (x - x.mean()).reshape(-1, *[1] * (some.ndim - 1))
@@ -178,7 +184,7 @@ class ScaleStudy:
                 "stiffness": (
                     (*head, "direction"),
                     self.stiffness,
-                    {"component_units": "N/m; N m/rad", "meaning": "1/C_ii at the tool"},
+                    unit_attributes(str(_STIFFNESS)) | {"meaning": "1/C_ii at the tool"},
                 ),
                 "frequency": ((*head, "mode"), self.frequencies, {"units": "Hz"}),
                 "stiffness_exponent": ((*head, "direction"), stiffness, {"units": "1"}),
@@ -189,6 +195,7 @@ class ScaleStudy:
                 "law": [str(law) for law in self.laws],
                 "factor": ("factor", self.factors, {"units": "1"}),
                 "direction": list(DIRECTIONS),
+                **unit_coordinate("stiffness", "direction", _STIFFNESS),
                 "mode": np.arange(1, self.frequencies.shape[-1] + 1),
             },
         )
@@ -275,15 +282,43 @@ def scale_study(
             f"some poses have {rigid} rigid-body modes and some have fewer.",
             "Study them one by one.",
         )
-    each = [[scaled(placed, float(size), law) for size in sizes] for law in laws]
-    stiffness = [[axis_stiffness_free(tool_compliance(p)) for p in line] for line in each]
-    frequencies = np.array(
-        [[modes(p, count + rigid).frequencies[..., rigid:] for p in line] for line in each],
-        dtype=float,
+
+    def evaluate(chunk: Chunk) -> Arrays:
+        law, size = divmod(chunk.start, len(sizes))
+        some = scaled(placed, float(sizes[size]), laws[law])
+        return {
+            "stiffness": axis_stiffness_free(tool_compliance(some))[None],
+            "frequency": modes(some, count + rigid).frequencies[None, ..., rigid:],
+        }
+
+    # one at a time here: of a large solid two sizes at once would take twice the memory
+    run = Run(workers=1, inputs=lambda c: f"size {sizes[c.start % len(sizes)]:.6g}")
+    parts = [
+        part
+        for _, part in run.chunks(
+            evaluate, len(laws) * len(sizes), 1, lambda: _key(placed, sizes, laws, count)
+        )
+    ]
+    shape = (len(laws), len(sizes))
+    stiffness, frequencies = (
+        np.concatenate([part[name] for part in parts], dtype=float).reshape(
+            *shape, *parts[0][name].shape[1:]
+        )
+        for name in ("stiffness", "frequency")
     )
     if frequencies.shape[-1] < count or not np.all(np.isfinite(frequencies)):
-        raise ModelError("scale", f"has fewer than {count} modes.", "Ask for fewer frequencies.")
-    return ScaleStudy(tuple(laws), sizes, np.array(stiffness), frequencies, joint_share(placed))
+        raise ModelError("scale", f"has fewer than {count} modes.", "Request fewer frequencies.")
+    return ScaleStudy(tuple(laws), sizes, stiffness, frequencies, joint_share(placed))
+
+
+def _key(placed: PlacedStructure, sizes: Array, laws: Sequence[JointScaling], count: int) -> str:
+    place = placed.placement
+    return content_key(
+        "scale",
+        placed.structure,
+        {"positions": place.positions, "frames": place.frames, "values": place.values},
+        {"sizes": sizes, "laws": list(laws), "count": count},
+    )
 
 
 def joint_share(placed: PlacedStructure) -> Array:

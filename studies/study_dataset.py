@@ -13,6 +13,7 @@ import strutwork
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
 from strutwork.studies.chunks import Arrays
+from strutwork.studies.dataset_units import LabelledUnits, unit_coordinate
 from strutwork.studies.description import versions
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.parameter import Varied
@@ -59,7 +60,9 @@ def study_dataset(study: Study, arrays: Arrays, words: list[str]) -> xr.Dataset:
     shape = study.drawn.shape
     made: dict[str, xr.Variable] = {}
 
-    def put(name: str, inner: tuple[str, ...], unit: str, meaning: str, **more: Any) -> None:
+    def put(
+        name: str, inner: tuple[str, ...], unit: str | LabelledUnits, meaning: str, **more: Any
+    ) -> None:
         array = arrays[name]
         made[name] = named(
             (*dims, *inner), array.reshape(*shape, *array.shape[1:]), unit, meaning, **more
@@ -83,6 +86,8 @@ def study_dataset(study: Study, arrays: Arrays, words: list[str]) -> xr.Dataset:
         column = kept.column
         inner = ("pose", *column.dims) if kept.reduction == "poses" else column.dims
         put(kept.name, inner, column.unit, _meaning(kept))
+        if isinstance(column.unit, LabelledUnits):
+            labels |= unit_coordinate(kept.name, column.dims[-1], column.unit)
         if f"{kept.name}_pose" in arrays:
             put(f"{kept.name}_pose", column.dims, "1", "number of that pose, -1 where none counts")
     if "pose_status" in arrays:

@@ -202,5 +202,5 @@ def _require_zarr(path: Path) -> None:
         raise ModelError(
             str(path),
             "is a Zarr folder, and the library zarr is not installed.",
-            'Install it: pip install "strutwork[zarr]"; or end the name in .nc.',
+            'Install it: pip install "strutwork[cluster]"; or end the name in .nc.',
         ) from None

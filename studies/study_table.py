@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from strutwork.studies.dataset_units import stated_unit, unit_of_label
+from strutwork.studies.dataset_units import stated_unit, unit_at
 from strutwork.studies.study_dataset import SAMPLE, STATUS
 
 Array = NDArray[Any]
@@ -121,7 +121,7 @@ def answer_columns(
         values = array.transpose(*dims, *inner).to_numpy().reshape(count, -1)
         labels = [[str(v) for v in dataset[d].to_numpy()] for d in inner]
         for k, parts in enumerate(product(*labels)):
-            unit = unit_of_label(stated_unit(array), parts[-1] if parts else "")
+            unit = unit_at(dataset, name, parts[-1] if parts else "")
             label = " ".join(parts)
             found.append(NumberColumn(f"{name} {label}".strip(), unit, values[:, k], name, label))
     return tuple(found)

@@ -22,6 +22,7 @@ from strutwork.machines.model_poses import moved
 from strutwork.source_digest import source_digest
 from strutwork.studies.answers import Answer
 from strutwork.studies.chunks import Arrays
+from strutwork.studies.dataset_units import LabelledUnits, motion_units, unit_coordinate
 from strutwork.studies.description import plain, versions
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import PoseStatus
@@ -83,6 +84,8 @@ def survey(
     """
     model.require_tool()
     count = len(grid)
+    task = grid.task()
+    run = Run(workers, executor, folder, progress, lambda chunk: _spans(task, chunk.items))
     # what the threads share, and what is wrong whatever the pose, comes before the work
     moved(model, {d: values[:1] for d, values in grid.axes.items()})
     _ = model.structure.segments, model.structure.vertex_of_node
@@ -90,14 +93,12 @@ def survey(
         foresee(lambda some: _asked(model, some, answers), grid, workers).require(
             "workspace",
             "Take fewer points along a direction.",
-            LONGEST if folder is None and executor is None else None,
+            LONGEST if run.bounded else None,
         )
-    task = grid.task()
 
     def evaluate(chunk: Chunk) -> Arrays:
         return _asked(model, {d: v[chunk.items] for d, v in task.items()}, answers)
 
-    run = Run(workers, executor, folder, progress)
     arrays: Arrays = {}
     words = [""]
     for chunk, part in run.chunks(evaluate, count, CHUNK, lambda: survey_key(model, grid, answers)):
@@ -114,6 +115,12 @@ def survey(
             "Move the grid into the machine's reach.",
         )
     return _dataset(model, grid, answers, arrays, words)
+
+
+def _spans(task: Mapping[str, Array], items: slice) -> str:
+    """Task coordinates of some poses, as in "x -0.1 to 0.1", m and rad."""
+    spans = {d: (float(v[items].min()), float(v[items].max())) for d, v in task.items()}
+    return ", ".join(f"{d} {a:.6g} to {b:.6g}" for d, (a, b) in spans.items())
 
 
 def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> Arrays:
@@ -164,22 +171,26 @@ def _dataset(
     model: Model, grid: TaskGrid, answers: Sequence[Answer], arrays: Arrays, words: list[str]
 ) -> xr.Dataset:
     dims = tuple(grid.axes)
+    joints = motion_units([d for _, d in model.motion.joints.names])
     variables: dict[str, xr.Variable] = {
         "status": flags("pose", arrays["status"]),
         "reason": named("pose", arrays["reason"], "1", "index into reason_text"),
         "joint_coordinate": named(
-            ("pose", "joint"), arrays["joint_coordinate"], "m or rad", "joint coordinates"
+            ("pose", "joint"), arrays["joint_coordinate"], joints, "joint coordinates"
         ),
     }
     labels: dict[str, Any] = {
         "joint": [f"{joint}:{d}" for joint, d in model.motion.joints.names],
         "reason_text": words,
+        **unit_coordinate("joint_coordinate", "joint", joints),
     }
     for answer in answers:
         for column in answer.columns:
             variables[column.name] = named(
                 ("pose", *column.dims), arrays[column.name], column.unit, column.meaning
             )
+            if isinstance(column.unit, LabelledUnits):
+                labels |= unit_coordinate(column.name, column.dims[-1], column.unit)
         labels |= {k: list(v) for k, v in answer.coordinates.items()}
     folded = {
         name: xr.Variable(

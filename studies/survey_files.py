@@ -11,7 +11,7 @@ import xarray as xr
 
 from strutwork.csv_rows import RowWriter
 from strutwork.files import write_whole
-from strutwork.studies.dataset_units import stated_unit, unit_of_label
+from strutwork.studies.dataset_units import unit_at
 from strutwork.studies.filters import PoseStatus
 
 
@@ -49,7 +49,7 @@ def write_survey(path: Path, found: xr.Dataset) -> Path:
         values = variable.to_numpy().reshape(len(columns["status"]), -1)
         for k, parts in enumerate(product(*labels)):
             head = " ".join([str(name), *parts])
-            unit = unit_of_label(stated_unit(variable), parts[-1] if parts else "")
+            unit = unit_at(found, str(name), parts[-1] if parts else "")
             columns[f"{head}, {unit}"] = [
                 "" if np.isnan(v) else repr(float(v)) for v in values[:, k]
             ]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, stiffness_ellipsoid
-from strutwork.studies.dataset_units import unit_attributes
+from strutwork.studies.dataset_units import LabelledUnits, unit_attributes
 from strutwork.studies.filters import PoseStatus
 
 Array = NDArray[Any]
@@ -23,7 +23,7 @@ _STIFFNESS = "N/m for x y z; N m/rad for rx ry rz"
 
 
 def named(
-    dims: str | Sequence[str], values: Array, unit: str, name: str, **more: Any
+    dims: str | Sequence[str], values: Array, unit: str | LabelledUnits, name: str, **more: Any
 ) -> xr.Variable:
     """A variable that says what it is and in which unit.
 
@@ -33,13 +33,13 @@ def named(
         Names of the dimensions.
     values : (...)
         Along these, in `unit`, which may be any unit.
-    unit : str
+    unit : str or LabelledUnits
         One unit, or several as in `unit_attributes`.
     name : str
         What it is, for the attribute `long_name`.
     **more : attributes
     """
-    return xr.Variable(dims, values, unit_attributes(unit) | {"long_name": name, **more})
+    return xr.Variable(dims, values, unit_attributes(str(unit)) | {"long_name": name, **more})
 
 
 def flags(dim: str, status: NDArray[np.int8]) -> xr.Variable:
@@ -56,7 +56,7 @@ def flags(dim: str, status: NDArray[np.int8]) -> xr.Variable:
         dim,
         status,
         {
-            "long_name": "what became of the pose",
+            "long_name": "status of the pose",
             "flag_values": np.array([int(s) for s in PoseStatus], dtype=np.int8),
             "flag_meanings": " ".join(s.word for s in PoseStatus),
         },

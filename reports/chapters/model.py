@@ -21,7 +21,7 @@ from strutwork.reports.content import (
 )
 from strutwork.reports.data_files import json_file
 from strutwork.reports.figures.model import model_view
-from strutwork.reports.free_motions import joint_words, tool_words
+from strutwork.reports.freedom_words import freedom_words, joint_words
 from strutwork.reports.model_check import ModelCheck
 from strutwork.reports.model_solution import ModelSolution
 from strutwork.reports.numbers import MINUS, clean, count, significant
@@ -43,7 +43,7 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
         count(len(model.cases), "load case"),
     ]
     present = [part for part in parts if not part.startswith("0 ")]
-    where = "in one configuration" if model.workspace is None else "as it stands at home"
+    where = "in one configuration" if model.workspace is None else "at home"
     text = f"A structure of {listed(present)}, {where}."
     facts = [
         Fact("Degrees of freedom", str(check.degrees_of_freedom), "", "of the flexible structure"),
@@ -104,8 +104,8 @@ def structure_chapter(model: Model) -> Chapter:
     }
     figure = Figure(
         "structure-drawing",
-        "The structure as the file describes it, in mm. Drag to turn, scroll to zoom; names show "
-        "under the pointer. Joint symbols are not to scale.",
+        "The structure as the file describes it, in mm. Drag to rotate, scroll to zoom; names "
+        "appear under the pointer. Joint symbols are not to scale.",
         model_view(model),
         f"Three-dimensional drawing of the structure with {count(len(linkage.joints), 'joint')} "
         "marked by type.",
@@ -125,12 +125,11 @@ def check_chapter(check: ModelCheck) -> Chapter:
         ("With the drives free", found.driven_motions),
     ):
         if motions:
-            words = tool_words(model, motions)
             lines = [[str(i), joint_words(m)] for i, m in enumerate(motions[:SHOWN], 1)]
             columns = (Column("motion", "", False), Column("joints that move", "", False))
             table = Table(f"{when}: joints that move", columns, lines, "check.json")
             blocks += [
-                Text(f"{when}: {words[0].lower()}{words[1:]}"),
+                Text(f"{when} {freedom_words(model, motions)}."),
                 Details(f"The joints of {count(len(motions), 'motion')}", (table,)),
             ]
     if found.self_stress:
@@ -139,12 +138,12 @@ def check_chapter(check: ModelCheck) -> Chapter:
             [str(i), listed([g.label for g in grouped(dict.fromkeys(s.joints, ()))], ";")]
             for i, s in enumerate(found.self_stress[:SHOWN], 1)
         ]
-        columns = (Column("state", "", False), Column("joints that take part", "", False))
+        columns = (Column("state", "", False), Column("joints involved", "", False))
         blocks += [
             Text(
                 f"There {'is' if len(found.self_stress) == 1 else 'are'} {many} of self-stress: "
                 "redundant constraints let manufacturing errors lock forces into these joints; "
-                "without them there would be none."
+                "without redundancy there would be none."
             ),
             Details(
                 "The joints of the states of self-stress",
@@ -162,10 +161,10 @@ def _counted(check: ModelCheck) -> str:
     verb = "constraint is" if found.redundant < 2 else "constraints are"
     return (
         f"Its mobility is {found.mobility} with the drives free and {found.mobility_locked} with "
-        f"them held; {many} {verb} redundant with the drives held. Grübler's count, which knows no "
-        f"geometry, says {gruebler} with the drives free. The flexible structure has "
-        f"{check.degrees_of_freedom} degrees of freedom. Every beam, solid, body and elastic joint "
-        "counts as rigid for the mobility, springs to ground as absent; the rank of the "
+        f"them held; {many} {verb} redundant with the drives held. Grübler's count, which ignores "
+        f"the geometry, gives {gruebler} with the drives free. The flexible structure has "
+        f"{check.degrees_of_freedom} degrees of freedom. For the mobility, every beam, solid, "
+        "body and elastic joint counts as rigid and springs to ground as absent; the rank of the "
         "constraints decides, not a count."
     )
 

@@ -11,16 +11,18 @@ from functools import partial
 from rich.progress import (
     BarColumn,
     MofNCompleteColumn,
+    ProgressColumn,
+    Task,
     TextColumn,
     TimeElapsedColumn,
-    TimeRemainingColumn,
 )
 from rich.progress import Progress as Bars
+from rich.text import Text
 
 from strutwork.names import visible
 from strutwork.reports.cli.output import progress_console
 from strutwork.stages import stage
-from strutwork.studies.progress import INTERVAL, Lines, Progress
+from strutwork.studies.progress import INTERVAL, LONGER, Lines, Progress, Remaining
 
 
 @contextmanager
@@ -69,20 +71,43 @@ class _Counting:
             sys.stderr.flush()
 
 
+class LeftColumn(ProgressColumn):
+    """Time left by the task's field `end`, or that it takes longer than was estimated."""
+
+    def render(self, task: Task) -> Text:
+        """The cell of a task."""
+        end: float | None = task.fields.get("end")
+        if task.finished or end is None:
+            return Text("")
+        left = end - time.monotonic()
+        return Text(f"{left:.0f} s left" if left >= 0.5 else LONGER)
+
+
+class _Rate(ProgressColumn):
+    """How many are done per second."""
+
+    def render(self, task: Task) -> Text:
+        """Empty until something is done."""
+        return Text(f"{task.speed:.3g} per s" if task.speed else "")
+
+
 def _bars() -> Bars:
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
-        TimeRemainingColumn(),
+        _Rate(),
+        LeftColumn(),
     )
     return Bars(*columns, console=progress_console(), transient=True)
 
 
 def _started(bars: Bars, label: str) -> Progress:
     task = bars.add_task(visible(label), total=None)
+    remaining = Remaining()
 
     def tell(done: int, total: int, /) -> None:
-        bars.update(task, completed=done, total=total)
+        remaining(time.monotonic(), done, total)
+        bars.update(task, completed=done, total=total, end=remaining.end)
 
     return tell

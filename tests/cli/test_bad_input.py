@@ -316,7 +316,7 @@ def test_file_of_100_megabytes_is_not_read(
 def test_number_of_nodes_is_bounded(
     strutwork: Program, write: Callable[[Content], Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("strutwork.machines.model_builder.MAX_MESH_NODES", 100)
+    monkeypatch.setattr("strutwork.machines.model_checks.MAX_MESH_NODES", 100)
     run = strutwork("check", write(sample(put("beams.0.elements", 101))))
     assert run.status == 1
     assert "has 107 nodes" in run.err

@@ -9,7 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from strutwork.reports.freedom_words import tool_freedoms
+from strutwork.kinematics import FreeMotion
+from strutwork.machines.load import load
+from strutwork.reports.chapters.model import check_chapter
+from strutwork.reports.content import Text
+from strutwork.reports.freedom_words import freedom_sentences, freedom_words, tool_freedoms
+from strutwork.reports.model_check import check_model
 from tests.cli.conftest import Program
 from tests.model_files import EXAMPLES
 
@@ -21,7 +26,9 @@ ANSWERS = {
     HEXAPOD: "has 6 freedoms: x, y, z, rx, ry and rz. The drives hold the tool. No constraint",
     "mit-ss1": "has 3 freedoms: x, z and ry. The drives hold the tool. 12 constraints are",
     "biglide": "has 2 freedoms: x and y.",
-    EXAMPLE["04_four_bar"]: "It has 1 freedom, and no tool is named. The drives hold it. 3 ",
+    EXAMPLE[
+        "04_four_bar"
+    ]: "With the drives free it has 1 freedom, and no tool is named. The drives hold it. 3 ",
     EXAMPLE["05_two_link_leg"]: "has 1 freedom: x (with ry).",
     EXAMPLE["01_cantilever"]: "Its joints hold it. No constraint is redundant",
 }
@@ -72,14 +79,14 @@ def test_a_long_table_shows_the_largest(strutwork: Program) -> None:
     short = strutwork("solve", tripod).out
     table = short.split("Displacements")[1].split("Reactions")[0]
     assert "TCP" in table
-    assert "9 more are smaller: --verbose lists them." in table
+    assert "--verbose lists 9 more." in table
     assert "base1" not in table
     assert "base1" in strutwork("solve", tripod, "-v").out.split("Reactions")[0]
 
 
 def test_a_solution_ends_with_its_answer(strutwork: Program) -> None:
     last = strutwork("solve", EXAMPLE["03_tripod"]).out.rstrip().splitlines()[-1]
-    assert "softest with 0.3663 N/µm in x and stiffest with 151.8 N/µm in z" in last
+    assert "least with 0.3663 N/µm in x and largest with 151.8 N/µm in z" in last
 
 
 @pytest.mark.parametrize(
@@ -104,7 +111,7 @@ def test_every_table_has_a_csv(command: tuple[str | Path, ...], strutwork: Progr
 def test_csv_and_json_exclude_each_other(strutwork: Program) -> None:
     run = strutwork("check", EXAMPLE["01_cantilever"], "--csv", "--json")
     assert (run.status, run.out) == (1, "")
-    assert "--json: cannot stand beside --csv. Ask for one" in run.err.replace("\n", " ")
+    assert "--json: cannot be combined with --csv. Choose one" in run.err.replace("\n", " ")
 
 
 def test_freedoms_of_a_tool() -> None:
@@ -116,3 +123,29 @@ def test_freedoms_of_a_tool() -> None:
     # the second leaves the tool where it is
     assert tool_freedoms(np.array([[1.0, 0, 0, 0, 0, 0], [0] * 6]), 1.0) == ["x"]
     assert tool_freedoms(np.zeros((2, 6)), 1.0) == []
+
+
+def test_motions_that_leave_the_tool_where_it_is() -> None:
+    model = load(EXAMPLE["03_tripod"])
+    assert model.tool is not None
+    still = np.zeros((len(model.structure.linkage.nodes), 6))
+    along = still.copy()
+    along[model.structure.linkage.node_index[model.tool], 2] = 1.0
+    spins = [FreeMotion(np.zeros((1, 6)), still, (), "") for _ in range(2)]
+    lift = FreeMotion(np.zeros((1, 6)), along, (), "")
+    assert freedom_words(model, [lift]) == "the tool has 1 freedom: z"
+    assert freedom_words(model, [lift, spins[0]]) == (
+        "the tool has 1 freedom: z; 1 further motion leaves it where it is"
+    )
+    assert freedom_words(model, spins) == (
+        "the tool has no freedom; 2 motions leave it where it is"
+    )
+
+
+@pytest.mark.parametrize("name", ["03_tripod", "04_four_bar", "05_two_link_leg"])
+def test_a_report_says_what_a_check_says(name: str) -> None:
+    found = check_model(load(EXAMPLE[name]))
+    texts = {b.text for b in check_chapter(found).blocks if isinstance(b, Text)}
+    said = freedom_sentences(found)[0]
+    assert said.startswith("With the drives free ")
+    assert said in texts

@@ -16,7 +16,7 @@ from strutwork.machines.model_file import read_model
 from strutwork.reports import answering as answering_module
 from strutwork.reports import subject as subject_module
 from strutwork.reports.answer_store import AnswerStore, make_room, model_key
-from strutwork.reports.answering import Gathered, Kept, answering, questions
+from strutwork.reports.answering import SIZES, Gathered, Kept, answering, questions
 from strutwork.reports.answers import Outcome, Source, answer
 from strutwork.reports.beside import Beside, processors
 from strutwork.reports.build import compose
@@ -126,7 +126,7 @@ def test_what_is_damaged_or_not_ours_is_not_read(
         store.folder.chmod(0o770)
         assert store.read("number") is None
         monkeypatch.setattr(cache_folder, "_noted", set())
-        with pytest.warns(CacheWarning, match="open to others"):
+        with pytest.warns(CacheWarning, match="accessible to other users"):
             assert not store.write("number", Outcome(42))
     else:
         monkeypatch.setattr("strutwork.reports.answer_store.LARGEST", 3)
@@ -201,6 +201,20 @@ def test_processes_answer_beside_and_one_that_dies_is_stood_in_for() -> None:
             assert beside.get(name, lambda: None) is None
     finally:
         beside.end()
+
+
+def test_what_is_told_goes_by_the_size_of_the_questions() -> None:
+    # every name is that of a question: one that is renamed loses its size
+    assert {name for name in SIZES if not hasattr(Subject, name)} == set()
+    beside = Beside([{"workspace": lambda: 1}, {"vibration": lambda: 2}], 1)
+    told: list[tuple[int, int]] = []
+    try:
+        gathered = Gathered(Kept(), beside, lambda done, of: told.append((done, of)))
+        gathered.ask("vibration", lambda: 2)
+    finally:
+        beside.end()
+    assert told[-1] == (21, 21)
+    assert {done for done, _ in told} <= {0, 1, 21}
 
 
 def test_processes_end_with_the_block() -> None:

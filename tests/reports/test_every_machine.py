@@ -14,8 +14,8 @@ from strutwork.machines.catalogue import CATALOGUE
 from strutwork.machines.load import load
 from strutwork.reports import every_machine
 from strutwork.reports.build import Composed, page_of
-from strutwork.reports.content import Chapter, Text
-from strutwork.reports.every_machine import write_every_report
+from strutwork.reports.content import Chapter, Points, Text
+from strutwork.reports.every_machine import comparison_page, write_every_report
 from strutwork.reports.subject import Subject
 from strutwork.studies.comparison import machine_answers
 
@@ -69,6 +69,14 @@ def test_links_lead_to_the_reports(written: Path) -> None:
     links = re.findall(r'<a href="([^"#]+/report\.html)"', page)
     assert links[:2] == ["alizade-3prps/report.html", "mit-ss1/report.html"]
     assert all((written / link).is_file() for link in links)
+    # the page carries its data where it is mailed alone, and says what it does not carry
+    assert "Passed on alone, this page keeps" in page
+    assert page.index("Passed on alone") < page.index(f'href="{links[0]}"')
+
+
+def test_without_reports_no_links_are_promised() -> None:
+    chapter = comparison_page([], [], {"mit-ss1": "has no report."}).page.chapters[1]
+    assert [type(block) for block in chapter.blocks] == [Text, Points]
 
 
 def test_a_machine_without_a_report_is_named_with_the_reason(written: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,21 @@ import xarray as xr
 
 import strutwork as sw
 from strutwork.errors import ModelError
-from strutwork.studies.dataset_units import split_units, unit_of_label
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.overconstraint import Quantity
+from strutwork.studies.answers import Assembly
+from strutwork.studies.dataset_files import read_netcdf, to_json, write_netcdf
+from strutwork.studies.dataset_units import (
+    LabelledUnits,
+    label_units,
+    split_units,
+    unit_at,
+    unit_attributes,
+    unit_coordinate,
+)
+from strutwork.studies.survey import survey
+from strutwork.studies.survey_files import write_survey
+from strutwork.studies.variables import named
 
 HEXAPOD = Path(__file__).parents[2] / "examples" / "machines" / "6-ups.toml"
 
@@ -52,21 +67,78 @@ def test_units_apart_hold_the_same_numbers(found: xr.Dataset) -> None:
 
 
 @pytest.mark.parametrize(
-    ("units", "label", "unit"),
+    ("text", "labels", "units"),
     [
-        ("N/m for x y z; N m/rad for rx ry rz", "y", "N/m"),
-        ("N/m for x y z; N m/rad for rx ry rz", "ry", "N m/rad"),
-        ("m or rad", "ball:rx", "rad"),
-        ("m or rad", "rx:z", "m"),
-        ("N; N m; m; rad", "tool rotation rx", "rad"),
-        ("N; N m; m; rad", "block radial_force", "N"),
-        ("N, N m, m or rad", "block bending_moment", "N m"),
-        ("N/m", "rx", "N/m"),
-        ("Hz", "1", "Hz"),
+        ("N/m for x y z; N m/rad for rx ry rz", ["y", "ry"], ["N/m", "N m/rad"]),
+        ("m for x y z; rad for rx ry rz", ["rz", "x"], ["rad", "m"]),
+        ("Hz", ["rx", "x"], ["Hz", "Hz"]),
+        # no label says its own unit
+        ("m or rad", ["ball:rx", "rx:z"], []),
+        ("N, N m, m or rad", ["tool rotation in rx", "block radial force"], []),
+        ("N/m for x y z; N m/rad for rx ry rz", ["x", "elsewhere"], []),
     ],
 )
-def test_the_unit_under_a_label(units: str, label: str, unit: str) -> None:
-    assert unit_of_label(units, label) == unit
+def test_units_are_those_that_the_text_states(
+    text: str, labels: list[str], units: list[str]
+) -> None:
+    size = xr.Variable("label", np.ones(len(labels)), unit_attributes(text))
+    data = xr.Dataset({"size": size}, coords={"label": labels})
+    assert list(label_units(data, "size").values()) == units
+    assert unit_at(data, "size", labels[0]) == (units[0] if units else text)
+
+
+def test_a_joint_whose_name_sounds_like_a_turn_of_the_tool() -> None:
+    # by its words "tool rotation torque" was an angle of the tool
+    quantities = (
+        Quantity("tool rotation", "torque", ("rz",), "N*m"),
+        Quantity(None, "displacement", ("x",), "m"),
+        Quantity("block", "radial force", ("x", "y"), "N"),
+    )
+    (column,) = Assembly((), quantities).columns
+    assert isinstance(column.unit, LabelledUnits)
+    names = [q.name for q in quantities]
+    data = xr.Dataset(
+        {"worst_case": named("quantity", np.arange(3.0), column.unit, "")},
+        coords={"quantity": names} | unit_coordinate("worst_case", "quantity", column.unit),
+    )
+    assert label_units(data, "worst_case") == dict(zip(names, ["N m", "m", "N"], strict=True))
+    apart = split_units(data)
+    assert apart["worst_case_moment"].attrs["units"] == "N m"
+    assert apart["worst_case_translation"].item() == 1.0
+    assert not [name for name in apart.coords if str(name).endswith("_unit")]
+
+
+def test_a_survey_of_tolerances_has_the_units_of_its_quantities(tmp_path: Path) -> None:
+    model = sw.load(HEXAPOD.with_name("gantry.toml"))
+    assembly = Assembly.of(model)
+    grid = TaskGrid({"x": np.array([0.0, 0.01])})
+    data = survey(model, grid, (assembly,))
+    expected = {q.name: q.unit.replace("*", " ") for q in assembly.quantities}
+    assert label_units(data, "worst_case") == expected
+    parts = {"force", "moment", "translation", "rotation"}
+    assert {f"worst_case_{part}" for part in parts} <= set(split_units(data))
+    with write_survey(tmp_path / "s.csv", data).open(encoding="utf-8") as file:
+        head = next(csv.reader(file))
+    assert {f"worst_case {name}, {unit}" for name, unit in expected.items()} <= set(head)
+
+
+def test_files_and_attributes_state_units_in_words_alone(found: xr.Dataset, tmp_path: Path) -> None:
+    assert found["joint_coordinate"].attrs == {
+        "component_units": "m or rad",
+        "long_name": "joint coordinates",
+    }
+    back = read_netcdf(write_netcdf(tmp_path / "s.nc", found))
+    assert set(back.coords) == set(found.coords) - {"joint_coordinate_unit"}
+    assert {n: v.attrs for n, v in back.data_vars.items()}.keys() == found.data_vars.keys()
+    assert all(
+        back[n].attrs.get(key) == found[n].attrs.get(key)
+        for n in found.data_vars
+        for key in ("units", "component_units")
+    )
+    assert "joint_coordinate_unit" not in to_json(found)["coordinates"]
+    # what the text itself states is known of the file as well
+    assert "stiffness_free_rotation" in split_units(back)
+    assert "joint_coordinate" in split_units(back)
 
 
 def test_every_pose_has_all_its_coordinates(found: xr.Dataset) -> None:

@@ -13,12 +13,9 @@ from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_f
 from strutwork.kinematics.lost_motion import Kind
 from strutwork.kinematics.motion import Motion
 from strutwork.kinematics.pose_family import PoseFamily, TaskSection, joined
-from strutwork.kinematics.singularities import (
-    Singularity,
-    classify,
-    singularities_on_line,
-    singularity_distance,
-)
+from strutwork.kinematics.singular_distance import singularity_distance
+from strutwork.kinematics.singular_poses import Singularity, classify
+from strutwork.kinematics.singularities import singularities_on_line
 from strutwork.kinematics.singularity_curves import singularities_in_plane
 from strutwork.kinematics.tool_drive_space import tool_drive_space
 from tests.linkages import chain, slider_crank
@@ -97,7 +94,7 @@ def test_a_parallelogram_branches_where_it_is_flat() -> None:
     assert places(found, "turn") == pytest.approx([0.0, np.pi], abs=1e-9)
     assert {one.kind for one in found} == {Kind.CONFIGURATION}
     assert found[0].lost is not None
-    assert "joints that lose a condition: R1, R2, R3, R4" in found[0].lost.description
+    assert "joints that lose a constraint: R1, R2, R3, R4" in found[0].lost.description
 
 
 def three_sliders() -> tuple[Linkage, PoseFamily]:

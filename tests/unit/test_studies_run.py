@@ -4,22 +4,26 @@ from __future__ import annotations
 
 import io
 import threading
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from rich.console import Console
+from rich.progress import Progress as Bars
 
 from strutwork.errors import ModelError
+from strutwork.reports.cli.progress import LeftColumn
 from strutwork.studies.chunks import Arrays, ChunkStore
 from strutwork.studies.executor import Threads, default_executor
-from strutwork.studies.progress import INTERVAL, PATIENCE, Lines, share
+from strutwork.studies.progress import INTERVAL, LONGER, PATIENCE, Lines, Remaining, share
 from strutwork.studies.run import Chunk, Run, fill
 
 KEY = "0123456789abcdef" * 4
 
 
-class InterruptError(Exception):
+class InterruptError(BaseException):
     """Stands for the user's Ctrl-C in the middle of a study."""
 
 
@@ -183,8 +187,43 @@ def test_long_work_speaks_seldom() -> None:
         lines(done, seconds)
     # at PATIENCE, then every INTERVAL, and the end
     due = [int(PATIENCE), int(PATIENCE + INTERVAL), int(PATIENCE + 2 * INTERVAL)]
-    expected = [f"map: {d} of 40 poses, about {40 - d} s left" for d in due]
+    expected = [f"map: {d} of 40 poses, 1 per s, about {40 - d} s left" for d in due]
     assert stream.getvalue().splitlines() == [*expected, "map: 40 of 40 poses, done in 40 s"]
+
+
+def test_one_long_part_promises_nothing() -> None:
+    # two answers within 4 s, the third takes minutes: the estimate grew with every line
+    stream, clock = io.StringIO(), Clock()
+    lines = Lines("report", "steps", stream=stream, clock=clock)
+    for second in range(0, 100, 2):
+        clock.now = float(second)
+        lines(min(second // 2, 2), 3)
+    said = stream.getvalue().splitlines()
+    assert said[0] == "report: 1 of 3 steps, about 4 s left"
+    assert len(said) > 4
+    assert set(said[1:]) == {f"report: 2 of 3 steps, {LONGER}"}
+
+
+def test_time_left_counts_down_between_two_units() -> None:
+    left = Remaining()
+    assert left(0.0, 0, 4) is None
+    assert left(9.0, 0, 4) is None
+    assert left(10.0, 1, 4) == 30.0
+    assert left(25.0, 1, 4) == 15.0
+    assert left(60.0, 1, 4) == 0.0
+    assert left(60.0, 2, 4) == 60.0
+
+
+def test_a_bar_promises_no_more_than_a_line() -> None:
+    bars = Bars(console=Console(file=io.StringIO()))
+    bars.add_task("report", total=3)
+    (task,) = bars.tasks
+    column = LeftColumn()
+    assert column.render(task).plain == ""
+    task.fields["end"] = time.monotonic() + 100.4
+    assert column.render(task).plain in {"100 s left", "99 s left"}
+    task.fields["end"] = time.monotonic() - 1.0
+    assert column.render(task).plain == LONGER
 
 
 def test_parts_report_to_the_whole() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from strutwork.errors import ModelError, OutputError
+from strutwork.errors import ModelError, OutputError, StudyWarning
 from strutwork.front import Machine
 from strutwork.studies import study as study_module
 from strutwork.studies import study_store
@@ -223,7 +223,10 @@ def test_what_was_finished_is_taken_again(tmp_path: Path, monkeypatch: pytest.Mo
 
     monkeypatch.setattr(Machines, "__call__", interrupted)
     out = tmp_path / "result.nc"
-    with pytest.raises(KeyboardInterrupt):
+    with (
+        pytest.warns(StudyWarning, match="interrupted: . of 4 chunks are kept"),
+        pytest.raises(KeyboardInterrupt),
+    ):
         run_to_file(small(), out, workers=1)
     assert not out.exists()
     with pytest.raises(ModelError, match="finished parts of this study"):

@@ -27,7 +27,8 @@ from strutwork.kinematics import Placement, Poses, angle, tangent_rotation
 from strutwork.kinematics.frames import dot
 from strutwork.kinematics.lost_motion import Kind
 from strutwork.kinematics.pose_family import PoseFamily
-from strutwork.kinematics.singularities import singularities_on_line, singularity_distance
+from strutwork.kinematics.singular_distance import singularity_distance
+from strutwork.kinematics.singularities import singularities_on_line
 from strutwork.kinematics.singularity_curves import singularities_in_plane
 from strutwork.kinematics.tool_drive_space import tool_drive_space
 from strutwork.machines import (

@@ -22,7 +22,7 @@ import pytest
 from strutwork.kinematics import Poses, jacobians, tangent_rotation
 from strutwork.kinematics.assembly_modes import assembly_modes
 from strutwork.kinematics.mobility import mobility
-from strutwork.kinematics.singularities import singularity_distance
+from strutwork.kinematics.singular_distance import singularity_distance
 from strutwork.machines import EclipsePrototype
 from strutwork.papers.kim_2001.comparison import (
     HORIZONTAL,

@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import Poses, jacobians
-from strutwork.kinematics.singularities import singularity_distance
+from strutwork.kinematics.singular_distance import singularity_distance
 from strutwork.kinematics.tool_drive_space import tool_drive_space
 from strutwork.machines import SerialFiveAxis, variants
 from strutwork.machines.load import load
