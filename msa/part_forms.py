@@ -58,15 +58,21 @@ class Forms:
 
     Parameters
     ----------
-    stiffness, mass, structural, viscous : (g, p, m, m)
-        uᵀ (∂K/∂p) u and the like, rows of locked directions with the stiffness; per unit of the
-        parameter: J, J·s², J and J·s for fields in m and rad.
+    stiffness, rows, mass, structural, viscous : (g, p, m, m)
+        uᵀ (∂K/∂p) u and the like, for the rows λᵀ (∂A/∂p) u + uᵀ (∂A/∂p)ᵀ λ; per unit of the
+        parameter: J, J, J·s², J and J·s for fields in m and rad.
     """
 
     stiffness: Array
+    rows: Array
     mass: Array
     structural: Array
     viscous: Array
+
+    @property
+    def elastic(self) -> Array:
+        """Stiffness and rows together, (g, p, m, m), J per unit of the parameter."""
+        return self.stiffness + self.rows
 
 
 @dataclass(frozen=True)
@@ -135,7 +141,7 @@ class FormBuilder:
             Loss factors of the joints, no unit.
         """
         g, p, m = len(self.changes), self.system.poses, fields.unknowns.shape[-1]
-        result = Forms(*(np.zeros((g, p, m, m)) for _ in range(4)))
+        result = Forms(*(np.zeros((g, p, m, m)) for _ in range(5)))
         vertices = fields.unknowns.reshape(p, -1, 6, m)
         # one cluster of zeros at the end, which the ground's index −1 finds
         still = np.zeros((p, 1, 6, m))
@@ -223,7 +229,7 @@ class FormBuilder:
                 np.add.at(result.structural, some.parameter, lossy)
             carried = np.swapaxes(held[some.part], -1, -2) @ stretch
             carried = carried + np.swapaxes(carried, -1, -2)
-            np.add.at(result.stiffness, some.parameter, carried.imag / STEP)
+            np.add.at(result.rows, some.parameter, carried.imag / STEP)
             if np.any(self._numbers.dashpots):
                 drag = some.moved(self._numbers.dashpots, dashpots, STEP)[:, None, :, None]
                 np.add.at(
@@ -240,7 +246,7 @@ class FormBuilder:
                 one = Touched(np.array([i]), other.joint[t : t + 1])
                 along = self._stretch(one, at, ends).real[0, :, other.direction[t]]
                 work = multipliers[:, tied.rows[t], :, None] * along[:, None, :]
-                result.stiffness[i] -= change * (work + np.swapaxes(work, -1, -2))
+                result.rows[i] -= change * (work + np.swapaxes(work, -1, -2))
 
     def joint_stretch(self, joint: int, at: Array) -> tuple[Array, Array]:
         """Motion in a joint, (p, 6, m), and its rates (g, p, 6, m) with the clusters held.

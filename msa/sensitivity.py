@@ -59,7 +59,7 @@ class ComplianceSensitivity:
 
     @property
     def free(self) -> Array:
-        """∂(1/C_ii)/∂p, (g, p, 6), N/m and N·m/rad per unit; NaN where the stiffness is infinite."""
+        """∂(1/C_ii)/∂p, (g, p, 6), N/m and N·m/rad per unit; NaN where there is no finite one."""
         stiffness = axis_stiffness_free(self.compliance)
         finite = np.where(np.isfinite(stiffness), stiffness, np.nan)
         return np.asarray(-(finite**2) * np.einsum("gpii->gpi", self.rates))
@@ -112,12 +112,12 @@ def compliance_sensitivity(
     compliance = np.swapaxes(load, -1, -2) @ found.displacements.astype(float)
     compliance = (compliance + np.swapaxes(compliance, -1, -2)) / 2.0
     fields = Fields(found.displacements.astype(float), found.multipliers.astype(float))
-    rates = -FormBuilder(system, changes).forms(fields).stiffness
-    _keep_movable(system, compliance, rates)
+    rates = -FormBuilder(system, changes).forms(fields).elastic
+    _keep_movable(system, compliance)
     return ComplianceSensitivity(tuple(c.name for c in changes), compliance, rates)
 
 
-def _keep_movable(system: System, compliance: Array, rates: Array) -> None:
+def _keep_movable(system: System, compliance: Array) -> None:
     """Leave out what rounding adds in directions in which the tool cannot move."""
     if always_movable(system):
         return
@@ -231,7 +231,7 @@ def static_sensitivity(
     m = len(cases)
     fields = Fields(np.concatenate([u, y], axis=-1), np.concatenate([held, other], axis=-1))
     builder = FormBuilder(system, changes)
-    forms = builder.forms(fields).stiffness[:, :, :m, m:]
+    forms = builder.forms(fields).elastic[:, :, :m, m:]
     values = np.einsum("pnq,pnq->pq", asked, u[..., of_case])
     values = values + np.einsum("prq,prq->pq", missed, held[..., of_case])
     values = values - _own_gaps(system, quantities, elastic)
