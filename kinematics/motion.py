@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -131,6 +132,22 @@ class Motion:
     def legs(self) -> LegSystem | None:
         """The legs, where the tool's pose fixes each by itself: poses are then found leg by leg."""
         return leg_system(self.joints)
+
+    def with_joints_of(self, linkage: Linkage) -> Motion:
+        """The same motion for a linkage whose joints differ in stiffness, damping or limits alone.
+
+        What was derived stays: none of it depends on them.
+
+        Parameters
+        ----------
+        linkage : Linkage
+            Of the same bodies, joints and free, locked and elastic directions.
+        """
+        if linkage is self.linkage:
+            return self
+        made = copy(self)
+        object.__setattr__(made, "linkage", linkage)
+        return made
 
     @property
     def home_pose(self) -> Poses:

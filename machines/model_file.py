@@ -5,6 +5,7 @@ from __future__ import annotations
 import stat
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -50,6 +51,22 @@ def read_model(path: str | Path) -> Model:
     return parse_model(_text(Path(path)), str(path), Path(path).parent)
 
 
+def read_tables(path: str | Path) -> ModelTable:
+    """Read the tables of a model file, checked one by one; nothing is built from them.
+
+    Parameters
+    ----------
+    path : str or Path
+        As `read_model`.
+
+    Raises
+    ------
+    ModelError, UnitError
+        As `read_model`, but for what depends on several tables.
+    """
+    return parse_tables(_text(Path(path)), str(path))
+
+
 def parse_model(text: str, source: str = "model", folder: Path | None = None) -> Model:
     """Read a model from the text of a model file.
 
@@ -61,6 +78,25 @@ def parse_model(text: str, source: str = "model", folder: Path | None = None) ->
     folder : Path, optional
         Where the names of solids' files begin; by default the working directory.
     """
+    tables = parse_tables(text, source)
+    with stage(f"builds the model of {source}"):
+        return build_model(tables, Path() if folder is None else folder)
+
+
+def parse_tables(text: str, source: str = "model") -> ModelTable:
+    """The tables in the text of a model file, checked one by one.
+
+    Parameters
+    ----------
+    text : str
+    source : str
+        Named in messages.
+
+    Raises
+    ------
+    ModelError, UnitError
+        As `read_tables`.
+    """
     try:
         data = tomllib.loads(text)
     except RecursionError:
@@ -70,12 +106,28 @@ def parse_model(text: str, source: str = "model", folder: Path | None = None) ->
         raise ModelError(
             source, f"is not TOML: {error}.", "Correct the line, or see docs/model-file.md."
         ) from None
+    return checked_tables(data, source)
+
+
+def checked_tables(data: dict[str, Any], source: str = "model") -> ModelTable:
+    """Tables as TOML holds them, checked one by one.
+
+    Parameters
+    ----------
+    data : dict
+        Quantities as numbers in SI or texts with a unit.
+    source : str
+        Named in messages.
+
+    Raises
+    ------
+    ModelError, UnitError
+        As `read_tables`.
+    """
     try:
-        tables = ModelTable.model_validate(data)
+        return ModelTable.model_validate(data)
     except ValidationError as error:
         raise model_error(error, data, source) from None
-    with stage(f"builds the model of {source}"):
-        return build_model(tables, Path() if folder is None else folder)
 
 
 def _text(path: Path) -> str:

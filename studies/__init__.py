@@ -14,6 +14,7 @@ from strutwork.studies.dynamic import dynamic_stiffness, frequency_responses
 from strutwork.studies.dynamic_map import Vibration, dynamic_map
 from strutwork.studies.executor import Executor, Threads, default_executor
 from strutwork.studies.filters import Filters, PoseStatus
+from strutwork.studies.parametric import Parametric
 from strutwork.studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
 from strutwork.studies.progress import Lines, Progress
 from strutwork.studies.removal_rate import RemovalExponents, removal_exponents
@@ -46,6 +47,7 @@ __all__ = [
     "Filters",
     "JointScaling",
     "Lines",
+    "Parametric",
     "PoseStatus",
     "PoseValue",
     "PowerLaw",
