@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import StrutworkError
-from strutwork.kinematics import Placement, characteristic_length
+from strutwork.kinematics import DIRECTIONS, Placement, characteristic_length
+from strutwork.kinematics.motion import Moved
 from strutwork.machines.model import Model
-from strutwork.machines.model_poses import moved
+from strutwork.machines.model_poses import brought, moved, targets
 from strutwork.msa import PlacedStructure
 from strutwork.msa.changes import Change, PlacedChange
 from strutwork.studies.parameter import Parameter
@@ -105,10 +106,12 @@ class Tangents:
         """
         if not task:
             base, tool = self.model.placement.flat(), None
+            asked, held, found = {}, [], None
         else:
             asked = {d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in task.items()}
             found, base = moved(self.model, asked)
             base, tool = base.require_reachable(), found.tool
+            held = [d for d in targets(self.model, asked, {}) if d not in asked]
         placed = self.model.structure.at(base)
         changes, missing = [], []
         for change, high, low in zip(self.changes, self.above, self.below, strict=True):
@@ -124,7 +127,7 @@ class Tangents:
                 elif model.closed_form is not None and tool is not None:
                     placement = model.closed_form(tool)
                 else:
-                    placement = moved(model, asked)[1]
+                    placement = _brought(model, asked, held, found)
                 lost |= ~placement.reachable
                 sides.append(placement)
             if _same(*sides) and _described(high) == _described(low):
@@ -166,6 +169,14 @@ class PlacedTangents:
     placed: PlacedStructure
     changes: tuple[PlacedChange, ...]
     missing: NDArray[np.bool_]
+
+
+def _brought(
+    model: Model, asked: Mapping[str, Array], held: Sequence[str], beside: Moved | None
+) -> Placement:
+    """A changed machine at the poses; what the machine itself holds, it holds as at its home."""
+    home = dict(zip(DIRECTIONS, model.motion.task_of(model.motion.home_pose), strict=True))
+    return brought(model, {**asked, **{d: home[d] for d in held}}, {}, beside).placement
 
 
 def _described(model: Model) -> tuple[Any, ...]:
