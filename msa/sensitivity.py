@@ -27,6 +27,7 @@ from strutwork.msa.stiffness import (
     axis_stiffness_blocked,
     axis_stiffness_free,
     doubtful,
+    movable_inverse,
     scaled,
 )
 from strutwork.msa.structure import PlacedStructure
@@ -71,10 +72,7 @@ class ComplianceSensitivity:
         Where the tool cannot move in some directions, with these held as they are.
         """
         stiffness = axis_stiffness_blocked(self.compliance)
-        scale = np.sqrt(np.maximum(np.einsum("pii->pi", self.compliance), 0.0))
-        scale = np.where(scale > 0, scale, 1.0)
-        outer = scale[:, :, None] * scale[:, None, :]
-        inverse = np.linalg.pinv(self.compliance / outer, rcond=1e-12, hermitian=True) / outer
+        inverse = movable_inverse(self.compliance)
         rates = -np.einsum("pij,gpjk,pki->gpi", inverse, self.rates, inverse, optimize=True)
         return np.where(np.isfinite(stiffness), rates, np.nan)
 
