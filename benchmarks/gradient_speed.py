@@ -11,13 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
 from benchmarks.measure import DOCUMENTS, machine_line, one_thread, parsed, parser, require, shown
 from benchmarks.measure import rate as per_second
-from strutwork.fea.sensitivity import frequency_sensitivity
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import at_pose
 from strutwork.msa import axis_stiffness_free, tool_compliance
@@ -68,7 +66,6 @@ class Costs:
     value: float
     gradient: float
     placing: float
-    frequencies: float
     set_up: float
     differences: float
     gap: float
@@ -105,11 +102,8 @@ def measured(case: Case, count: int) -> Costs:
     require(not tangents.refused, f"{case.source}: {dict(tangents.refused)}")
     model = tangents.model
     pose = {d: np.array([v]) for d, v in case.pose.items()}
-    # the tangents of geometry belong to the pose, and are kept for every quantity asked there
-    tool = compliance_sensitivity
     found = tangents.at(pose)
     _ = [change.geometry for change in found.changes]
-    whole = partial(lambda: _gradient(tangents.at(pose)))
     step = 1e-4
     gap = 0.0
     exact = _gradient(found)
@@ -124,12 +118,11 @@ def measured(case: Case, count: int) -> Costs:
         len(tangents.parameters),
         sum(change.geometry is not None for change in found.changes),
         value,
-        _seconds(whole),
+        _seconds(lambda: _gradient(tangents.at(pose))),
         _seconds(lambda: tangents.at(pose)),
-        _seconds(lambda: frequency_sensitivity(found.placed, found.changes, 3)),
         _seconds(lambda: Tangents.of(machine.model, parameters)),
         2.0 * len(parameters) * value,
-        gap if tool else gap,
+        gap,
     )
 
 

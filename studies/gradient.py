@@ -192,9 +192,9 @@ def worst_pose(
     for start in range(0, len(good), 64):
         some = good[start : start + 64]
         found = plain.at({d: v[some] for d, v in task.items()})
-        values[start : start + 64] = sensitivities(
-            model, found, [asked], vibrating or Vibrating()
-        )[0][0]
+        values[start : start + 64] = sensitivities(model, found, [asked], vibrating or Vibrating())[
+            0
+        ][0]
     if asked.static is not None:
         values = -np.abs(values)
     if not np.isfinite(values).any():

@@ -197,6 +197,10 @@ def sensitivities(
                 found.placed, found.changes, port, vibrating.damping, vibrating.band
             )
             values[k], rates[k] = least.value, least.rates
+    if model.preload is not None and kinds & {"frequency", "least_dynamic_stiffness"}:
+        remarks.append(
+            f'The preload "{model.preload}" is left out of vibration: what a parameter does to '
+            "its forces is not differentiated."
+        )
     rates = np.where(found.missing, np.nan, rates)
     return values, rates, tuple(remarks)
-

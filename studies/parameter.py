@@ -77,9 +77,7 @@ class Parameter:
             A path that names no number (the message offers the nearest), numbers of different
             units.
         """
-        found = {
-            n.path: n for part in name.split(TOGETHER) for n in machine.matching(part.strip())
-        }
+        found = {n.path: n for part in name.split(TOGETHER) for n in machine.matching(part.strip())}
         units = {n.unit for n in found.values()}
         if len(units) > 1:
             raise ModelError(
@@ -95,7 +93,7 @@ def dimensions(machine: Parametric) -> tuple[Parameter, ...]:
     """The parameters of a machine that a designer changes: sizes, materials, stiffnesses, masses.
 
     Left out are places of single nodes and directions of axes, which belong to their joints'
-    partners, loads, ranges, and numbers that are zero.
+    partners, loads, ranges, numbers that are zero, and what would mesh and reduce a solid anew.
 
     Parameters
     ----------
@@ -106,12 +104,14 @@ def dimensions(machine: Parametric) -> tuple[Parameter, ...]:
 
 def _chosen(machine: Parametric, paths: Iterable[str]) -> Iterable[Parameter]:
     of_file = any(path.startswith("nodes.") for path in paths)
+    # a solid is meshed and reduced anew for every number of its own
+    slow = {"solids", "materials"} if machine.model().solids else {"solids"}
     for path in paths:
         number = machine.paths[path]
         head = re.split(r"[.\[]", path)[0]
         last = path.rpartition(".")[2]
         counted = isinstance(number.kind, Whole)
-        if head in _ASIDE or last in _NO_DIMENSION or counted or not number.value:
+        if head in _ASIDE | slow or last in _NO_DIMENSION or counted or not number.value:
             continue
         if of_file and (head == "nodes" or (not number.unit and "poissons_ratio" not in last)):
             continue

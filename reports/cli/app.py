@@ -25,6 +25,7 @@ from strutwork.reports.cli.choices import (
     Target,
 )
 from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
+from strutwork.reports.cli.gradient_command import gradient
 from strutwork.reports.cli.manner import speaking
 from strutwork.reports.cli.map_command import map_command
 from strutwork.reports.cli.move_command import move
@@ -371,6 +372,7 @@ def scale(
 
 
 app.command()(speaking(accuracy))
+app.command()(speaking(gradient))
 app.command()(speaking(move))
 app.command()(speaking(workspace))
 app.command()(new)
