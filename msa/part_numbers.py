@@ -89,3 +89,13 @@ class PartNumbers:
         return PartNumbers(
             *((getattr(self, f.name) - getattr(before, f.name)) / width for f in fields(self))
         )
+
+
+def same_numbers(one: PartNumbers, other: PartNumbers) -> bool:
+    """Whether two structures have the same numbers.
+
+    Parameters
+    ----------
+    one, other : PartNumbers
+    """
+    return all(np.array_equal(getattr(one, f.name), getattr(other, f.name)) for f in fields(one))

@@ -22,6 +22,7 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.kinematics.task_surfaces import Plane
 from strutwork.machines.model import Model
 from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
+from strutwork.msa.part_numbers import PartNumbers, same_numbers
 from strutwork.names import visible
 from strutwork.reports.answers import Source, answer
 from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
@@ -169,8 +170,7 @@ class Subject:
             machine = Parametric.of(named)
         except StrutworkError:
             return ()
-        own = machine.model().placement.positions
-        if not np.array_equal(own, self.model.placement.positions):
+        if not _alike(machine.model(), self.model):
             return ()
         parameters = dimensions(machine)
         if not parameters:
@@ -386,3 +386,10 @@ class Subject:
 
     def _told(self, part: str) -> Progress:
         return silent if self.progress is None else self.progress(part)
+
+
+def _alike(one: Model, other: Model) -> bool:
+    """Whether two models stand at the same place and have the same parts."""
+    return np.array_equal(one.placement.positions, other.placement.positions) and same_numbers(
+        PartNumbers.of(one.structure), PartNumbers.of(other.structure)
+    )

@@ -7,6 +7,7 @@ from math import isfinite
 
 import xarray as xr
 
+from strutwork.errors import StrutworkError
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Table, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.figures.effect_bars import effect_bars
@@ -30,7 +31,10 @@ def first_changes(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, 
     ----------
     subject : Subject
     """
-    found = subject.first_changes
+    try:
+        found = subject.first_changes
+    except StrutworkError as error:
+        return (Note(f"What to change first is not known: {error.problem}"),), ()
     if not found:
         return (), ()
     axes = [str(one["quantity"].to_numpy()[0]).removeprefix("stiffness_") for one in found]

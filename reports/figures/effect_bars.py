@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from numpy.typing import ArrayLike
-
 from strutwork.reports.figures.theme import AXIS_COLOURS, INK, LEGEND, axis, layout, rounded
 from strutwork.reports.numbers import percent
 from strutwork.reports.page import plain
 
+#: Bars below this have no number, percent.
+SHOWN = 0.05
+
 
 def effect_bars(
-    names: Sequence[str], effects: Mapping[str, ArrayLike], title: str
+    names: Sequence[str], effects: Mapping[str, Sequence[float]], title: str
 ) -> dict[str, Any]:
     """Horizontal bars of several effects for each name, in percent.
 
@@ -21,7 +22,7 @@ def effect_bars(
     ----------
     names : sequence of n str
         From the top.
-    effects : mapping of x, y or z to (n,)
+    effects : mapping of x, y or z to n floats
         Percent.
     title : str
         Of the axis.
@@ -29,7 +30,7 @@ def effect_bars(
     shown = [plain(name) for name in names]
     traces = []
     for key, values in effects.items():
-        numbers = [float(v) for v in values]  # type: ignore[union-attr]
+        numbers = [float(v) for v in values]
         traces.append(
             {
                 "type": "bar",
@@ -37,7 +38,7 @@ def effect_bars(
                 "name": f"stiffness along {key}",
                 "y": shown,
                 "x": rounded(numbers, 5),
-                "text": [percent(v) for v in numbers],
+                "text": [percent(v) if abs(v) >= SHOWN else "" for v in numbers],
                 "textposition": "outside",
                 "textfont": {"size": 11},
                 "cliponaxis": False,
@@ -45,9 +46,9 @@ def effect_bars(
                 "hovertemplate": "%{y}: %{x:.2f} %<extra>" + f"stiffness along {key}</extra>",
             }
         )
-    size = max((abs(v) for t in traces for v in t["x"]), default=1.0) or 1.0  # type: ignore[attr-defined]
-    low = min(min(t["x"], default=0.0) for t in traces) if traces else 0.0  # type: ignore[call-overload]
-    high = max(max(t["x"], default=0.0) for t in traces) if traces else 0.0  # type: ignore[call-overload]
+    every = [0.0, *(float(v) for values in effects.values() for v in values)]
+    low, high = min(every), max(every)
+    size = max(-low, high) or 1.0
     room = 0.2 * size
     return {
         "data": traces,
