@@ -175,7 +175,7 @@ class DynamicSensitivity:
     frequency : (p,)
         Where it is reached, Hz.
     rates : (g, p)
-        The same per unit of each parameter.
+        N/m or N·m/rad per unit of each parameter.
     """
 
     port: Port

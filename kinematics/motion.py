@@ -192,6 +192,9 @@ class Motion:
         joints : mapping of (joint, direction) to (...), optional
             Joint coordinates, m or rad, driven or not. Where more are given than freedoms, they
             must agree.
+        beside : Moved, optional
+            Where a machine that hardly differs from this one was moved by the same targets, one
+            batch axis: the way begins there. Legs that are found one by one do without.
 
         Returns
         -------

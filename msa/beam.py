@@ -144,7 +144,7 @@ def beam_axes(
 
 
 def default_up(x: Array) -> Array:
-    """The vector in the local x-z plane of beams that name none: z, or y of a beam along z.
+    """Vectors in the local x-z plane of beams that name none, (..., 3): z, or y of one along z.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ class ComplianceSensitivity:
     compliance : (p, 6, 6)
         m/N, 1/N, rad/(N·m).
     rates : (g, p, 6, 6)
-        ∂C/∂p, the same per unit of each parameter.
+        ∂C/∂p, m/N, 1/N, rad/(N·m) per unit of each parameter.
     """
 
     parameters: tuple[str, ...]
@@ -175,7 +175,7 @@ class StaticSensitivity:
     values : (p, q)
         m, rad, N or N·m.
     rates : (g, p, q)
-        The same per unit of each parameter.
+        m, rad, N or N·m per unit of each parameter.
     """
 
     quantities: tuple[StaticQuantity, ...]

@@ -55,6 +55,8 @@ class Effect:
     def label(self) -> str:
         """Their path, with a star for the numbers in which they differ, and how many they are.
 
+        Examples
+        --------
         >>> Effect(("ball1.x", "ball2.x"), "", ()).label, Effect(("a1.z",), "", ()).label
         ('ball*.x (2)', 'a1.z')
         """

@@ -156,6 +156,8 @@ def per(unit: str, parameter: str) -> str:
     unit, parameter : str
         SI units of a quantity and a parameter; empty for none.
 
+    Examples
+    --------
     >>> per("N/m", "m"), per("Hz", "")
     ('N/m per m', 'Hz per 1')
     """

@@ -35,7 +35,7 @@ class Parameter:
     name : str
         Its path; paths that move together have a plus between them.
     numbers : mapping of path to float
-        Where it stands, SI.
+        What they are, each in `unit`, which may be any unit.
     unit : str
         SI; empty for a pure number.
     meaning : str
