@@ -73,8 +73,8 @@ def gap(
     Returns
     -------
     gap : (q, g)
-        Of a slope below a thousandth of value per parameter, the share of that: the differences
-        have no more digits.
+        Of a slope below a hundredth of value per parameter, the share of that: the differences have
+        no more digits.
     """
     task, vibrating = task or {}, vibrating or Vibrating()
     found = gradient(model_of, parameters, quantities, {d: [v] for d, v in task.items()}, vibrating)
@@ -91,6 +91,6 @@ def gap(
             expected = slope(at, step * size)
             value = abs(float(found["value"][q, 0]))
             result[q, g] = abs(float(found["gradient"][q, g, 0]) - expected) / max(
-                abs(expected), 1e-3 * value / size
+                abs(expected), 1e-2 * value / size
             )
     return result
