@@ -20,7 +20,7 @@ from strutwork.machines.model import Model
 from strutwork.machines.model_poses import at_pose
 from strutwork.msa import axis_stiffness_free, tool_compliance
 from strutwork.msa.sensitivity import compliance_sensitivity
-from strutwork.studies.parameter import Parameter, dimensions
+from strutwork.studies.dimension import Dimension, dimensions
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.tangents import PlacedTangents, Tangents
 
@@ -95,7 +95,7 @@ def measured(case: Case, count: int) -> Costs:
         The gradient is not that of differences.
     """
     machine = Parametric.of(case.source)
-    moving = [Parameter.of(machine, name) for name in case.places]
+    moving = [Dimension.of(machine, name) for name in case.places]
     still = [p for p in dimensions(machine) if p.name not in case.places]
     parameters = [*moving, *still][:count]
     tangents = Tangents.of(machine.model, parameters)

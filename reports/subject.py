@@ -33,9 +33,9 @@ from strutwork.reports.survey_words import least
 from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
+from strutwork.studies.dimension import dimensions
 from strutwork.studies.gradient import gradient
 from strutwork.studies.machine_modes import MachineModes, machine_modes
-from strutwork.studies.parameter import dimensions
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.reversal_study import ReversalStudy, reversal_study

@@ -16,8 +16,8 @@ from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
 from strutwork.names import visible
 from strutwork.studies.description import versions
+from strutwork.studies.dimension import Dimension
 from strutwork.studies.gradient_quantities import Asked, Vibrating, read_quantity, sensitivities
-from strutwork.studies.parameter import Parameter
 from strutwork.studies.tangents import ModelOf, Tangents
 
 Array = NDArray[Any]
@@ -28,7 +28,7 @@ NOTHING = 1e-9
 
 def gradient(
     model_of: ModelOf | Tangents,
-    parameters: Sequence[Parameter],
+    parameters: Sequence[Dimension],
     quantities: Sequence[str],
     task: Mapping[str, ArrayLike] | None = None,
     vibrating: Vibrating | None = None,
@@ -40,8 +40,8 @@ def gradient(
     model_of : callable or Tangents
         The machine of numbers by path, as `Parametric.model`; or what `Tangents.of` made of it,
         which serves every call.
-    parameters : sequence of g Parameter
-        As `Parameter.of` and `strutwork.studies.parameter.dimensions` give them; with `Tangents`
+    parameters : sequence of g Dimension
+        As `Dimension.of` and `strutwork.studies.dimension.dimensions` give them; with `Tangents`
         those that it has.
     quantities : sequence of q str
         As `strutwork.studies.gradient_quantities.FORMS`.

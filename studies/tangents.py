@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from strutwork.errors import StrutworkError
+from strutwork.errors import ModelError, StrutworkError
 from strutwork.kinematics import DIRECTIONS, Placement, characteristic_length
 from strutwork.kinematics.motion import Moved
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import brought, moved, targets
 from strutwork.msa import PlacedStructure
 from strutwork.msa.changes import Change, PlacedChange
-from strutwork.studies.parameter import Parameter
+from strutwork.studies.dimension import Dimension
 
 Array = NDArray[Any]
 
@@ -34,7 +34,7 @@ class Tangents:
     Parameters
     ----------
     model : Model
-    parameters : tuple of Parameter
+    parameters : tuple of Dimension
         Those that can be changed.
     changes : tuple of Change
         Of each parameter.
@@ -45,21 +45,21 @@ class Tangents:
     """
 
     model: Model
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[Dimension, ...]
     changes: tuple[Change, ...]
     above: tuple[Model, ...]
     below: tuple[Model, ...]
     refused: Mapping[str, str]
 
     @classmethod
-    def of(cls, model_of: ModelOf, parameters: Sequence[Parameter]) -> Tangents:
+    def of(cls, model_of: ModelOf, parameters: Sequence[Dimension]) -> Tangents:
         """Make the machine a step above and a step below each parameter.
 
         Parameters
         ----------
         model_of : callable
             The machine of numbers by path, as `Parametric.model`.
-        parameters : sequence of Parameter
+        parameters : sequence of Dimension
 
         Raises
         ------
@@ -79,6 +79,7 @@ class Tangents:
                 # the step that the last digits leave
                 width = (one + step) - (one - step)
                 change = Change(parameter.name, high.structure, low.structure, width)
+                _require_same_solids(model, high, low)
             except StrutworkError as error:
                 refused[parameter.name] = f"{error.problem} {error.remedy}".strip()
                 continue
@@ -169,6 +170,24 @@ class PlacedTangents:
     placed: PlacedStructure
     changes: tuple[PlacedChange, ...]
     missing: NDArray[np.bool_]
+
+
+def _require_same_solids(model: Model, *changed: Model) -> None:
+    """Refuse what meshes and reduces a solid anew: its monitors may then stand elsewhere.
+
+    Raises
+    ------
+    ModelError
+        A solid is another object than in the machine itself.
+    """
+    for other in changed:
+        for one, two in zip(model.solids, other.solids, strict=True):
+            if one is not two:
+                raise ModelError(
+                    f"solid {one.name}",
+                    "is meshed and reduced anew, which changes it by more than a small step.",
+                    "Compare two models, or name a number that leaves the solids as they are.",
+                )
 
 
 def _brought(

@@ -21,9 +21,9 @@ from strutwork.msa import (
     solve,
     tool_compliance,
 )
+from strutwork.studies.dimension import Dimension
 from strutwork.studies.gradient import gradient
 from strutwork.studies.gradient_quantities import Asked, Vibrating, read_quantity
-from strutwork.studies.parameter import Parameter
 from strutwork.studies.tangents import ModelOf
 
 Array = NDArray[Any]
@@ -62,7 +62,7 @@ def slope(value: Callable[[float], float], step: float) -> float:
 
 def gap(
     model_of: ModelOf,
-    parameters: Sequence[Parameter],
+    parameters: Sequence[Dimension],
     quantities: Sequence[str],
     task: Mapping[str, float] | None = None,
     vibrating: Vibrating | None = None,
@@ -85,7 +85,7 @@ def gap(
         size = abs(parameter.value) or 1.0
         for q, one in enumerate(asked):
 
-            def at(h: float, one: Asked = one, parameter: Parameter = parameter) -> float:
+            def at(h: float, one: Asked = one, parameter: Dimension = parameter) -> float:
                 return answer(model_of(parameter.moved(h)), one, task, vibrating)
 
             expected = slope(at, step * size)

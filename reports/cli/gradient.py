@@ -22,9 +22,9 @@ from strutwork.reports.cli.subject import where
 from strutwork.reports.first_changes import SMALL, Effect, effects, what_to_change_file
 from strutwork.reports.model_damping import model_damping
 from strutwork.reports.numbers import percent, significant
+from strutwork.studies.dimension import Dimension, dimensions
 from strutwork.studies.gradient import gradient, worst_pose
 from strutwork.studies.gradient_quantities import Vibrating
-from strutwork.studies.parameter import Parameter, dimensions
 from strutwork.studies.parametric import Parametric
 
 #: Asked for where nothing is.
@@ -72,7 +72,7 @@ def run(
     if options.worst:
         task = _worst(model, quantities[0], task, vibrating)
     parameters = (
-        [Parameter.of(machine, path) for path in options.by] if options.by else dimensions(machine)
+        [Dimension.of(machine, path) for path in options.by] if options.by else dimensions(machine)
     )
     found = gradient(
         machine.model, parameters, quantities, {d: [v] for d, v in task.items()}, vibrating

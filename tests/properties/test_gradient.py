@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from strutwork.fea import LossFactor, ModalRatio
+from strutwork.studies.dimension import Dimension
 from strutwork.studies.gradient import gradient
 from strutwork.studies.gradient_quantities import Vibrating
-from strutwork.studies.parameter import Parameter
 from strutwork.studies.parametric import Parametric
 from tests.gradients import gap
 
@@ -88,7 +88,7 @@ def test_gradients_of_chains(machine: Parametric) -> None:
         "nodes.end0.x+nodes.begin1.x",
         "masses[0].mass",
     ]
-    parameters = [Parameter.of(machine, name) for name in names]
+    parameters = [Dimension.of(machine, name) for name in names]
     quantities = ["stiffness_x", "stiffness_rz", "blocked_stiffness_y", "frequency_1"]
     found = gap(machine.model, parameters, quantities, step=1e-3)
     assert found.max() < 1e-6
@@ -101,7 +101,7 @@ def test_the_least_dynamic_stiffness_of_chains(
 ) -> None:
     """In a band without another minimum as low, which differences might step to."""
     names = ["sections.bar.height_z", "materials.steel.density", "joints.joint0.stiffness.rz"]
-    parameters = [Parameter.of(machine, name) for name in names]
+    parameters = [Dimension.of(machine, name) for name in names]
     vibrating = Vibrating(damping, (1.0, 3000.0))
     quantities = ["least_dynamic_stiffness_x"]
     assert gap(machine.model, parameters, quantities, None, vibrating, 2e-4).max() < 2e-5
@@ -112,7 +112,7 @@ def test_the_least_dynamic_stiffness_of_chains(
 def test_scaling_all_stiffness_scales_the_stiffness_at_the_tool(machine: Parametric) -> None:
     """Euler's theorem: elasticities of all moduli and joint stiffnesses add to one."""
     stiff = [p for p in machine.paths if ".stiffness." in p or p.endswith("youngs_modulus")]
-    parameters = [Parameter.of(machine, name) for name in stiff]
+    parameters = [Dimension.of(machine, name) for name in stiff]
     found = gradient(machine.model, parameters, ["stiffness_x", "blocked_stiffness_z"])
     total = found["elasticity"].to_numpy()[:, :, 0].sum(axis=1)
     assert total == pytest.approx(np.ones(2), rel=1e-8)

@@ -16,12 +16,13 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
 from strutwork.msa.changes import Change
 from strutwork.msa.sensitivity import StaticQuantity, compliance_sensitivity
+from strutwork.studies.dimension import Dimension, dimensions
 from strutwork.studies.gradient import gradient, worst_pose
 from strutwork.studies.gradient_quantities import Vibrating
-from strutwork.studies.parameter import Parameter, dimensions
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.tangents import Tangents
 from tests.gradients import gap
+from tests.solid_models import COLUMN
 
 #: A slender bar without shear, of two elements, with a tip mass far heavier than itself.
 CANTILEVER = """
@@ -133,9 +134,9 @@ tcp = "tip"
 GRAVITY = "gravity = [0, 0, -9.81]\n"
 
 
-def of(text: str, *names: str) -> tuple[Parametric, list[Parameter]]:
+def of(text: str, *names: str) -> tuple[Parametric, list[Dimension]]:
     machine = Parametric.of(text)
-    return machine, [Parameter.of(machine, name) for name in names]
+    return machine, [Dimension.of(machine, name) for name in names]
 
 
 def test_the_closed_forms_of_a_cantilever() -> None:
@@ -368,9 +369,9 @@ def test_what_cannot_be_asked() -> None:
     with pytest.raises(ModelError, match="damping: is missing"):
         gradient(machine.model, parameters, ["least_dynamic_stiffness_z"])
     with pytest.raises(ModelError, match="Did you mean"):
-        Parameter.of(machine, "sections.bar.diametr")
+        Dimension.of(machine, "sections.bar.diametr")
     with pytest.raises(ModelError, match="different units"):
-        Parameter.of(machine, "sections.bar.diameter+masses[0].mass")
+        Dimension.of(machine, "sections.bar.diameter+masses[0].mass")
     with pytest.raises(ModelError, match="Say displacement"):
         StaticQuantity("force", "tip", "z", machine.model().cases[0])
 
@@ -412,3 +413,17 @@ def test_no_parameter_gives_the_value_alone() -> None:
     assert found.rates.shape == (0, 1, 6, 6)
     assert found.free.shape == (0, 1, 6)
     assert "0 parameters" in repr(found)
+
+
+def test_beside_a_solid_joints_have_gradients_and_its_material_is_refused() -> None:
+    """The solid's matrices take part; what would mesh and reduce it anew has no small step."""
+    names = ["materials.granite.youngs_modulus", "joints.mount.stiffness.z", "masses[0].mass"]
+    machine = Parametric.of(dict(COLUMN))
+    parameters = [Dimension.of(machine, name) for name in names]
+    quantities = ["displacement:tip:z@gravity", "frequency_1"]
+    found = gradient(machine.model, parameters, quantities)
+    (refused,) = found.attrs["refused"]
+    assert "meshed and reduced anew" in refused
+    assert gap(machine.model, parameters[1:], quantities[:1], step=1e-2).max() < 1e-6
+    # the frequency is known to nine digits only beside so stiff a solid, and differences to five
+    assert gap(machine.model, parameters[1:], quantities[1:], step=1e-2).max() < 1e-4

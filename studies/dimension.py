@@ -1,4 +1,4 @@
-"""Parameters of a study: one number of a machine, or several that move together."""
+"""Dimensions along which gradients are taken: a number of a machine, or several together."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _NO_DIMENSION = frozenset({"low", "high", "from", "to"})
 
 
 @dataclass(frozen=True)
-class Parameter:
+class Dimension:
     """One number of a machine, or several that move by the same step.
 
     Parameters
@@ -62,7 +62,7 @@ class Parameter:
         return {path: value + step for path, value in self.numbers.items()}
 
     @classmethod
-    def of(cls, machine: Parametric, name: str) -> Parameter:
+    def of(cls, machine: Parametric, name: str) -> Dimension:
         """The parameter of a path; with a star or a plus several numbers that move together.
 
         Parameters
@@ -89,7 +89,7 @@ class Parameter:
         return cls(name, {p: n.value for p, n in found.items()}, first.unit, first.meaning)
 
 
-def dimensions(machine: Parametric) -> tuple[Parameter, ...]:
+def dimensions(machine: Parametric) -> tuple[Dimension, ...]:
     """The parameters of a machine that a designer changes: sizes, materials, stiffnesses, masses.
 
     Left out are places of single nodes and directions of axes, which belong to their joints'
@@ -102,7 +102,7 @@ def dimensions(machine: Parametric) -> tuple[Parameter, ...]:
     return tuple(_chosen(machine, machine.paths))
 
 
-def _chosen(machine: Parametric, paths: Iterable[str]) -> Iterable[Parameter]:
+def _chosen(machine: Parametric, paths: Iterable[str]) -> Iterable[Dimension]:
     of_file = any(path.startswith("nodes.") for path in paths)
     # a solid is meshed and reduced anew for every number of its own
     slow = {"solids", "materials"} if machine.model().solids else {"solids"}
@@ -117,4 +117,4 @@ def _chosen(machine: Parametric, paths: Iterable[str]) -> Iterable[Parameter]:
             continue
         if of_file and any(p in path for p in (".axis.", ".inertia.", ".limits.", ".center_")):
             continue
-        yield Parameter(path, {path: number.value}, number.unit, number.meaning)
+        yield Dimension(path, {path: number.value}, number.unit, number.meaning)
