@@ -33,6 +33,10 @@ MOST = 5.0
 COUNT = 30
 
 
+#: Model files of the project.
+MACHINES = DOCUMENTS.parent / "examples" / "machines"
+
+
 @dataclass(frozen=True)
 class Case:
     """A machine, a pose of its tool, and lists of paths that move together."""
@@ -44,12 +48,12 @@ class Case:
 
 CASES = {
     "6-UPS hexapod": Case(
-        "examples/machines/6-ups.toml",
+        str(MACHINES / "6-ups.toml"),
         {"x": 0.02, "rx": 0.05},
         tuple(f"nodes.base{k}.{d}+nodes.foot{k}.{d}" for k in range(1, 7) for d in "xy"),
     ),
     "3-RPS head": Case(
-        "examples/machines/3-rps.toml",
+        str(MACHINES / "3-rps.toml"),
         {"z": 0.69, "rx": 0.1, "ry": 0.05},
         tuple(f"nodes.base{k}.{d}+nodes.foot{k}.{d}" for k in (1, 2, 3) for d in "xy"),
     ),
