@@ -1,4 +1,4 @@
-"""Finite differences of answers, for tests of gradients: extrapolated, to some ten digits."""
+"""Machines and finite differences for tests of gradients, the latter to some ten digits."""
 
 from __future__ import annotations
 
@@ -27,6 +27,113 @@ from strutwork.studies.gradient_quantities import Asked, Vibrating, read_quantit
 from strutwork.studies.tangents import ModelOf
 
 Array = NDArray[Any]
+
+#: A slender bar without shear, of two elements, with a tip mass far heavier than itself.
+CANTILEVER = """
+[materials.steel]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+density = "1e-6 kg/m^3"
+[materials.other]
+youngs_modulus = "70 GPa"
+poissons_ratio = 0.3
+density = "2700 kg/m^3"
+[sections.bar]
+shape = "rod"
+diameter = "30 mm"
+[nodes]
+root = [0, 0, 0]
+tip = ["600 mm", 0, 0]
+[[beams]]
+name = "arm"
+from = "root"
+to = "tip"
+material = "steel"
+section = "bar"
+shear = false
+elements = 2
+[[masses]]
+node = "tip"
+mass = "8 kg"
+[[supports]]
+node = "root"
+fixed = "all"
+[[loads]]
+case = "pull"
+node = "tip"
+force = [0, 0, "-100 N"]
+[tool]
+tcp = "tip"
+[damping]
+modal_ratio = 0.02
+"""
+
+#: A chain of two arms, their joints elastic, the last with a dashpot.
+CHAIN = """
+[materials.steel]
+youngs_modulus = "210 GPa"
+poissons_ratio = 0.3
+density = "7850 kg/m^3"
+loss_factor = 0.01
+[sections.bar]
+shape = "tube"
+outer_diameter = "50 mm"
+inner_diameter = "30 mm"
+[nodes]
+root = [0, 0, 0]
+foot = [0, 0, 0]
+end = [0, "100 mm", "700 mm"]
+begin = [0, "100 mm", "700 mm"]
+tip = ["500 mm", "150 mm", "800 mm"]
+[[joints]]
+name = "shoulder"
+type = "revolute"
+between = ["root", "foot"]
+axis = [1, 0, 0]
+[joints.stiffness]
+x = "300 N/um"
+y = "200 N/um"
+z = "250 N/um"
+rx = "2e5 N*m/rad"
+ry = "3e5 N*m/rad"
+rz = "1e5 N*m/rad"
+[[beams]]
+name = "upper"
+from = "foot"
+to = "end"
+material = "steel"
+section = "bar"
+elements = 2
+[[joints]]
+name = "elbow"
+type = "revolute"
+between = ["end", "begin"]
+axis = [0, 1, 0]
+stiffness = { rz = "8e4 N*m/rad" }
+damping = { rz = "20 N*m*s/rad" }
+[[beams]]
+name = "fore"
+from = "begin"
+to = "tip"
+material = "steel"
+section = "bar"
+[[masses]]
+node = "tip"
+mass = "4 kg"
+[[supports]]
+node = "root"
+fixed = "all"
+[[springs]]
+name = "balance"
+node = "end"
+stiffness = { z = "2 N/um", y = "1 N/um" }
+[[loads]]
+case = "cut"
+node = "tip"
+force = ["50 N", "20 N", "-100 N"]
+[tool]
+tcp = "tip"
+"""
 
 
 def placed(model: Model, task: Mapping[str, float]) -> PlacedStructure:

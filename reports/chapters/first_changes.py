@@ -21,6 +21,9 @@ FILE = "first-changes.csv"
 #: Dimensions drawn, and listed before those with less effect are folded away.
 DRAWN, LISTED = 8, 12
 
+#: Effects above this share say where to look, and not what comes.
+STEEP = 0.5
+
 
 def first_changes(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, ...]]:
     """What ten percent more of each dimension brings where the machine is least stiff.
@@ -80,7 +83,15 @@ def first_changes(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, 
         blocks.append(Details(f"{len(shown) - LISTED} dimensions with less effect", (rest,)))
     none = [e.label for e in every if e not in shown]
     if none:
-        blocks.append(Note(f"No effect on these stiffnesses: {', '.join(none)}."))
+        blocks.append(Note(f"Less than 0.005 % each: {', '.join(none)}."))
+    steep = [e.label for e in shown if max(_size(s) for s in e.shares) > STEEP]
+    if steep:
+        blocks.append(
+            Note(
+                f"{', '.join(steep)}: so steep that 10 % is beyond a linear estimate; 1 % more brings "
+                "about a tenth of what is shown."
+            )
+        )
     remarks = dict.fromkeys(
         words for one in found for words in (*one.attrs["remarks"], *one.attrs["refused"])
     )
