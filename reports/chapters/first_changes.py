@@ -88,8 +88,8 @@ def first_changes(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, 
     if steep:
         blocks.append(
             Note(
-                f"{', '.join(steep)}: so steep that 10 % is beyond a linear estimate; 1 % more brings "
-                "about a tenth of what is shown."
+                f"{', '.join(steep)}: so steep that 10 % is beyond a linear estimate; 1 % more "
+                "brings about a tenth of what is shown."
             )
         )
     remarks = dict.fromkeys(
