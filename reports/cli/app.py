@@ -42,6 +42,7 @@ COMMANDS = {
     "tolerance": f"{_HERE}.app:tolerance",
     "scale": f"{_HERE}.app:scale",
     "accuracy": f"{_HERE}.accuracy_command:accuracy",
+    "gradient": f"{_HERE}.gradient_command:gradient",
     "move": f"{_HERE}.move_command:move",
     "workspace": f"{_HERE}.workspace_command:workspace",
     "new": f"{_HERE}.new_command:new",
@@ -55,7 +56,6 @@ COMMANDS = {
 
 #: Those that print no tables, and take neither --csv nor --verbose.
 SILENT = ("new", "report", "schema")
-
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
 PLACED = ("accuracy", "map", "scale", "workspace")
