@@ -24,6 +24,8 @@ from strutwork.reports.cli.choices import (
     Ratio,
     Target,
 )
+from strutwork.reports.cli.compare_command import compare
+from strutwork.reports.cli.correlate_command import correlate
 from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
 from strutwork.reports.cli.manner import speaking
 from strutwork.reports.cli.map_command import map_command
@@ -218,39 +220,8 @@ def frf(
     )
 
 
-@app.command()
-@speaking
-def compare(
-    computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
-    measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
-    window: Annotated[
-        float, typer.Option(help="Pairs differ by at most this share of the frequency.")
-    ] = 0.3,
-    least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = 0.5,
-    doublet: Annotated[
-        float, typer.Option(help="Neighbours within this share are one span.")
-    ] = 0.01,
-    unit: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="LABEL=UNIT",
-            help='Unit of an axis label that is not known, as in --unit "EU=mm/s^2". Repeatable.',
-        ),
-    ] = None,
-    json: Json = False,
-) -> None:
-    """Compare computed modes and responses with measured ones."""
-    from strutwork.reports.cli import compare as work
-
-    work.run(
-        computed,
-        measured,
-        window=window,
-        least=least,
-        doublet=doublet,
-        units=unit or (),
-        json=json,
-    )
+app.command()(speaking(compare))
+app.command()(speaking(correlate))
 
 
 @app.command()

@@ -87,7 +87,7 @@ def test_a_small_model_keeps_the_ceiling(command: str) -> None:
         ("scale", "mit-ss1"),
         ("report", "mit-ss1", "-o", "{folder}"),
         (
-            "compare",
+            "correlate",
             "tests/cases/uff/frf_computed.uff",
             "tests/cases/uff/frf_computed.uff",
         ),

@@ -1,4 +1,4 @@
-"""`strutwork compare`: computed files against a synthetic measurement."""
+"""`strutwork correlate`: computed files against a synthetic measurement."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ def files(strutwork: Program, tmp_path: Path) -> tuple[Path, Path]:
     return computed, synthetic(tmp_path / "measured.uff", modes, response)
 
 
-def test_compare(strutwork: Program, files: tuple[Path, Path]) -> None:
-    found = strutwork("compare", *files, "--json").result
+def test_correlate(strutwork: Program, files: tuple[Path, Path]) -> None:
+    found = strutwork("correlate", *files, "--json").result
     assert set(found) == {"modes", "functions", "only_computed", "only_measured", "notes"}
     assert [(p["computed"], p["measured"]) for p in found["modes"]] == [(i, i) for i in range(6)]
     assert [p["group"] for p in found["modes"]] == [2, 2, 1, 1, 2, 2]
@@ -66,7 +66,7 @@ def test_compare(strutwork: Program, files: tuple[Path, Path]) -> None:
     assert function["scaled_frac"] > 0.999
     assert function["frac"] < 0.5
     assert not function["at_limit"]
-    table = strutwork("compare", *files)
+    table = strutwork("correlate", *files)
     assert table.status == 0
     assert "Paired modes" in table.out
     assert "2 modes" in table.out
@@ -81,25 +81,25 @@ def test_compare(strutwork: Program, files: tuple[Path, Path]) -> None:
         (b"    -1\n    58\nhalf\n", "cut short"),
     ],
 )
-def test_compare_with_a_bad_file(
+def test_correlate_with_a_bad_file(
     strutwork: Program, files: tuple[Path, Path], tmp_path: Path, content: bytes, words: str
 ) -> None:
     bad = tmp_path / "bad.uff"
     bad.write_bytes(content)
     for pair in ((files[0], bad), (bad, files[1]), (files[0], tmp_path / "absent.uff")):
-        run = strutwork("compare", *pair, "--json")
+        run = strutwork("correlate", *pair, "--json")
         assert (run.status, run.out) == (1, "")
         assert run.err.startswith("Error: ")
-    assert words in strutwork("compare", bad, files[1], "--json").err
+    assert words in strutwork("correlate", bad, files[1], "--json").err
 
 
-def test_compare_options_that_make_no_sense(strutwork: Program, files: tuple[Path, Path]) -> None:
+def test_correlate_options_that_make_no_sense(strutwork: Program, files: tuple[Path, Path]) -> None:
     for option in (("--window", "0"), ("--least", "2"), ("--doublet", "nan")):
-        run = strutwork("compare", *files, *option, "--json")
+        run = strutwork("correlate", *files, *option, "--json")
         assert (run.status, run.out) == (1, "")
         assert "pairing" in run.err
 
 
-def test_compare_needs_two_files(strutwork: Program) -> None:
-    run = strutwork("compare", "x.uff")
+def test_correlate_needs_two_files(strutwork: Program) -> None:
+    run = strutwork("correlate", "x.uff")
     assert (run.status, run.out) == (2, "")

@@ -1,4 +1,4 @@
-"""`strutwork compare`: computed modes and responses against measured ones."""
+"""`strutwork correlate`: computed modes and responses against measured ones."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def run(
     files = read_universal(computed, given), read_universal(measured, given)
     with shown("responses") as started:
         found = compare_files(
-            *files, window=window, least=least, doublet=doublet, progress=started("compare")
+            *files, window=window, least=least, doublet=doublet, progress=started("correlate")
         )
     if json:
         print_json(found.to_dict())
