@@ -26,7 +26,9 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     import xarray as xr
 
+    from strutwork.fea import Damping
     from strutwork.reports.build import WrittenReport
+    from strutwork.reports.designs.comparison import DesignComparison
     from strutwork.reports.model_check import ModelCheck
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
@@ -40,6 +42,7 @@ QUESTIONS = (
     "assembly_forces",
     "at",
     "check",
+    "compare",
     "frequency_response",
     "modes",
     "plot",
@@ -173,6 +176,58 @@ class Machine(Model):
         """
         return self._subject.check
 
+    def compare(
+        self,
+        other: Machine,
+        pose: Mapping[str, float | str] | None = None,
+        *,
+        around: Mapping[str, ArrayLike] | None = None,
+        threshold: float = 5.0,
+        damping: Damping | None = None,
+    ) -> DesignComparison:
+        """This machine (A) and another (B), question by question, with the differences marked.
+
+        Parameters
+        ----------
+        other : Machine
+        pose : mapping of direction to float or str, optional
+            Where both stand, as for `at`; each at home else.
+        around : mapping of direction to (n,), optional
+            Poses over which they are looked at, m and rad from the home of each; what their
+            workspaces share else.
+        threshold : float
+            Difference from which two numbers are marked, percent.
+        damping : Damping, optional
+            Of both, in place of their own.
+
+        Returns
+        -------
+        DesignComparison
+            Its `to_dataframe()` has one line per quantity, `report(file)` writes a page. A
+            question that one machine cannot answer is a row with the reason.
+
+        Raises
+        ------
+        ModelError
+            The same machine twice.
+        UnreachableError
+            A pose that one of them cannot take.
+        """
+        from strutwork.machines.model_poses import pose_words
+        from strutwork.reports.designs.comparison import compare_designs
+
+        named = [(m.source or m.title or "machine", m) for m in (self, other)]
+        task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
+        return compare_designs(
+            named[0],
+            named[1],
+            (at_pose(self, task), at_pose(other, task)) if task else None,
+            f"at {pose_words(task, {})}" if task else "at home",
+            around=None if around is None else _grid(around),
+            threshold=threshold,
+            damping=damping,
+        )
+
     def solve(self) -> ModelSolution:
         """Displacements and forces under every load case.
 
@@ -280,11 +335,7 @@ class Machine(Model):
         from strutwork.studies.answers import Stiffness
         from strutwork.studies.survey import survey
 
-        grid = (
-            self._subject.grid
-            if over is None
-            else TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})
-        )
+        grid = self._subject.grid if over is None else _grid(over)
         return survey(self, grid, answers or [Stiffness()], **options)
 
     def report(self, folder: Path | str | None = None) -> WrittenReport:
@@ -341,3 +392,7 @@ def _coordinate(direction: str, value: float | str) -> float:
     if not isinstance(value, str):
         return float(value)
     return quantity(value, ANGLE if direction.startswith("r") else LENGTH, direction)
+
+
+def _grid(over: Mapping[str, ArrayLike]) -> TaskGrid:
+    return TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})
