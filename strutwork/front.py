@@ -185,7 +185,7 @@ class Machine(Model):
         threshold: float = 5.0,
         damping: Damping | None = None,
     ) -> DesignComparison:
-        """This machine (A) and another (B), question by question, with the differences marked.
+        """Both machines, this one as A, question by question, with the differences marked.
 
         Parameters
         ----------

@@ -15,9 +15,9 @@ from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import Where
-from strutwork.reports.designs.comparison import DesignComparison, compare_designs
+from strutwork.reports.designs.comparison import DesignComparison, compare_designs, unanswered
 from strutwork.reports.designs.quantities import QUESTIONS
-from strutwork.reports.designs.row import Row, Verdict
+from strutwork.reports.designs.row import Verdict
 from strutwork.reports.grid_words import grid_of_words
 
 #: Colours never say more than the words that they are of.
@@ -79,15 +79,14 @@ def _print(found: DesignComparison) -> None:
     out = console()
     for mark, design in (("A", found.a), ("B", found.b)):
         out.print(f"{mark}: {visible(design.name)}, {design.title}", soft_wrap=True)
-    reasons: dict[str, list[str]] = {}
     for question in QUESTIONS:
         rows = found.of(question.key)
         if not MANNER.whole:
-            rows = _short(rows, reasons)
-        if not rows:
-            continue
+            rows = tuple(row for row in rows if row.compared and not row.equal)
+            if question.key == "counts" or not rows:
+                continue
         places = MANNER.whole and any(v.at or v.why for row in rows for v in (row.a, row.b))
-        heads = ["quantity", "unit", "A", "B", "B − A", "verdict"]  # noqa: RUF001
+        heads = ["quantity", "unit", "A", "B", "B − A", "verdict"]
         heads += ["A: where, or why not", "B: where, or why not"] if places else []
         lines = [
             (
@@ -104,8 +103,8 @@ def _print(found: DesignComparison) -> None:
         out.print(table(found.title_of(question), heads, lines, names=2))
         if any(row.quantity.better for row in rows):
             out.print(question.criterion, style="dim", soft_wrap=True)
-    for why, words in reasons.items():
-        out.print(f"Not answered, {', '.join(words)}: {why}", soft_wrap=True)
+    for line in unanswered(found):
+        out.print(line, soft_wrap=True)
     for note in found.notes:
         out.print(note, soft_wrap=True)
     out.print(
@@ -114,17 +113,4 @@ def _print(found: DesignComparison) -> None:
         soft_wrap=True,
     )
     if not MANNER.whole:
-        out.print("--verbose shows every row, with the pose or the part of each.")
-
-
-def _short(rows: tuple[Row, ...], reasons: dict[str, list[str]]) -> tuple[Row, ...]:
-    """Rows with an answer of either; the reasons of the others are collected."""
-    for mark in ("A", "B"):
-        for row in rows:
-            value = row.a if mark == "A" else row.b
-            if value.why:
-                named = reasons.setdefault(f"{value.why}", [])
-                words = f"{mark} {row.quantity.question}"
-                if words not in named:
-                    named.append(words)
-    return tuple(row for row in rows if row.a.known or row.b.known)
+        out.print("--verbose shows every row, also equal ones, with the pose or the part of each.")

@@ -69,9 +69,7 @@ def compare(
             "Note: computed and measured universal files are compared by `strutwork correlate`; "
             "`strutwork compare` is for two machines."
         )
-        earlier.run(
-            a, b, window=window, least=least, doublet=doublet, units=unit or (), json=json
-        )
+        earlier.run(a, b, window=window, least=least, doublet=doublet, units=unit or (), json=json)
         return
     if files:
         raise ModelError(

@@ -156,7 +156,7 @@ class DesignComparison:
             )
             for row in self.rows
         ]
-        heads = ("", f"A: {self.a.name}", f"B: {self.b.name}", "", "B − A", "")  # noqa: RUF001
+        heads = ("", f"A: {self.a.name}", f"B: {self.b.name}", "", "B − A", "")
         return table(f"A and B {self.where}: {self.summary}", lines, heads)
 
 
@@ -205,8 +205,7 @@ def compare_designs(
     _require_two(a, b)
     there = (a[1], b[1]) if standing is None else standing
     first, second = (
-        Design(name, model, at, damping)
-        for (name, model), at in zip((a, b), there, strict=True)
+        Design(name, model, at, damping) for (name, model), at in zip((a, b), there, strict=True)
     )
     space = space_of(first.model, second.model, around)
     bands = [band for d in (first, second) if (band := d.band()) is not None]
@@ -256,6 +255,32 @@ def tally(rows: tuple[Row, ...]) -> str:
     return listed([f"{text} {n}" for n, text in words if n])
 
 
+def unanswered(found: DesignComparison) -> list[str]:
+    """What either machine does not answer and why, a sentence for each reason.
+
+    Parameters
+    ----------
+    found : DesignComparison
+    """
+    reasons: dict[tuple[str, str], list[Row]] = {}
+    for mark in ("A", "B"):
+        for row in found.rows:
+            why = (row.a if mark == "A" else row.b).why
+            if why:
+                reasons.setdefault((mark, why), []).append(row)
+    lines = []
+    for (mark, why), rows in reasons.items():
+        words = []
+        for question in QUESTIONS:
+            some = [row for row in rows if row.quantity.question == question.key]
+            everything = len(some) > 1 and len(some) == len(found.of(question.key))
+            title = found.title_of(question)
+            names = [row.quantity.name for row in some]
+            words += [title[0].lower() + title[1:]] if everything else names
+        lines.append(f"Not answered by {mark} ({listed(words)}): {why}")
+    return lines
+
+
 def flat(row: Row) -> dict[str, Any]:
     """A row as one line of a table, SI.
 
@@ -269,8 +294,8 @@ def flat(row: Row) -> dict[str, Any]:
         "question": q.question,
         "quantity": q.name,
         "unit": q.unit,
-        "a": row.a.words if row.a.words else row.a.number,
-        "b": row.b.words if row.b.words else row.b.number,
+        "a": row.a.words or row.a.number,
+        "b": row.b.words or row.b.number,
         "difference_percent": row.difference,
         "verdict": row.verdict,
         "better": {"more": "the larger", "less": "the smaller"}.get(q.better, ""),

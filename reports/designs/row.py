@@ -90,13 +90,9 @@ class Value:
         """
         if self.number is None:
             return self.words or "–"
-        return significant(SHOWN.get(unit, (1.0, unit))[0] * self.number, _digits(self, digits))
-
-
-def _digits(value: Value, digits: int) -> int:
-    """Whole numbers keep all of their digits."""
-    number = value.number or 0.0
-    return max(digits, len(f"{abs(number):.0f}")) if number == round(number, 0) < 1e9 else digits
+        if unit == "1" and isfinite(self.number):
+            return f"{self.number:.0f}"
+        return significant(SHOWN.get(unit, (1.0, unit))[0] * self.number, digits)
 
 
 @dataclass(frozen=True)

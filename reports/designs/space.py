@@ -74,7 +74,9 @@ def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
         if own is None:
             assert other is not None  # noqa: S101 - both absent was before
             which = "B" if own is spaces[0] else "A"
-            return _shared(a, b, other, f"the workspace that {which} states, since the other has none")
+            return _shared(
+                a, b, other, f"the workspace that {which} states, since the other has none"
+            )
     first, second = spaces
     assert first is not None and second is not None  # noqa: S101, PT018
     shared = _overlap(first, second)
