@@ -22,7 +22,7 @@ from strutwork.reports.grid_words import grid_of_words
 
 #: Colours never say more than the words that they are of.
 STYLES: dict[Verdict, str] = {
-    "A better": "bold magenta",
+    "A better": "bold red",
     "B better": "bold green",
     "differs": "bold",
     "not compared": "dim",
@@ -82,7 +82,9 @@ def _print(found: DesignComparison) -> None:
     for question in QUESTIONS:
         rows = found.of(question.key)
         if not MANNER.whole:
-            rows = tuple(row for row in rows if row.compared and not row.equal)
+            rows = tuple(
+                row for row in rows if (row.a.known or row.b.known) and row.verdict != "equal"
+            )
             if question.key == "counts" or not rows:
                 continue
         places = MANNER.whole and any(v.at or v.why for row in rows for v in (row.a, row.b))

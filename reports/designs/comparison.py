@@ -262,23 +262,30 @@ def unanswered(found: DesignComparison) -> list[str]:
     ----------
     found : DesignComparison
     """
-    reasons: dict[tuple[str, str], list[Row]] = {}
+    reasons: dict[tuple[str, tuple[str, ...]], str] = {}
     for mark in ("A", "B"):
+        by_reason: dict[str, list[Row]] = {}
         for row in found.rows:
             why = (row.a if mark == "A" else row.b).why
             if why:
-                reasons.setdefault((mark, why), []).append(row)
-    lines = []
-    for (mark, why), rows in reasons.items():
-        words = []
-        for question in QUESTIONS:
-            some = [row for row in rows if row.quantity.question == question.key]
-            everything = len(some) > 1 and len(some) == len(found.of(question.key))
-            title = found.title_of(question)
-            names = [row.quantity.name for row in some]
-            words += [title[0].lower() + title[1:]] if everything else names
-        lines.append(f"Not answered by {mark} ({listed(words)}): {why}")
-    return lines
+                by_reason.setdefault(why, []).append(row)
+        for why, rows in by_reason.items():
+            key = why, _asked(found, rows)
+            reasons[key] = f"{reasons[key]} and {mark}" if key in reasons else mark
+    return [
+        f"Not answered by {who} ({listed(words)}): {why}" for (why, words), who in reasons.items()
+    ]
+
+
+def _asked(found: DesignComparison, rows: list[Row]) -> tuple[str, ...]:
+    """What some rows ask: the title of a question of which all are among them, else each."""
+    words: list[str] = []
+    for question in QUESTIONS:
+        some = [row.quantity.name for row in rows if row.quantity.question == question.key]
+        title = found.title_of(question)
+        complete = len(some) > 1 and len(some) == len(found.of(question.key))
+        words += [title[0].lower() + title[1:]] if complete else some
+    return tuple(words)
 
 
 def flat(row: Row) -> dict[str, Any]:

@@ -16,7 +16,7 @@ from strutwork.fea.least_stiffness import least_dynamic_stiffness
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.extent import model_size
 from strutwork.machines.model import Model
-from strutwork.machines.naming import MARK, is_machine, named_machine, require_mass
+from strutwork.machines.naming import is_machine, named_machine, require_mass
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, tool_compliance
 from strutwork.names import listed, visible
 from strutwork.reports.covering_band import covering_band
@@ -183,7 +183,7 @@ class Design:
         return Value(words=listed(names) or "none")
 
     def _forces(self) -> Answers:
-        study = self._tolerances()
+        study = self._tolerances
         found: Answers = {}
         for key, unit in (("locked_force", "N"), ("locked_moment", "N*m")):
             of_unit = [
@@ -207,19 +207,20 @@ class Design:
         )
         return found
 
+    @cached_property
     def _tolerances(self) -> ToleranceStudy:
         """Worst case where it stands."""
         options = StudyOptions(samples=0)
         model = self.standing
         if model.tolerances or not is_machine(self.name):
             return tolerance_study(model.placed, model.tolerances, model.force_limits, options)
-        if self.moved or MARK in self.name:
+        known = toleranced_machine(named_machine(self.name).entry.name)
+        if self.moved:
             raise ModelError(
                 "tolerances",
-                "are stated by its document at home alone.",
-                "Compare at home, or write a model file.",
+                "of a machine of the literature are compared at home alone.",
+                "Leave the pose out, or write a model file.",
             )
-        known = toleranced_machine(self.name)
         return tolerance_study(
             known.placed[:1], known.tolerances, known.limits, options, quantities=known.quantities
         )

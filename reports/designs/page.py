@@ -122,12 +122,13 @@ def _cover(found: DesignComparison) -> Chapter:
     pictures, pictures_file = drawings(found)
     notes = (*found.notes, *unanswered(found))
     blocks = (
-        Text(f"{found.summary}.".capitalize()),
+        Text(_sentence(found.summary)),
         Answers(_sentences(found)),
         Beside(pictures, 340),
         *((bars,) if bars is not None else ()),
         Note(
-            f"Differences are (B − A) / A; above {found.threshold:g} % they are marked. Better "
+            f"Differences are (B − A) / A; above {found.threshold:g} % they are marked, "
+            "in green where B is better and in red where A is. Better "
             "means by the criterion that each chapter states, and by that alone: machines of "
             "other sizes and tasks differ for good reasons."
         ),
@@ -148,9 +149,9 @@ def _sentences(found: DesignComparison) -> tuple[Answer, ...]:
         a, b = (v.shown(row.quantity.unit, 3) for v in (row.a, row.b))
         said.append(
             Answer(
-                f"{row.verdict}: ",
+                f"{row.verdict[0]} is better in the {name}: ",
                 row.shown_difference,
-                f" in the {name}, {a}{unit} in A and {b}{unit} in B.",
+                f" from A to B, {a}{unit} and {b}{unit}.",
                 row.quantity.question,
                 row.verdict == "A better",
             )
@@ -175,7 +176,7 @@ def _chapter(found: DesignComparison, question: Question) -> Chapter:
         question.key,
         found.asks(question),
         (Text(question.criterion), table),
-        answer=f"{tally(rows)}.".capitalize(),
+        answer=_sentence(tally(rows)),
     )
 
 
@@ -221,6 +222,10 @@ def _csv(found: DesignComparison) -> DataFile:
     lines = [flat(row) for row in found.rows]
     rows = [[_cell(v) for v in line.values()] for line in lines]
     return csv_file(CSV, "every quantity of both machines, SI", list(lines[0]), rows)
+
+
+def _sentence(words: str) -> str:
+    return f"{words[:1].upper()}{words[1:]}."
 
 
 def _cell(value: object) -> object:

@@ -14,8 +14,8 @@ from strutwork.reports.figures.theme import INK, axis, layout
 from strutwork.reports.numbers import significant
 from strutwork.reports.page import plain
 
-#: Colours of what is better in A, in B, and of what is neither; each bar says so in words too.
-COLOURS = {"A better": "#d55e00", "B better": "#0072b2"}
+#: As in the tables of the page: B is worse, B is better; each bar says so in words too.
+COLOURS = {"A better": "#a02c2c", "B better": "#1a6b4a"}
 NEITHER = "#9aa3ad"
 
 #: Questions whose quantities are drawn.
@@ -79,7 +79,7 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
     drawn = [(row, ratio) for row in found.rows if (ratio := _ratio(row)) is not None]
     if not drawn:
         return None, None
-    names = [f"{row.quantity.name}, {_SHORT[row.quantity.question]}" for row, _ in drawn]
+    names = [_label(found, row) for row, _ in drawn]
     clipped = [min(max(ratio, 1.0 / EDGE), EDGE) for _, ratio in drawn]
     verdicts = [row.verdict for row, _ in drawn]
     trace: dict[str, Any] = {
@@ -138,15 +138,10 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
     )
 
 
-#: Where a quantity is asked, in a word or two.
-_SHORT = {
-    "home": "where they stand",
-    "worst": "at worst",
-    "vibration": "vibration",
-    "mass": "all of it",
-    "forces": "locked in",
-    "reach": "workspace",
-}
+def _label(found: DesignComparison, row: Row) -> str:
+    """The quantity with where it is asked, short enough for one line."""
+    lead = {"home": f"{found.where}: ", "worst": "at worst: "}.get(row.quantity.question, "")
+    return lead + row.quantity.name.partition(", of those")[0]
 
 
 def _ratio(row: Row) -> float | None:
