@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -80,6 +81,13 @@ class DesignComparison:
     def summary(self) -> str:
         """How often either is better, in words."""
         return tally(self.rows)
+
+    @property
+    def named(self) -> bool:
+        """Whether the names alone ask for it again."""
+        asked = all(_named(design.name) for design in (self.a, self.b))
+        own = not (self.a.moved or self.b.moved or self.a.damping or self.b.damping)
+        return asked and own and self.threshold == MARKED and not self.space.asked
 
     def of(self, question: str) -> tuple[Row, ...]:
         """The rows of a question by its key.
@@ -200,7 +208,7 @@ def compare_designs(
     ModelError
         The same machine twice, or a threshold below zero.
     """
-    if not threshold >= 0.0:
+    if not (isfinite(threshold) and threshold >= 0.0):
         raise ModelError("threshold", f"is {threshold:g} %.", "Give a number of 0 or more.")
     _require_two(a, b)
     there = (a[1], b[1]) if standing is None else standing

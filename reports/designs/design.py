@@ -225,6 +225,14 @@ class Design:
             known.placed[:1], known.tolerances, known.limits, options, quantities=known.quantities
         )
 
+    @property
+    def _tolerance_count(self) -> int:
+        """Those of its document among them."""
+        try:
+            return len(self._tolerances.tolerances)
+        except StrutworkError:
+            return len(self.standing.tolerances)
+
     def _counts(self) -> Answers:
         model = self.standing
         structure, linkage = model.structure, model.structure.linkage
@@ -235,7 +243,7 @@ class Design:
             "beams": len(structure.beams),
             "springs": len(structure.springs),
             "solids": len(model.solids),
-            "tolerances": len(model.tolerances),
+            "tolerances": self._tolerance_count,
             "degrees_of_freedom": self.check.degrees_of_freedom,
         }
         return {key: Value(float(n)) for key, n in numbers.items()}

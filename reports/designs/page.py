@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -109,11 +110,12 @@ def comparison_page(found: DesignComparison) -> Page:
     found : DesignComparison
     """
     chapters = [_cover(found), *(_chapter(found, q) for q in QUESTIONS)]
-    command = f"{found.a.name} beside {found.b.name}"
+    names = [visible(design.name) for design in (found.a, found.b)]
+    again = f"strutwork compare {shlex.join(names)} --html FILE" if found.named else ""
     settings = {"marked from": f"{found.threshold:g} %", "machines stand": found.where}
-    closing = closing_chapter(visible(command), settings, found.to_dict(), chapters)
+    closing = closing_chapter(" beside ".join(names), settings, found.to_dict(), chapters, again)
     title = f"{found.a.title} beside {found.b.title}"
-    subtitle = f"A is {visible(found.a.name)}, B is {visible(found.b.name)}; {found.where}"
+    subtitle = f"A is {names[0]}, B is {names[1]}; {found.where}"
     return page_of(title, subtitle, (*chapters, closing))
 
 

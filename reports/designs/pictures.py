@@ -17,6 +17,7 @@ from strutwork.reports.page import plain
 #: As in the tables of the page: B is worse, B is better; each bar says so in words too.
 COLOURS = {"A better": "#a02c2c", "B better": "#1a6b4a"}
 NEITHER = "#9aa3ad"
+_MARKS = {"A better": " A", "B better": " B"}
 
 #: Questions whose quantities are drawn.
 DRAWN = ("home", "worst", "vibration", "mass", "forces", "reach")
@@ -79,7 +80,7 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
     drawn = [(row, ratio) for row in found.rows if (ratio := _ratio(row)) is not None]
     if not drawn:
         return None, None
-    names = [_label(found, row) for row, _ in drawn]
+    names = [_label(row) for row, _ in drawn]
     clipped = [min(max(ratio, 1.0 / EDGE), EDGE) for _, ratio in drawn]
     verdicts = [row.verdict for row, _ in drawn]
     trace: dict[str, Any] = {
@@ -93,20 +94,28 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
             "color": [COLOURS.get(v, NEITHER) for v in verdicts],
             "line": {"color": INK, "width": 0.5},
         },
-        "text": [f"{significant(r)}, {v}" for (_, r), v in zip(drawn, verdicts, strict=True)],
+        "text": [
+            f"{significant(r, 2)}{_MARKS.get(v, '')}"
+            for (_, r), v in zip(drawn, verdicts, strict=True)
+        ],
         "textposition": "outside",
         "textfont": {"size": 11},
         "cliponaxis": False,
-        "hovertemplate": "%{y}: %{text}<extra></extra>",
+        "customdata": [
+            plain(f"{row.quantity.name}: {significant(r, 4)}, {row.verdict}") for row, r in drawn
+        ],
+        "hovertemplate": "%{customdata}<extra></extra>",
         "showlegend": False,
     }
-    low, high = min(*clipped, 0.5), max(*clipped, 2.0)
-    ticks = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100]
+    low, high = min(*clipped, 0.8), max(*clipped, 1.5)
+    ticks = [0.01, 0.1, 1, 10, 100] if high / low > 30.0 else [0.1, 0.2, 0.5, 1, 2, 5, 10]
     return (
         Figure(
             "difference-bars",
             "B over A, on a logarithmic scale: to the right of 1 the number of B is the larger. "
-            f"Ratios beyond {EDGE:g} or below its inverse stand at the edge.",
+            "Behind each ratio stands which of the two is better, where it is marked; stiffness "
+            f"without another word is that {found.where}. Ratios beyond {EDGE:g} or below its "
+            "inverse stand at the edge.",
             {
                 "data": [trace],
                 "layout": layout(
@@ -117,6 +126,7 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
                         range=_range(low, high),
                         tickvals=ticks,
                         ticktext=[f"{t:g}" for t in ticks],
+                        tickangle=0,
                     ),
                     yaxis=axis("", autorange="reversed", ticks=""),
                     margin={"l": 60, "r": 16, "t": 34, "b": 52},
@@ -138,10 +148,27 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
     )
 
 
-def _label(found: DesignComparison, row: Row) -> str:
-    """The quantity with where it is asked, short enough for one line."""
-    lead = {"home": f"{found.where}: ", "worst": "at worst: "}.get(row.quantity.question, "")
-    return lead + row.quantity.name.partition(", of those")[0]
+#: Names that leave a narrow window room for the bars.
+_SHORT = {
+    "mass": "mass",
+    "locked_force": "locked force",
+    "locked_moment": "locked moment",
+    "limit_used": "limit used",
+    "tool_deviation": "tool deviation",
+    "poses_taken": "poses taken",
+}
+
+
+def _label(row: Row) -> str:
+    """The quantity in two or three words, as in "worst rx, free"."""
+    question, key = row.quantity.question, row.quantity.key
+    meaning, _, direction = key.rpartition("_")
+    if question in {"home", "worst"}:
+        lead = "worst " if question == "worst" else ""
+        return f"{lead}{direction}, {meaning.rpartition('_')[2]}"
+    if question == "vibration":
+        return f"{'frequency' if 'frequency' in key else 'dynamic'} {direction}"
+    return _SHORT.get(key, row.quantity.name)
 
 
 def _ratio(row: Row) -> float | None:
@@ -156,5 +183,5 @@ def _ratio(row: Row) -> float | None:
 
 def _range(low: float, high: float) -> list[float]:
     """Powers of ten with room for the words beside the bars."""
-    room = 0.35 * (log10(high) - log10(low))
-    return [log10(low) - (room if low < 1.0 / 1.5 else 0.05), log10(high) + room]
+    room = 0.3 * (log10(high) - log10(low))
+    return [log10(low) - (room if low < 1.0 else 0.05), log10(high) + room]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -36,6 +36,8 @@ class Space:
         Which they are and why, a sentence.
     why_a, why_b : str
         Why one has no poses.
+    asked : bool
+        Whether they were asked for, and are not those that the machines state.
     """
 
     a: TaskGrid | None
@@ -44,6 +46,7 @@ class Space:
     words: str
     why_a: str = ""
     why_b: str = ""
+    asked: bool = False
 
 
 def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
@@ -66,7 +69,7 @@ def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
     if any(missing):
         return Space(None, None, False, "There is no tool to place.", *missing)
     if around is not None:
-        return _shared(a, b, around, "as asked")
+        return replace(_shared(a, b, around, "those that were asked for"), asked=True)
     spaces = [_from_home(m) for m in (a, b)]
     if spaces[0] is None and spaces[1] is None:
         return _cubes(a, b)
