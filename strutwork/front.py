@@ -214,14 +214,14 @@ class Machine(Model):
             A pose that one of them cannot take.
         """
         from strutwork.machines.model_poses import pose_words
-        from strutwork.reports.designs.comparison import compare_designs
+        from strutwork.reports.designs.comparison import compare_designs, standing_at
 
-        named = [(m.source or m.title or "machine", m) for m in (self, other)]
+        first, second = ((m.source or m.title or "machine", m) for m in (self, other))
         task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
         return compare_designs(
-            named[0],
-            named[1],
-            (at_pose(self, task), at_pose(other, task)) if task else None,
+            first,
+            second,
+            (standing_at(first, task, {}), standing_at(second, task, {})) if task else None,
             f"at {pose_words(task, {})}" if task else "at home",
             around=None if around is None else _grid(around),
             threshold=threshold,

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, UnreachableError
 from strutwork.fea import Damping
 from strutwork.html import table
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
+from strutwork.machines.model_poses import Coordinate, at_pose
 from strutwork.machines.naming import is_machine, named_machine
-from strutwork.names import listed
+from strutwork.names import listed, visible
 from strutwork.reports.answer_store import model_key
 from strutwork.reports.designs.design import Design
 from strutwork.reports.designs.over_poses import over_poses
@@ -245,6 +247,32 @@ def compare_designs(
     )
 
 
+def standing_at(
+    named: tuple[str, Model], task: Mapping[str, float], joints: Mapping[Coordinate, float]
+) -> Model:
+    """A machine elsewhere; where it cannot stand there, the message names it.
+
+    Parameters
+    ----------
+    named : (str, Model)
+    task : mapping of direction to float
+        Of the tool, m and rad.
+    joints : mapping of (joint, direction) to float
+        Joint coordinates, m and rad.
+
+    Raises
+    ------
+    ModelError, UnreachableError
+        As `strutwork.machines.model_poses.at_pose`.
+    """
+    name, model = named
+    try:
+        return at_pose(model, task, joints)
+    except (ModelError, UnreachableError) as error:
+        part = f"{visible(name)}, {error.part}" if error.part else visible(name)
+        raise type(error)(part, error.problem, error.remedy) from error
+
+
 def tally(rows: tuple[Row, ...]) -> str:
     """How often either is better, in words: "A better in 3, B better in 5, alike in 4".
 
@@ -338,8 +366,8 @@ def _require_two(a: tuple[str, Model], b: tuple[str, Model]) -> None:
             same = False
     if same:
         raise ModelError(
-            f"{first} and {second}",
-            "are the same machine: there is nothing to compare.",
+            "compare",
+            f'finds one machine: "{visible(first)}" and "{visible(second)}" are the same.',
             "Name another machine or variant, or a changed copy of the model file.",
         )
 
