@@ -16,17 +16,18 @@ def correlate(
     computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
     measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
     window: Annotated[
-        float, typer.Option(help="Pairs differ by at most this share of the frequency.")
+        float, typer.Option(help="Largest difference of a pair, as a share of the frequency.")
     ] = WINDOW,
     least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = LEAST,
     doublet: Annotated[
-        float, typer.Option(help="Neighbours within this share are one span.")
+        float,
+        typer.Option(help="Neighbouring modes within this share of the frequency are one span."),
     ] = DOUBLET,
     unit: Annotated[
         list[str] | None,
         typer.Option(
             metavar="LABEL=UNIT",
-            help='Unit of an axis label that is not known, as in --unit "EU=mm/s^2". Repeatable.',
+            help='Unit of an unknown axis label, as in --unit "EU=mm/s^2". Repeatable.',
         ),
     ] = None,
     json: Json = False,
