@@ -37,8 +37,8 @@ def compare(
         typer.Option(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
-            help="Poses about the home of each machine, as in --around x=-20mm..20mm:5; those that "
-            "the workspaces of both share by default.",
+            help="Poses relative to the home of each machine, as in --around x=-20mm..20mm:5; by default "
+            "those that both workspaces contain.",
         ),
     ] = None,
     threshold: Annotated[
@@ -58,7 +58,7 @@ def compare(
 ) -> None:
     """Compare two machines, question by question, with the differences marked.
 
-    Universal files (UFF) are compared by `strutwork correlate`, which was called so before.
+    Universal files (UFF) are compared by `strutwork correlate`.
     """
     files = [name for name in (a, b) if is_universal(name)]
     if len(files) == 2:
@@ -74,7 +74,7 @@ def compare(
     if files:
         raise ModelError(
             files[0],
-            "is a universal file (UFF) and no machine.",
+            "is a universal file (UFF), not a machine.",
             "Write the computed modes as one too (strutwork modes -o DIR), and compare the two "
             "with `strutwork correlate COMPUTED MEASURED`.",
         )

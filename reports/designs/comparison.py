@@ -232,15 +232,15 @@ def compare_designs(
     if band is not None:
         low, high = (significant(f) for f in band)
         notes.append(
-            f"The least dynamic stiffness is that from {low} to {high} Hz, which covers the "
-            "modes that move either tool."
+            f"The least dynamic stiffness is the minimum from {low} to {high} Hz, a band that "
+            "contains the modes that matter at either tool."
         )
     freedoms = next(row for row in rows if row.quantity.key == "tool_freedoms")
     if freedoms.marked:
         notes.append(
-            f"Their tools do not move in the same directions: {freedoms.a.words} in A, "
-            f"{freedoms.b.words} in B. In a direction in which a tool cannot be driven, its "
-            "stiffness is that of the structure alone."
+            f"The tools do not have the same degrees of freedom: {freedoms.a.words} in A; "
+            f"{freedoms.b.words} in B. In a direction without a drive the stiffness is that of the "
+            "structure alone."
         )
     return DesignComparison(
         first, second, where, space, band, threshold, rows, tuple(n for n in notes if n)
@@ -309,7 +309,7 @@ def unanswered(found: DesignComparison) -> list[str]:
             key = why, _asked(found, rows)
             reasons[key] = f"{reasons[key]} and {mark}" if key in reasons else mark
     return [
-        f"Not answered by {who} ({listed(words)}): {why}" for (why, words), who in reasons.items()
+        f"No result for {who} ({listed(words)}): {why}" for (why, words), who in reasons.items()
     ]
 
 

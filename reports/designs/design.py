@@ -147,7 +147,7 @@ class Design:
         damping = self.target.require_damping()
         port = Port(self.standing.require_tool(), axis)
         if band is None:
-            return Value(why="no mode moves its tool, so that there is no band to look at")
+            return Value(why="no mode moves its tool, so there is no frequency band")
         least = least_dynamic_stiffness(self.target.placed, port, port, damping, band)
         if least.uncoupled:
             return Value(float("inf"))
@@ -159,7 +159,7 @@ class Design:
         if self.check.mass is None:
             return {"mass": Value(why="a material has no density")}
         if not self.check.mass.total:
-            return {"mass": Value(why="nothing in it has a mass: give densities or masses")}
+            return {"mass": Value(why="no part has a mass: give densities or masses")}
         return {"mass": Value(self.check.mass.total)}
 
     def _mobility(self) -> Answers:
@@ -218,7 +218,7 @@ class Design:
         if self.moved:
             raise ModelError(
                 "tolerances",
-                "of a machine of the literature are compared at home alone.",
+                "of a machine from the literature are known at home only.",
                 "Leave the pose out, or write a model file.",
             )
         return tolerance_study(

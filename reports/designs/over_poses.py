@@ -66,7 +66,7 @@ def over_poses(a: Design, b: Design, space: Space, progress: Teller | None = Non
         common = taken[0] & taken[1]
         words = (
             f"The least stiffness is that over the {int(common.sum())} of {common.size} poses that "
-            "both take."
+            "both reach."
         )
     first, second = (_answers(one, common) for one in asked)
     return OverPoses(first, second, words)
@@ -77,7 +77,7 @@ def _survey(
 ) -> xr.Dataset | str:
     """A survey, or why there is none."""
     if grid is None:
-        return why or "it has no poses to be looked at"
+        return why or "it has no poses"
     told = None if progress is None else progress(f"stiffness of {visible(design.name)}")
     try:
         return survey(design.model, grid, [Stiffness()], progress=told)
@@ -105,7 +105,7 @@ def _least(found: xr.Dataset, values: Array, common: Array | None) -> Value:
     if common is not None:
         values = np.where(common, values, np.nan)
     if np.isnan(values).all():
-        return Value(why="no pose is taken by both")
+        return Value(why="no pose is reached by both")
     finite = np.where(np.isfinite(values), values, np.nan)
     if np.isnan(finite).all():
         return Value(float("inf"))

@@ -70,10 +70,10 @@ _SAID = {
     "worst_stiffness_free_y": "stiffness along y at the worst pose",
     "worst_stiffness_free_z": "stiffness along z at the worst pose",
     "frequency_1": "first natural frequency",
-    "locked_force": "largest force that tolerances lock in",
-    "limit_used": "largest share of a limit that locked-in forces use",
+    "locked_force": "largest assembly force",
+    "limit_used": "largest share of a limit that assembly forces use",
     "tool_deviation": "largest deviation of the tool by tolerances",
-    "poses_taken": "share of the poses that are taken",
+    "poses_taken": "share of the poses that are reached",
     "redundant_constraints": "number of redundant constraints",
 }
 
@@ -131,8 +131,8 @@ def _cover(found: DesignComparison) -> Chapter:
         Note(
             f"Differences are (B − A) / A; above {found.threshold:g} % they are marked, "
             "in green where B is better and in red where A is. Better "
-            "means by the criterion that each chapter states, and by that alone: machines of "
-            "other sizes and tasks differ for good reasons."
+            "means by the criterion that each chapter states, and only by that: machines of "
+            "different sizes and tasks differ for good reasons."
         ),
         Points(notes),
     )

@@ -113,9 +113,9 @@ def difference_bars(found: DesignComparison) -> tuple[Figure | None, DataFile | 
         Figure(
             "difference-bars",
             "B over A, on a logarithmic scale: to the right of 1 the number of B is the larger. "
-            "Behind each ratio stands which of the two is better, where it is marked; stiffness "
-            f"without another word is that {found.where}. Ratios beyond {EDGE:g} or below its "
-            "inverse stand at the edge.",
+            "The letter after a ratio is the better machine, where the difference is marked; "
+            f'stiffness without "worst" is that {found.where}. Ratios beyond {EDGE:g} or below '
+            "its inverse are drawn at the edge.",
             {
                 "data": [trace],
                 "layout": layout(
@@ -155,7 +155,7 @@ _SHORT = {
     "locked_moment": "locked moment",
     "limit_used": "limit used",
     "tool_deviation": "tool deviation",
-    "poses_taken": "poses taken",
+    "poses_taken": "poses reached",
 }
 
 

@@ -57,28 +57,27 @@ QUESTIONS: tuple[Question, ...] = (
     Question(
         "mobility",
         "Mobility and redundancy {where}",
-        "How do they move, and what is held twice?",
-        "Fewer freedoms left with the drives held, fewer redundant constraints and fewer surplus "
-        "drives are better: what is held twice locks forces in. Of freedoms neither number is "
-        "better.",
+        "How do they move, and what is redundant?",
+        "Less mobility with the drives held, fewer redundant constraints and fewer surplus drives "
+        "are better, because redundancy locks forces in. Of the other numbers neither is better.",
     ),
     Question(
         "forces",
-        "Largest forces that tolerances lock in {where}",
-        "What do their tolerances lock in?",
+        "Largest assembly forces {where}",
+        "Which forces do their tolerances lock in?",
         "The smaller force, deviation and share of a limit are better.",
     ),
     Question(
         "reach",
         "Workspace",
-        "How far do they get?",
-        "The machine that takes more of its poses is better.",
+        "How much of the workspace do they reach?",
+        "The machine that reaches more of its poses is better.",
     ),
     Question(
         "counts",
         "What they are made of",
         "What are they made of?",
-        "No number of parts is better than another.",
+        "None of these numbers is better than another.",
     ),
 )
 
@@ -118,9 +117,9 @@ QUANTITIES: tuple[Quantity, ...] = (
         for d in AXES
     ),
     Quantity("mass", "mass", "mass", "kg", "less"),
-    Quantity("mobility", "mobility", "freedoms, drives free", "1"),
-    Quantity("tool_freedoms", "mobility", "freedoms of the tool", ""),
-    Quantity("mobility_locked", "mobility", "freedoms left, drives held", "1", "less"),
+    Quantity("mobility", "mobility", "mobility, drives free", "1"),
+    Quantity("tool_freedoms", "mobility", "degrees of freedom of the tool", ""),
+    Quantity("mobility_locked", "mobility", "mobility, drives held", "1", "less"),
     Quantity("drives", "mobility", "drives", "1"),
     Quantity("surplus_drives", "mobility", "surplus drives", "1", "less"),
     Quantity("redundant_constraints", "mobility", "redundant constraints", "1", "less"),
@@ -128,8 +127,8 @@ QUANTITIES: tuple[Quantity, ...] = (
     Quantity("locked_moment", "forces", "moment in a joint", "N*m", "less"),
     Quantity("limit_used", "forces", "share of a limit", "%", "less"),
     Quantity("tool_deviation", "forces", "deviation of the tool", "m", "less"),
-    Quantity("poses_taken", "reach", "poses taken, of those looked at", "%", "more"),
-    Quantity("poses", "reach", "poses looked at", "1"),
+    Quantity("poses_taken", "reach", "poses reached, of those asked for", "%", "more"),
+    Quantity("poses", "reach", "poses asked for", "1"),
     Quantity("bodies", "counts", "bodies", "1"),
     Quantity("joints", "counts", "joints", "1"),
     Quantity("nodes", "counts", "nodes", "1"),

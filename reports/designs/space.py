@@ -67,9 +67,9 @@ def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
     """
     missing = ["" if m.tool is not None else "it has no tool: add [tool] with tcp" for m in (a, b)]
     if any(missing):
-        return Space(None, None, False, "There is no tool to place.", *missing)
+        return Space(None, None, False, "A machine without a tool has no poses.", *missing)
     if around is not None:
-        return replace(_shared(a, b, around, "those that were asked for"), asked=True)
+        return replace(_shared(a, b, around, "those asked for"), asked=True)
     spaces = [_from_home(m) for m in (a, b)]
     if spaces[0] is None and spaces[1] is None:
         return _cubes(a, b)
@@ -78,19 +78,19 @@ def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
             assert other is not None  # noqa: S101 - both absent was before
             which = "B" if own is spaces[0] else "A"
             return _shared(
-                a, b, other, f"the workspace that {which} states, since the other has none"
+                a, b, other, f"those of the workspace of {which}, since the other states none"
             )
     first, second = spaces
     assert first is not None and second is not None  # noqa: S101, PT018
     shared = _overlap(first, second)
     if shared is not None:
-        return _shared(a, b, shared, "what their workspaces share")
+        return _shared(a, b, shared, "those that both workspaces contain")
     return Space(
         a.workspace,
         b.workspace,
         False,
-        f"The workspaces go along {_along(first)} in A and along {_along(second)} in B: each "
-        "machine is looked at over its own, so that its worst pose is one of another task.",
+        f"The workspaces have the directions {_along(first)} in A and {_along(second)} in B: each "
+        "machine is studied over its own, and the two worst poses belong to different tasks.",
     )
 
 
@@ -150,7 +150,7 @@ def _cubes(a: Model, b: Model) -> Space:
     same = all(grids) and set(grids[0].axes) == set(grids[1].axes)  # type: ignore[union-attr]
     words = (
         f"Neither states a workspace: poses are {2e3 * HALF:g} mm about the home of each, at "
-        f"{POINTS} points along each direction in which it moves."
+        f"{POINTS} points along each of its translations."
     )
     return Space(grids[0], grids[1], same, words, why[0], why[1])
 

@@ -94,7 +94,7 @@ def test_the_table_has_words_and_says_what_is_not_answered(
     assert run.status == 0
     assert re.search(r"along x, others free +│ N/µm +│ +502\.\d +│ +2011 +│ \+300\.0 %", run.out)
     assert "The lighter machine is better." in run.out
-    assert "Not answered by A and B (largest forces that tolerances lock in at home)" in run.out
+    assert "No result for A and B (largest assembly forces at home)" in run.out
     assert re.search(
         r"Marked from a difference of 5 % of A\. A better in 1, B better in 1\d", run.out
     )
@@ -113,15 +113,15 @@ def test_csv_has_every_row(strutwork: Program, bars: tuple[Path, Path]) -> None:
 def test_machines_of_other_tasks_are_looked_at_over_their_own_poses(strutwork: Program) -> None:
     result = strutwork("compare", HEAD, HEXAPOD, "--json").result
     assert not result["shared_poses"]
-    assert "along z, rx and ry in A and along x, y and z in B" in result["poses"]
-    assert any("do not move in the same directions" in note for note in result["notes"])
+    assert "directions z, rx and ry in A and x, y and z in B" in result["poses"]
+    assert any("do not have the same degrees of freedom" in note for note in result["notes"])
 
 
 def test_poses_about_home_that_both_take(strutwork: Program) -> None:
     result = strutwork("compare", HEAD, HEXAPOD, "--around", "z=-20mm..20mm:3", "--json").result
     found = rows_of(result)
     assert result["shared_poses"]
-    assert any("over the 3 of 3 poses that both take" in note for note in result["notes"])
+    assert any("over the 3 of 3 poses that both reach" in note for note in result["notes"])
     assert "z 700 mm" in found["worst_stiffness_free_x"]["a"]["at"]  # type: ignore[index]
 
 
