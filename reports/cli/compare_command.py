@@ -37,8 +37,8 @@ def compare(
         typer.Option(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
-            help="Poses relative to the home of each machine, as in --around x=-20mm..20mm:5; by default "
-            "those that both workspaces contain.",
+            help="Poses relative to the home of each machine, as in --around x=-20mm..20mm:5; by "
+            "default those that both workspaces contain.",
         ),
     ] = None,
     threshold: Annotated[

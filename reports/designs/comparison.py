@@ -226,7 +226,8 @@ def compare_designs(
         for design, more in ((first, over.a), (second, over.b))
     ]
     rows = tuple(
-        Row(q, *(_answer(found, q.key) for found in answers), threshold) for q in QUANTITIES
+        Row(q, _answer(answers[0], q.key), _answer(answers[1], q.key), threshold)
+        for q in QUANTITIES
     )
     notes = [space.words, over.words]
     if band is not None:

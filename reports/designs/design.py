@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -92,8 +92,7 @@ class Design:
         """
         found = asked_of("vibration", self._frequencies)
         for axis in AXES:
-            key = f"least_dynamic_stiffness_{axis}"
-            found |= _or_why((key,), lambda key=key, axis=axis: {key: self._least(axis, band)})
+            found |= _or_why((f"least_dynamic_stiffness_{axis}",), partial(self._least, axis, band))
         return found
 
     @cached_property
@@ -143,15 +142,16 @@ class Design:
             for k in range(LISTED)
         }
 
-    def _least(self, axis: str, band: tuple[float, float] | None) -> Value:
+    def _least(self, axis: str, band: tuple[float, float] | None) -> Answers:
+        key = f"least_dynamic_stiffness_{axis}"
         damping = self.target.require_damping()
         port = Port(self.standing.require_tool(), axis)
         if band is None:
-            return Value(why="no mode moves its tool, so there is no frequency band")
+            return {key: Value(why="no mode moves its tool, so there is no frequency band")}
         least = least_dynamic_stiffness(self.target.placed, port, port, damping, band)
         if least.uncoupled:
-            return Value(float("inf"))
-        return Value(float(least.value), f"at {significant(least.frequency)} Hz")
+            return {key: Value(float("inf"))}
+        return {key: Value(float(least.value), f"at {significant(least.frequency)} Hz")}
 
     def _mass(self) -> Answers:
         if is_machine(self.name):

@@ -141,7 +141,7 @@ def _cover(found: DesignComparison) -> Chapter:
 
 
 def _sentences(found: DesignComparison) -> tuple[Answer, ...]:
-    said = []
+    said: list[Answer] = []
     for key in HEADLINES:
         row = found[key]
         if not row.marked or len(said) == MOST:

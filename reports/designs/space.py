@@ -67,7 +67,9 @@ def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
     """
     missing = ["" if m.tool is not None else "it has no tool: add [tool] with tcp" for m in (a, b)]
     if any(missing):
-        return Space(None, None, False, "A machine without a tool has no poses.", *missing)
+        return Space(
+            None, None, False, "A machine without a tool has no poses.", missing[0], missing[1]
+        )
     if around is not None:
         return replace(_shared(a, b, around, "those asked for"), asked=True)
     spaces = [_from_home(m) for m in (a, b)]
