@@ -26,9 +26,8 @@ if TYPE_CHECKING:
     import plotly.graph_objects as go
     import xarray as xr
 
-    from strutwork.fea import Damping
     from strutwork.reports.build import WrittenReport
-    from strutwork.reports.designs.comparison import DesignComparison
+    from strutwork.reports.designs.result import DesignComparison
     from strutwork.reports.model_check import ModelCheck
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
@@ -182,8 +181,7 @@ class Machine(Model):
         pose: Mapping[str, float | str] | None = None,
         *,
         around: Mapping[str, ArrayLike] | None = None,
-        threshold: float = 5.0,
-        damping: Damping | None = None,
+        **options: Any,
     ) -> DesignComparison:
         """Both machines, this one as A, question by question, with the differences marked.
 
@@ -191,42 +189,23 @@ class Machine(Model):
         ----------
         other : Machine
         pose : mapping of direction to float or str, optional
-            Where both stand, as for `at`; each at home else.
+            Where both stand, m and rad as for `at`; each at home else.
         around : mapping of direction to (n,), optional
-            Poses over which they are looked at, m and rad from the home of each; what their
-            workspaces share else.
-        threshold : float
-            Difference from which two numbers are marked, percent.
-        damping : Damping, optional
-            Of both, in place of their own.
-
-        Returns
-        -------
-        DesignComparison
-            Its `to_dataframe()` has one line per quantity, `report(file)` writes a page. A
-            question that one machine cannot answer is a row with the reason.
+            Poses relative to the home of each, m and rad; else those that both workspaces contain.
+        **options
+            Of `strutwork.reports.designs.comparison.compare_designs`: threshold, damping, progress.
 
         Raises
         ------
-        ModelError
-            The same machine twice.
-        UnreachableError
-            A pose that one of them cannot take.
+        ModelError, UnreachableError
+            The same machine twice; a pose that one of them cannot take.
         """
-        from strutwork.machines.model_poses import pose_words
-        from strutwork.reports.designs.comparison import compare_designs, standing_at
+        from strutwork.reports.designs.comparison import compare_standing
 
-        first, second = ((m.source or m.title or "machine", m) for m in (self, other))
+        a, b = ((m.source or m.title or "machine", m) for m in (self, other))
         task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
-        return compare_designs(
-            first,
-            second,
-            (standing_at(first, task, {}), standing_at(second, task, {})) if task else None,
-            f"at {pose_words(task, {})}" if task else "at home",
-            around=None if around is None else _grid(around),
-            threshold=threshold,
-            damping=damping,
-        )
+        grid = None if around is None else _grid(around)
+        return compare_standing(a, b, task, {}, around=grid, **options)
 
     def solve(self) -> ModelSolution:
         """Displacements and forces under every load case.

@@ -9,19 +9,14 @@ from rich.text import Text
 from strutwork.errors import ModelError
 from strutwork.fea import Damping, LossFactor, ModalRatio
 from strutwork.machines.load import load
-from strutwork.machines.model_poses import pose_words
 from strutwork.names import visible
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import Where
-from strutwork.reports.designs.comparison import (
-    DesignComparison,
-    compare_designs,
-    standing_at,
-    unanswered,
-)
+from strutwork.reports.designs.comparison import compare_standing
 from strutwork.reports.designs.quantities import QUESTIONS
+from strutwork.reports.designs.result import DesignComparison, unanswered
 from strutwork.reports.designs.row import Verdict
 from strutwork.reports.grid_words import grid_of_words
 
@@ -49,16 +44,12 @@ def run(
     damping = _damping(modal_ratio, loss_factor)
     grid = grid_of_words(around, "--around") if around else None
     a, b = (load(name) for name in names)
-    first, second = (names[0], a), (names[1], b)
-    there = None
-    if not at.home:
-        there = standing_at(first, at.task, at.joints), standing_at(second, at.task, at.joints)
     with shown() as started:
-        found = compare_designs(
-            first,
-            second,
-            there,
-            "at home" if at.home else f"at {pose_words(at.task, at.joints)}",
+        found = compare_standing(
+            (names[0], a),
+            (names[1], b),
+            at.task,
+            at.joints,
             around=grid,
             threshold=threshold,
             damping=damping,

@@ -15,7 +15,7 @@ from strutwork.reports.cli.usage import typed
 #: Endings of universal files.
 UNIVERSAL = frozenset({".uff", ".unv", ".bunv", ".ufb"})
 
-#: Difference from which two numbers are marked, percent.
+#: Difference from which two numbers are marked, percent, as `strutwork.reports.designs.result`.
 MARKED = 5.0
 
 _MACHINE = "A model file, or a machine: NAME or NAME:VARIANT."

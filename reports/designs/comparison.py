@@ -2,172 +2,25 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import isfinite
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from strutwork.errors import ModelError, UnreachableError
 from strutwork.fea import Damping
-from strutwork.html import table
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
-from strutwork.machines.model_poses import Coordinate, at_pose
-from strutwork.machines.naming import is_machine, named_machine
-from strutwork.names import listed, visible
+from strutwork.machines.model_poses import Coordinate, at_pose, pose_words
+from strutwork.names import visible
 from strutwork.reports.answer_store import model_key
 from strutwork.reports.designs.design import Design
 from strutwork.reports.designs.over_poses import over_poses
-from strutwork.reports.designs.quantities import QUANTITIES, QUESTIONS, Question
+from strutwork.reports.designs.quantities import QUANTITIES
+from strutwork.reports.designs.result import MARKED, DesignComparison, known_as
 from strutwork.reports.designs.row import Row, Value
-from strutwork.reports.designs.space import Space, space_of
+from strutwork.reports.designs.space import space_of
 from strutwork.reports.numbers import significant
 from strutwork.studies.progress import Teller
-
-if TYPE_CHECKING:
-    import pandas as pd
-
-#: Difference from which two numbers are marked, percent.
-MARKED = 5.0
-
-
-@dataclass(frozen=True)
-class DesignComparison:
-    """Two machines asked the same questions.
-
-    Parameters
-    ----------
-    a, b : Design
-    where : str
-        Where they stand: "at home", or a pose.
-    space : Space
-        Poses over which they are looked at.
-    band : (float, float) or None
-        Hz; in which the least dynamic stiffness is looked for.
-    threshold : float
-        Difference from which two numbers are marked, percent.
-    rows : tuple of Row
-        One per quantity, in the order of `QUANTITIES`.
-    notes : tuple of str
-        What a reader must know, sentences.
-    """
-
-    a: Design
-    b: Design
-    where: str
-    space: Space
-    band: tuple[float, float] | None
-    threshold: float
-    rows: tuple[Row, ...]
-    notes: tuple[str, ...]
-
-    def __repr__(self) -> str:
-        return f"<DesignComparison of {self.a.name} and {self.b.name}: {self.summary}>"
-
-    def __getitem__(self, key: str) -> Row:
-        """The row of a quantity by its key, as "home_stiffness_free_x".
-
-        Raises
-        ------
-        KeyError
-            There is none.
-        """
-        for row in self.rows:
-            if row.quantity.key == key:
-                return row
-        raise KeyError(key)
-
-    @property
-    def summary(self) -> str:
-        """How often either is better, in words."""
-        return tally(self.rows)
-
-    @property
-    def named(self) -> bool:
-        """Whether the names alone ask for it again."""
-        asked = all(_named(design.name) for design in (self.a, self.b))
-        own = not (self.a.moved or self.b.moved or self.a.damping or self.b.damping)
-        return asked and own and self.threshold == MARKED and not self.space.asked
-
-    def of(self, question: str) -> tuple[Row, ...]:
-        """The rows of a question by its key.
-
-        Parameters
-        ----------
-        question : str
-            Of `QUESTIONS`.
-        """
-        return tuple(row for row in self.rows if row.quantity.question == question)
-
-    def title_of(self, question: Question) -> str:
-        """Title of the table of a question."""
-        return question.title.format(where=self.where)
-
-    def asks(self, question: Question) -> str:
-        """A question in words."""
-        return question.asks.format(where=self.where)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Plain values in SI."""
-        return {
-            "a": {"name": self.a.name, "title": self.a.title},
-            "b": {"name": self.b.name, "title": self.b.title},
-            "where": self.where,
-            "poses": self.space.words,
-            "shared_poses": self.space.shared,
-            "band": None if self.band is None else list(self.band),
-            "threshold_percent": self.threshold,
-            "summary": self.summary,
-            "notes": list(self.notes),
-            "questions": {
-                q.key: {
-                    "title": self.title_of(q),
-                    "criterion": q.criterion,
-                    "rows": [row.to_dict() for row in self.of(q.key)],
-                }
-                for q in QUESTIONS
-            },
-        }
-
-    def to_dataframe(self) -> pd.DataFrame:
-        """One line per quantity, indexed by its key; SI, missing and infinite as in pandas."""
-        import pandas as pd
-
-        lines = [flat(row) for row in self.rows]
-        return pd.DataFrame(lines).set_index("key")
-
-    def report(self, file: Path | str) -> Path:
-        """Write the comparison as one page that needs no other file; its data are in it.
-
-        Parameters
-        ----------
-        file : Path or str
-
-        Raises
-        ------
-        OutputError
-            It cannot be written.
-        """
-        from strutwork.reports.designs.page import write_comparison
-
-        return write_comparison(self, Path(file))
-
-    def _repr_html_(self) -> str:
-        lines = [
-            (
-                f"{row.quantity.name}, {row.quantity.question}",
-                row.a.shown(row.quantity.unit),
-                row.b.shown(row.quantity.unit),
-                row.shown_unit,
-                row.shown_difference,
-                row.verdict,
-            )
-            for row in self.rows
-        ]
-        heads = ("", f"A: {self.a.name}", f"B: {self.b.name}", "", "B − A", "")
-        return table(f"A and B {self.where}: {self.summary}", lines, heads)
 
 
 def compare_designs(
@@ -195,7 +48,7 @@ def compare_designs(
     around : TaskGrid, optional
         Poses counted from the home of each; else what their workspaces share, or each its own.
     threshold : float
-        Difference from which two numbers are marked, percent.
+        Difference from which two numbers are marked, in %.
     damping : Damping, optional
         Of both, in place of their own.
     progress : callable, optional
@@ -248,6 +101,37 @@ def compare_designs(
     )
 
 
+def compare_standing(
+    a: tuple[str, Model],
+    b: tuple[str, Model],
+    task: Mapping[str, float],
+    joints: Mapping[Coordinate, float],
+    **options: Any,
+) -> DesignComparison:
+    """The same at a pose, or at home where none is given.
+
+    Parameters
+    ----------
+    a, b : (str, Model)
+        Name and machine at home.
+    task : mapping of direction to float
+        Of the tool, m and rad.
+    joints : mapping of (joint, direction) to float
+        Joint coordinates, m and rad.
+    **options
+        Of `compare_designs`.
+
+    Raises
+    ------
+    ModelError, UnreachableError
+        As `compare_designs` and `standing_at`.
+    """
+    if not (task or joints):
+        return compare_designs(a, b, **options)
+    standing = standing_at(a, task, joints), standing_at(b, task, joints)
+    return compare_designs(a, b, standing, f"at {pose_words(task, joints)}", **options)
+
+
 def standing_at(
     named: tuple[str, Model], task: Mapping[str, float], joints: Mapping[Coordinate, float]
 ) -> Model:
@@ -274,82 +158,6 @@ def standing_at(
         raise type(error)(part, error.problem, error.remedy) from error
 
 
-def tally(rows: tuple[Row, ...]) -> str:
-    """How often either is better, in words: "A better in 3, B better in 5, alike in 4".
-
-    Parameters
-    ----------
-    rows : tuple of Row
-    """
-    counts = Counter(row.verdict for row in rows)
-    words = [
-        (counts["A better"], "A better in"),
-        (counts["B better"], "B better in"),
-        (counts["differs"], "different in"),
-        (counts["alike"] + counts["equal"], "alike in"),
-        (counts["not compared"], "not compared in"),
-    ]
-    return listed([f"{text} {n}" for n, text in words if n])
-
-
-def unanswered(found: DesignComparison) -> list[str]:
-    """What either machine does not answer and why, a sentence for each reason.
-
-    Parameters
-    ----------
-    found : DesignComparison
-    """
-    reasons: dict[tuple[str, tuple[str, ...]], str] = {}
-    for mark in ("A", "B"):
-        by_reason: dict[str, list[Row]] = {}
-        for row in found.rows:
-            why = (row.a if mark == "A" else row.b).why
-            if why:
-                by_reason.setdefault(why, []).append(row)
-        for why, rows in by_reason.items():
-            key = why, _asked(found, rows)
-            reasons[key] = f"{reasons[key]} and {mark}" if key in reasons else mark
-    return [
-        f"No result for {who} ({listed(words)}): {why}" for (why, words), who in reasons.items()
-    ]
-
-
-def _asked(found: DesignComparison, rows: list[Row]) -> tuple[str, ...]:
-    """What some rows ask: the title of a question of which all are among them, else each."""
-    words: list[str] = []
-    for question in QUESTIONS:
-        some = [row.quantity.name for row in rows if row.quantity.question == question.key]
-        title = found.title_of(question)
-        complete = len(some) > 1 and len(some) == len(found.of(question.key))
-        words += [title[0].lower() + title[1:]] if complete else some
-    return tuple(words)
-
-
-def flat(row: Row) -> dict[str, Any]:
-    """A row as one line of a table, SI.
-
-    Parameters
-    ----------
-    row : Row
-    """
-    q = row.quantity
-    return {
-        "key": q.key,
-        "question": q.question,
-        "quantity": q.name,
-        "unit": q.unit,
-        "a": row.a.words or row.a.number,
-        "b": row.b.words or row.b.number,
-        "difference_percent": row.difference,
-        "verdict": row.verdict,
-        "better": {"more": "the larger", "less": "the smaller"}.get(q.better, ""),
-        "a_at": row.a.at,
-        "b_at": row.b.at,
-        "a_reason": row.a.why,
-        "b_reason": row.b.why,
-    }
-
-
 def _answer(found: dict[str, Value], key: str) -> Value:
     return found.get(key) or Value(why="it has no answer")
 
@@ -357,8 +165,8 @@ def _answer(found: dict[str, Value], key: str) -> Value:
 def _require_two(a: tuple[str, Model], b: tuple[str, Model]) -> None:
     """Refuse a machine beside itself."""
     (first, one), (second, other) = a, b
-    named = _named(first)
-    same = one is other or (named is not None and named == _named(second))
+    named = known_as(first)
+    same = one is other or (named is not None and named == known_as(second))
     if not same:
         try:
             same = model_key(one) == model_key(other)
@@ -371,13 +179,3 @@ def _require_two(a: tuple[str, Model], b: tuple[str, Model]) -> None:
             f'finds one machine: "{visible(first)}" and "{visible(second)}" are the same.',
             "Name another machine or variant, or a changed copy of the model file.",
         )
-
-
-def _named(name: str) -> str | None:
-    """One name for all that mean the same machine or file; None where it means neither."""
-    if is_machine(name):
-        return named_machine(name).name
-    try:
-        return str(Path(name).resolve(strict=True))
-    except (OSError, ValueError):
-        return None

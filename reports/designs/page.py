@@ -27,9 +27,9 @@ from strutwork.reports.content import (
 )
 from strutwork.reports.content import Row as Beside
 from strutwork.reports.data_files import DataFile, csv_file
-from strutwork.reports.designs.comparison import DesignComparison, flat, tally, unanswered
 from strutwork.reports.designs.pictures import difference_bars, drawings
 from strutwork.reports.designs.quantities import QUESTIONS, Question
+from strutwork.reports.designs.result import DesignComparison, flat, tally, unanswered
 from strutwork.reports.designs.row import Row, Value, Verdict
 from strutwork.reports.page import render
 

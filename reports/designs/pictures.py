@@ -7,7 +7,7 @@ from typing import Any
 
 from strutwork.reports.content import Figure
 from strutwork.reports.data_files import DataFile, csv_file, json_file
-from strutwork.reports.designs.comparison import DesignComparison
+from strutwork.reports.designs.result import DesignComparison
 from strutwork.reports.designs.row import Row
 from strutwork.reports.figures.model import model_view
 from strutwork.reports.figures.theme import INK, axis, layout

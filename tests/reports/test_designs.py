@@ -13,9 +13,10 @@ import strutwork as sw
 from strutwork.errors import ModelError
 from strutwork.front import Machine
 from strutwork.kinematics.task_grid import TaskGrid
-from strutwork.reports.designs.comparison import DesignComparison, compare_designs
+from strutwork.reports.designs.comparison import compare_designs
 from strutwork.reports.designs.page import comparison_page
 from strutwork.reports.designs.quantities import QUANTITIES, QUESTIONS
+from strutwork.reports.designs.result import DesignComparison
 from strutwork.reports.designs.row import Quantity, Row, Value, Verdict
 from strutwork.reports.designs.space import space_of
 
