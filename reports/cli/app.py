@@ -57,11 +57,16 @@ COMMANDS = {
 SILENT = ("new", "report", "schema")
 
 
+#: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
+PLACED = ("accuracy", "map", "scale", "workspace")
+
+
 class Program(Commands):
     """The program, whose commands are made when they are called or listed."""
 
     places = COMMANDS
     silent = SILENT
+    placed = PLACED
 
 
 app = typer.Typer(
