@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from strutwork.reports.build import WrittenReport
+    from strutwork.reports.designs.result import DesignComparison
     from strutwork.reports.model_check import ModelCheck
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
@@ -41,6 +42,7 @@ QUESTIONS = (
     "assembly_forces",
     "at",
     "check",
+    "compare",
     "frequency_response",
     "modes",
     "plot",
@@ -175,6 +177,38 @@ class Machine(Model):
         """
         return self._subject.check
 
+    def compare(
+        self,
+        other: Machine,
+        pose: Mapping[str, float | str] | None = None,
+        *,
+        around: Mapping[str, ArrayLike] | None = None,
+        **options: Any,
+    ) -> DesignComparison:
+        """Both machines, this one as A, question by question, with the differences marked.
+
+        Parameters
+        ----------
+        other : Machine
+        pose : mapping of direction to float or str, optional
+            Where both stand, m and rad as for `at`; each at home else.
+        around : mapping of direction to (n,), optional
+            Poses relative to the home of each, m and rad; else those that both workspaces contain.
+        **options
+            Of `strutwork.reports.designs.comparison.compare_designs`: threshold, damping, progress.
+
+        Raises
+        ------
+        ModelError, UnreachableError
+            The same machine twice; a pose that one of them cannot take.
+        """
+        from strutwork.reports.designs.comparison import compare_standing
+
+        a, b = ((m.source or m.title or "machine", m) for m in (self, other))
+        task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
+        grid = None if around is None else _grid(around)
+        return compare_standing(a, b, task, {}, around=grid, **options)
+
     def solve(self) -> ModelSolution:
         """Displacements and forces under every load case.
 
@@ -282,11 +316,7 @@ class Machine(Model):
         from strutwork.studies.answers import Stiffness
         from strutwork.studies.survey import survey
 
-        grid = (
-            self._subject.grid
-            if over is None
-            else TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})
-        )
+        grid = self._subject.grid if over is None else _grid(over)
         return survey(self, grid, answers or [Stiffness()], **options)
 
     def study(
@@ -379,3 +409,7 @@ def _coordinate(direction: str, value: float | str) -> float:
     if not isinstance(value, str):
         return float(value)
     return quantity(value, ANGLE if direction.startswith("r") else LENGTH, direction)
+
+
+def _grid(over: Mapping[str, ArrayLike]) -> TaskGrid:
+    return TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})

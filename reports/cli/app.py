@@ -38,7 +38,8 @@ COMMANDS = {
     "map": f"{_HERE}.map_command:map_command",
     "modes": f"{_HERE}.app:modes",
     "frf": f"{_HERE}.app:frf",
-    "compare": f"{_HERE}.app:compare",
+    "compare": f"{_HERE}.compare_command:compare",
+    "correlate": f"{_HERE}.correlate_command:correlate",
     "tolerance": f"{_HERE}.app:tolerance",
     "scale": f"{_HERE}.app:scale",
     "accuracy": f"{_HERE}.accuracy_command:accuracy",
@@ -241,40 +242,6 @@ def frf(
         modal_ratio=modal_ratio,
         loss_factor=loss_factor,
         preload=preload,
-        json=json,
-    )
-
-
-def compare(
-    computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
-    measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
-    window: Annotated[
-        float, typer.Option(help="Largest difference of a pair, as a share of the frequency.")
-    ] = 0.3,
-    least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = 0.5,
-    doublet: Annotated[
-        float,
-        typer.Option(help="Neighbouring modes within this share of the frequency are one span."),
-    ] = 0.01,
-    unit: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="LABEL=UNIT",
-            help='Unit of an unknown axis label, as in --unit "EU=mm/s^2". Repeatable.',
-        ),
-    ] = None,
-    json: Json = False,
-) -> None:
-    """Compare computed modes and responses with measured ones."""
-    from strutwork.reports.cli import compare as work
-
-    work.run(
-        computed,
-        measured,
-        window=window,
-        least=least,
-        doublet=doublet,
-        units=unit or (),
         json=json,
     )
 
