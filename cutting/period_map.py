@@ -211,7 +211,9 @@ def period_map(
     kernel = _real(np.einsum("ra,rc->rac", shapes, modes.loads), within)
     free = _state_part(shapes, np.exp(poles[:, None] * times))
     last = np.exp(poles * period)
-    decay = np.block([[np.diag(last.real), np.diag(-last.imag)], [np.diag(last.imag), np.diag(last.real)]])
+    decay = np.block(
+        [[np.diag(last.real), np.diag(-last.imag)], [np.diag(last.imag), np.diag(last.real)]]
+    )
     ends = to_end[:, :, None] * modes.loads[:, None, :]
     drive = np.concatenate([ends.real, ends.imag]).reshape(2 * len(poles), 3 * nodes)
     angles = 2.0 * np.pi * speed * times
@@ -265,9 +267,7 @@ def chip_directions(modes: TipModes, chip: Directional) -> Array:
     return np.asarray(seen @ kept)
 
 
-def _spans(
-    chip: Directional, poles: Array, speed: float, depth: float, margin: int
-) -> list[Span]:
+def _spans(chip: Directional, poles: Array, speed: float, depth: float, margin: int) -> list[Span]:
     """Elements of the cuts of a period."""
     turning = 2.0 * np.pi * speed
     fastest = float(np.abs(poles).max())
@@ -284,9 +284,7 @@ def _spans(
     return found
 
 
-def _integrals(
-    poles: Array, spans: list[Span], times: Array, period: float
-) -> tuple[Array, Array]:
+def _integrals(poles: Array, spans: list[Span], times: Array, period: float) -> tuple[Array, Array]:
     """Response of each mode at the nodes (n, m, m), and at the end (n, m), to unit loads, s."""
     nodes = len(times)
     within = np.zeros((len(poles), nodes, nodes), dtype=complex)

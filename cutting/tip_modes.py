@@ -190,5 +190,3 @@ class TipModes:
         h = np.tensordot(1.0 / (s - self.poles), dyads, 1)
         h = h + np.tensordot(1.0 / (s - self.poles.conj()), dyads.conj(), 1)
         return TipResponse(lines, h, "modes")
-
-
