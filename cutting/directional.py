@@ -52,7 +52,7 @@ def edge_terms(coefficients: tuple[float, float, float], lead: float) -> Array:
     tangential, radial, axial, normal = _edge_axes(lead)
     kt, kr, ka = coefficients
     force = kt * tangential + kr * radial + ka * axial
-    return _products(force, normal) / np.sin(lead)
+    return np.asarray(_products(force, normal) / np.sin(lead))
 
 
 def flank_terms(friction: float, lead: float) -> Array:

@@ -48,7 +48,7 @@ def lagrange(order: int, at: Array) -> Array:
     hit = gap == 0
     terms = _barycentric(order) / np.where(hit, 1.0, gap)
     found = terms / terms.sum(axis=-1, keepdims=True)
-    return np.where(hit.any(axis=-1, keepdims=True), hit.astype(float), found)
+    return np.asarray(np.where(hit.any(axis=-1, keepdims=True), hit.astype(float), found))
 
 
 @lru_cache(maxsize=128)

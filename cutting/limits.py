@@ -72,7 +72,7 @@ class StabilityChart:
 
     @property
     def kinds(self) -> Array:
-        """ "Hopf", "flip", "period-one" or "stable" of each cut, (s, d), text."""
+        """How each cut loses stability, as `kind_of`, (s, d), text."""
         found = [[kind_of(complex(m)) for m in row] for row in self.multipliers]
         return np.array(found, dtype=object)
 
@@ -337,7 +337,7 @@ def _leading(at: PeriodMap, depth: float, modes: TipModes) -> tuple[complex, int
 def _nearest(multiplier: complex, pole: complex, passing: float) -> float:
     """The frequency of the multiplier nearest to a mode, Hz."""
     share = float(np.angle(multiplier)) / (2.0 * np.pi)
-    aim = abs(pole) / (2.0 * np.pi)
-    turns = aim / passing
+    turns = abs(pole) / (2.0 * np.pi * passing)
     near = [sign * share + round(turns - sign * share) for sign in (1, -1)]
-    return float(abs(min(near, key=lambda x: abs(x - turns))) * passing)
+    away = [abs(x - turns) for x in near]
+    return abs(near[0] if away[0] <= away[1] else near[1]) * passing

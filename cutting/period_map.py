@@ -9,7 +9,8 @@ eigenvalues are the characteristic multipliers, and the cut is stable where all 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -52,6 +53,56 @@ class Span:
 
 
 @dataclass(frozen=True)
+class Damped:
+    """What the flank adds, whose load is proportional to velocity.
+
+    Parameters
+    ----------
+    velocity : (m d, 3 m)
+        Velocity at the nodes by load, m/(N·s).
+    velocity_free : (m d, 2 n)
+        Velocity at the nodes by the state at the beginning, 1/s.
+    chip, flank : (3 m, m d)
+        Directional matrices, N/m² by chip thickness and N·s/m² by velocity.
+    kernel : (m d, 3 m)
+        Motion at the nodes by load, m/N.
+    drive : (2 n, 3 m)
+        State at the end by load, m/N.
+    """
+
+    velocity: Array
+    velocity_free: Array
+    chip: Array
+    flank: Array
+    kernel: Array
+    drive: Array
+
+    def at(self, depth: float, free: Array, decay: Array) -> tuple[Array, Array, Array, Array]:
+        """Kernel (m d, m d), free motion, decay and drive of a map with the flank.
+
+        Parameters
+        ----------
+        depth : float
+            m.
+        free : (m d, 2 n)
+            Without the flank, no unit.
+        decay : (2 n, 2 n)
+            Without the flank, no unit.
+        """
+        implicit = np.eye(len(free)) - depth * self.velocity @ self.flank
+        by_state = np.linalg.solve(implicit, self.velocity_free)
+        by_chip = np.linalg.solve(implicit, depth * (self.velocity @ self.chip))
+        load_state = self.flank @ by_state
+        load = self.chip + self.flank @ by_chip
+        return (
+            self.kernel @ load,
+            free + depth * (self.kernel @ load_state),
+            decay + depth * (self.drive @ load_state),
+            self.drive @ load,
+        )
+
+
+@dataclass(frozen=True)
 class PeriodMap:
     """Matrices of a period at one spindle speed; of a helical cutter at one depth as well.
 
@@ -67,21 +118,15 @@ class PeriodMap:
         State at the end by that at the beginning, no unit.
     drive : (2 n, m d)
         State at the end by regenerative load, 1/m.
-    flank_kernel : (m d, 3 m) or None
-        Velocity at the nodes by load, of a process with damping.
-    flank_free : (m d, 2 n) or None
-        Velocity at the nodes by the state.
-    loads : tuple of arrays or None
-        Directional matrices at the nodes of chip and flank, and the kernels by plain loads.
+    damped : Damped or None
+        Of a process with damping by the flank.
     """
 
     kernel: Array
     free: Array
     decay: Array
     drive: Array
-    flank_kernel: Array | None = None
-    flank_free: Array | None = None
-    loads: tuple[Array, Array, Array, Array] | None = None
+    damped: Damped | None = None
 
     def matrix(self, depth: float) -> Array:
         """The map (2 n + m d, 2 n + m d) at a depth of cut, no unit.
@@ -92,8 +137,8 @@ class PeriodMap:
             m.
         """
         kernel, free, decay, drive = self.kernel, self.free, self.decay, self.drive
-        if self.loads is not None:
-            kernel, free, decay, drive = self._damped(depth)
+        if self.damped is not None:
+            kernel, free, decay, drive = self.damped.at(depth, free, decay)
         size, states = len(kernel), len(decay)
         right = np.empty((size, states + size), order="F")
         right[:, :states] = free
@@ -107,22 +152,6 @@ class PeriodMap:
         found[states:] = gap
         found[states:, states:] += np.eye(size)
         return found
-
-    def _damped(self, depth: float) -> tuple[Array, Array, Array, Array]:
-        """The four matrices with the load of the flank, which is proportional to velocity."""
-        assert self.loads is not None  # noqa: S101
-        chip, flank, kernel, drive = self.loads
-        velocity = np.eye(len(self.free)) - depth * self.flank_kernel @ flank
-        by_state = np.linalg.solve(velocity, self.flank_free)
-        by_chip = np.linalg.solve(velocity, depth * (self.flank_kernel @ chip))
-        load_state = flank @ by_state
-        load = chip + flank @ by_chip
-        return (
-            kernel @ load,
-            self.free + depth * (kernel @ load_state),
-            self.decay + depth * (drive @ load_state),
-            drive @ load,
-        )
 
     def multipliers(self, depth: float) -> Array:
         """Characteristic multipliers (2 n + m d,), complex, no unit.
@@ -222,20 +251,13 @@ def period_map(
     if flank is None:
         return plain
     moving = shapes * poles[:, None]
-    flank_kernel = _real(np.einsum("ra,rc->rac", moving, modes.loads), within)
+    velocity = _real(np.einsum("ra,rc->rac", moving, modes.loads), within)
     # a load moves a tip at once only where residues are complex
     at_once = 2.0 * np.einsum("ra,rc->ac", shapes, modes.loads).real
-    flank_kernel += np.kron(np.eye(nodes), at_once)
+    velocity += np.kron(np.eye(nodes), at_once)
+    velocity_free = _state_part(moving, np.exp(poles[:, None] * times))
     flank_at = _blocks(flank.at(angles, depth) @ basis)
-    return PeriodMap(
-        plain.kernel,
-        free,
-        decay,
-        plain.drive,
-        flank_kernel,
-        _state_part(moving, np.exp(poles[:, None] * times)),
-        (chip_at, flank_at, kernel, drive),
-    )
+    return replace(plain, damped=Damped(velocity, velocity_free, chip_at, flank_at, kernel, drive))
 
 
 def chip_directions(modes: TipModes, chip: Directional) -> Array:
@@ -273,7 +295,7 @@ def _spans(chip: Directional, poles: Array, speed: float, depth: float, margin: 
     fastest = float(np.abs(poles).max())
     found = []
     breaks = chip.breaks(depth)
-    for start, stop in zip(breaks[:-1], breaks[1:], strict=True):
+    for start, stop in pairwise(breaks):
         if not chip.cuts(0.5 * (start + stop), depth):
             continue
         length = (stop - start) / turning

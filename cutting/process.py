@@ -108,9 +108,9 @@ class Turning:
     cutting_stiffness : float
         K_f, Pa: the resultant force by chip thickness and width of cut.
     normal : (3,) tuple
-        Direction in which the chip grows thicker; normalised here.
+        Direction in which the chip grows thicker, any unit; normalised here.
     force : (3,) tuple or None
-        Direction of the force of the tool on the workpiece; None for along `normal`.
+        Direction of the force of the tool on the workpiece, any unit; None for along `normal`.
     teeth : int
         Inserts per turn.
     diameter : float or None
@@ -149,7 +149,7 @@ class Turning:
 
     @property
     def _normal(self) -> Array:
-        return np.asarray(self.normal) / np.linalg.norm(self.normal)
+        return np.asarray(np.asarray(self.normal) / np.linalg.norm(self.normal))
 
     @property
     def _force(self) -> Array:

@@ -27,7 +27,7 @@ class TipModes:
     poles : (n,)
         s, rad/s, in the upper half-plane and left of the imaginary axis.
     shapes : (n, 3)
-        b, complex: how the tip moves in a mode, along x, y, z of the process.
+        b, complex, of any unit: how the tip moves in a mode, along x, y, z of the process.
     loads : (n, 3)
         c, complex: how forces along them drive it; b and c together have the unit m/(N·s).
 

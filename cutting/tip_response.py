@@ -63,9 +63,9 @@ class Frame:
         Parameters
         ----------
         axis : (3,)
-            From the tip to the holder, of any length and unit.
+            From the tip to the holder, any unit.
         feed : (3,)
-            Of any length and unit.
+            Of any length, any unit.
 
         Raises
         ------
