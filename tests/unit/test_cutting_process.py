@@ -32,22 +32,9 @@ def test_the_directional_matrix_of_a_tooth_is_that_of_the_book() -> None:
     process = Milling(Cutter(0.02, 1), ALUMINIUM, 1.0, "up")
     phi = np.linspace(0.1, 3.0, 7)
     kr = 1.0 / 3.0
-    expected = (
-        0.5
-        * 6e8
-        * np.array(
-            [
-                [
-                    -np.sin(2 * phi) - kr * (1 - np.cos(2 * phi)),
-                    -(1 + np.cos(2 * phi)) - kr * np.sin(2 * phi),
-                ],
-                [
-                    (1 - np.cos(2 * phi)) - kr * np.sin(2 * phi),
-                    np.sin(2 * phi) - kr * (1 + np.cos(2 * phi)),
-                ],
-            ]
-        )
-    )
+    s, c = np.sin(2.0 * phi), np.cos(2.0 * phi)
+    rows = [[-s - kr * (1 - c), -(1 + c) - kr * s], [(1 - c) - kr * s, s - kr * (1 + c)]]
+    expected = 0.5 * 6e8 * np.array(rows)
     found = process.directional.at(phi, 1e-3)[:, :2, :2]
     np.testing.assert_allclose(found, np.moveaxis(expected, -1, 0), atol=1e-6 * 6e8)
 

@@ -30,7 +30,7 @@ PORTS = tuple(Port("tip", d) for d in "xyz")
 def model(damping: object = None) -> ModalModel:
     rng = np.random.default_rng(4)
     square = 1.0 / (2.0 * np.pi * np.array([[300.0, 700.0, 9000.0]])) ** 2
-    residues = 1e-4 * rng.normal(size=(1, 3, 3)) * np.array([1.0, 1.0, 0.05])
+    residues = 1e-4 * rng.normal(size=(1, 3, 3)) * np.array([1.0, 1.0, 0.005])
     return ModalModel(
         PORTS,
         residues,

@@ -1,12 +1,13 @@
 """A bull-nose cutter whose tip was measured: residues of four modes.
 
 @book{altintas2012bullnose,
-  title     = {Manufacturing Automation: Metal Cutting Mechanics, Machine Tool Vibrations, and CNC Design},
+  title     = {Manufacturing Automation: Metal Cutting Mechanics, Machine Tool Vibrations,
+               and CNC Design},
   author    = {Altintas, Yusuf},
   edition   = {2},
   publisher = {Cambridge University Press},
   year      = {2012},
-  note      = {page 162: modes and coefficients; no printed result: values of two independent methods}
+  note      = {page 162: modes and coefficients; no printed result: values of two methods}
 }
 """
 

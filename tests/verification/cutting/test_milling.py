@@ -1,11 +1,12 @@
 """Milling with one and two modes: multipliers and limits, beside a semi-discretisation.
 
 @article{insperger2004,
-  title   = {Updated semi-discretization method for periodic delay-differential equations with discrete delay},
+  title   = {Updated semi-discretization method for periodic delay-differential equations with
+             discrete delay},
   author  = {Insperger, Tamás and Stépán, Gábor},
   journal = {International Journal for Numerical Methods in Engineering 61, 117-141},
   year    = {2004},
-  note    = {data of the process; no printed result: values of a period map and of a semi-discretisation}
+  note    = {data of the process; no printed result: values of two independent methods}
 }
 
 @article{ding2010,

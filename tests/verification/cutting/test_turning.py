@@ -1,16 +1,19 @@
 """Turning and shaping: limits in closed form.
 
 @book{altintas2012cutting,
-  title     = {Manufacturing Automation: Metal Cutting Mechanics, Machine Tool Vibrations, and CNC Design},
+  title     = {Manufacturing Automation: Metal Cutting Mechanics, Machine Tool Vibrations,
+               and CNC Design},
   author    = {Altintas, Yusuf},
   edition   = {2},
   publisher = {Cambridge University Press},
   year      = {2012},
-  note      = {chapter 4: a_lim = −1/(2 K_f Re G) and the speeds of the lobes; exercise on shaping with two modes}
+  note      = {chapter 4: a_lim = −1/(2 K_f Re G) and the speeds of the lobes; exercise on
+               shaping with two modes}
 }
 
 @article{hayes1950,
-  title   = {Roots of the Transcendental Equation Associated with a Certain Difference-Differential Equation},
+  title   = {Roots of the Transcendental Equation Associated with a Certain
+             Difference-Differential Equation},
   author  = {Hayes, N. D.},
   journal = {Journal of the London Mathematical Society s1-25, 226-232},
   year    = {1950}
