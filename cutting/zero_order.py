@@ -199,7 +199,8 @@ def _families(average: Array, receptance: Array) -> Array:
     left, size, right = np.linalg.svd(average)
     rank = int(np.sum(size > 1e-12 * size[0]))
     # the eigenvalues other than zero are those of the smaller product
-    small = right[:rank] @ receptance @ (left[:, :rank] * size[:rank])
+    both = np.einsum("ai,jb->ijab", right[:rank], left[:, :rank] * size[:rank])
+    small = (receptance.reshape(-1, 9) @ both.reshape(9, -1)).reshape(-1, rank, rank)
     if rank == 1:
         return np.asarray(small[:, :, 0])
     if rank == 2:
