@@ -81,7 +81,7 @@ def table(poses: int) -> str:
         [
             "# Performance: vibration",
             "",
-            "Made by `python -m benchmarks.modal_speed --write`: read ratios. One thread, by",
+            "Written by `python -m benchmarks.modal_speed --write`: compare ratios. One thread, by",
             "processor time.",
             machine_line(),
             "",
@@ -93,7 +93,7 @@ def table(poses: int) -> str:
             "",
             difference,
             "",
-            f"1000 lines of the 6 x 6 receptance, modes at hand: {response:.2f} ms.",
+            f"1000 lines of the 6 x 6 receptance from known modes: {response:.2f} ms.",
         ]
     )
 

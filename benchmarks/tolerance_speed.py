@@ -175,7 +175,8 @@ def table(samples: int, assemblies: int) -> str:
         [
             "# Performance: tolerances",
             "",
-            "Made by `python -m benchmarks.tolerance_speed --write`: read ratios. One thread.",
+            "Written by `python -m benchmarks.tolerance_speed --write`: compare ratios.",
+            "One thread.",
             machine_line(),
             "",
             "Three struts on six elastic bearings, three tilted axes; both forces of each bearing.",
@@ -187,7 +188,7 @@ def table(samples: int, assemblies: int) -> str:
             "|---|---:|---:|---:|",
             *rows,
             "",
-            f"The plain loop takes {1e6 * loop:.0f} µs a sample, force by force, for the largest.",
+            f"The plain loop takes {1e6 * loop:.0f} µs per sample to find the largest value.",
             "",
             f"Largest memory of the process by samples: {'; '.join(memory)}.",
             "",

@@ -1,7 +1,7 @@
 """The MIT-SS-1 half and twice as large: what its bearings make of similarity.
 
 A study in Python: stiffness, frequencies and the deflection at constant removal rate against the
-size of a machine, under three laws for its bearings and one of one's own.
+size of a machine, under three laws for its bearings and one user-defined law.
 
 $ python examples/07_scale_mit_ss1.py
 > similar joints

@@ -46,11 +46,11 @@ def mac(first: ArrayLike, second: ArrayLike) -> Array:
 def _shapes(rows: ArrayLike) -> Array:
     a = np.atleast_2d(np.asarray(rows))
     if not np.all(np.isfinite(a)):
-        raise ModelError("shapes", "hold a number that is not finite.", "Leave it out.")
+        raise ModelError("shapes", "contain a number that is not finite.", "Leave it out.")
     # the largest entry first: the square of a tiny number would vanish, that of a huge one be none
     largest = np.maximum(np.abs(a.real), np.abs(a.imag)).max(axis=1, keepdims=True, initial=0.0)
     if np.any(largest == 0):
-        raise ModelError("shapes", "hold one that is zero everywhere.", "Leave it out.")
+        raise ModelError("shapes", "contain one that is zero everywhere.", "Leave it out.")
     a = a / largest
     return np.asarray(a / np.linalg.norm(a, axis=1, keepdims=True))
 

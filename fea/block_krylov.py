@@ -173,8 +173,8 @@ def _require_held(basis: EnergyBasis, block: slice, high: float) -> None:
     if mass.max(initial=0.0) * HELD * (2.0 * np.pi * high) ** 2 > 1.0:
         raise NumericalError(
             "Krylov reduction",
-            "met a structure that floats.",
-            "Hold it, or say so: KrylovOptions(floating=True).",
+            "was given a structure that floats.",
+            "Hold it, or state it: KrylovOptions(floating=True).",
         )
 
 

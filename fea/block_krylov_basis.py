@@ -69,7 +69,9 @@ class EnergyBasis:
         before = np.abs(np.einsum("ij,ij->j", loads, block))
         if not np.all(np.isfinite(before)):
             raise NumericalError(
-                "Krylov reduction", "met numbers out of range.", "Check the units of the matrices."
+                "Krylov reduction",
+                "encountered numbers out of range.",
+                "Check the units of the matrices.",
             )
         block = block[:, before > 0] / np.sqrt(before[before > 0])
         start = self.size
@@ -83,7 +85,7 @@ class EnergyBasis:
             values, turn = np.linalg.eigh((gram + gram.T) / 2.0)
             if values.min(initial=0.0) < -NEGATIVE:
                 raise NumericalError(
-                    "stiffness", "is not positive.", "Look at supports, springs and preloads."
+                    "stiffness", "is not positive.", "Check supports, springs and preloads."
                 )
             fresh = values > NEW
             turn = turn[:, fresh] / np.sqrt(values[fresh])

@@ -85,7 +85,7 @@ class SmallModel:
         if not np.all(np.isfinite(states)):
             raise NumericalError(
                 "frequency response",
-                "a line falls on a resonance without damping.",
+                "a line coincides with a resonance without damping.",
                 "Give damping, or move the line.",
             )
         return states

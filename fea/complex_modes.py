@@ -83,7 +83,7 @@ def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10)
         A frequency above half the cutoff of a superelement.
     """
     if count < 1:
-        raise ModelError("complex modes", f"{count} asked for.", "Ask for at least one.")
+        raise ModelError("complex modes", f"{count} asked for.", "Request at least one.")
     system = system_of(placed)
     if system.poses != 1:
         raise ModelError("complex modes", f"of {system.poses} poses.", "Give one pose.")
@@ -100,7 +100,7 @@ def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10)
         raise NumericalError(
             "complex modes",
             f"a pole has a relative error up to {errors[order].max():.2g} by its residual.",
-            "Ask for fewer, or change the damping by a little: poles may nearly fall together.",
+            "Request fewer, or change the damping slightly: poles may nearly coincide.",
         )
     values, vectors = values[order], vectors[:, order]
     at_nodes = np.moveaxis(system.expand((reduced.basis[0] @ vectors)[None])[0], -1, 0)

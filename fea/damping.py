@@ -35,7 +35,7 @@ class ModalRatio:
             raise ModelError(
                 "damping.modal_ratio",
                 f"is {self.ratio!r}.",
-                "Give a ratio from 0 to below 1; from 1 on nothing vibrates.",
+                "Give a ratio from 0 to below 1; at 1 and above nothing vibrates.",
             )
 
     def viscous(self, square: Array) -> Array:

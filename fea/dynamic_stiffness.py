@@ -146,7 +146,7 @@ def minimum_of(
     if not np.all(ratios[model.square > 0] > 0):
         raise ModelError(
             "damping",
-            "is zero: the dynamic stiffness falls to nothing at resonance.",
+            "is zero: the dynamic stiffness falls to zero at resonance.",
             "Give a damping ratio or a loss factor.",
         )
     low, high = (2.0 * np.pi * f for f in band)
@@ -178,7 +178,7 @@ def minimum_of(
         pose = int(np.argwhere(broken)[0][0])
         raise NumericalError(
             "minimum dynamic stiffness",
-            f"breaks its two-sided bound at pose {pose}.",
+            f"violates its two-sided bound at pose {pose}.",
             "This is a fault of the solver: please report the model.",
         )
     shape = (len(model.square),) if batch is None else batch

@@ -56,10 +56,10 @@ def with_true_work(reduced: Reduced, vectors: Array, square: Array) -> tuple[Arr
             where = f" at pose {pose}" if len(square) > 1 else ""
             raise NumericalError(
                 "modes",
-                f"the strain energy of the lowest is certain to {worst:.2g} only{where}: the modes "
-                "are withheld.",
-                "Stiffnesses differ too much: make the stiffest parts rigid, or hold what hardly "
-                "anything holds.",
+                f"the strain energy of the lowest is accurate to {worst:.2g} only{where}: the "
+                "modes are withheld.",
+                "Stiffnesses differ too much: make the stiffest parts rigid, or support what is "
+                "hardly held.",
             )
         vectors[pose][:, modes] /= np.sqrt(work)
         square[pose, modes] /= work

@@ -73,7 +73,7 @@ def complex_too(solve: Callable[[Array], Array]) -> Callable[[Array], Array]:
 def singular() -> NumericalError:
     """The error of every library that meets a zero pivot."""
     return NumericalError(
-        "factorisation", "met a singular matrix.", "Look for a part that nothing holds."
+        "factorisation", "met a singular matrix.", "Check for a part that nothing holds."
     )
 
 
@@ -83,6 +83,6 @@ class NotPositiveError(NumericalError):
     def __init__(self) -> None:
         super().__init__(
             "factorisation",
-            "met a pivot that is not positive.",
-            "Look for a part that nothing holds, or let another solver do it.",
+            "encountered a pivot that is not positive.",
+            "Check for a part that nothing holds, or use another solver.",
         )

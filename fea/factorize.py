@@ -103,7 +103,7 @@ def factorize(matrix: sp.csc_array, solver: str | None = None, *, positive: bool
         return replace(factor, fill=found.fill, memory=memory, flops=found.flops)
     raise ModelError(
         f"solver {solver}",
-        "takes positive definite matrices only.",
+        "accepts only positive definite matrices.",
         f"Choose one of {', '.join(n for n in installed_solvers() if SOLVERS[n].INDEFINITE)}.",
     )
 
@@ -130,11 +130,14 @@ def _candidates(matrix: sp.csc_array, solver: str | None, positive: bool) -> tup
         raise ModelError(
             f"solver {solver}",
             "is not installed.",
-            f"Install strutwork[accel], or: {INSTALL[solver]}. Here are {', '.join(installed)}.",
+            (
+                f"Install strutwork[accel], or: {INSTALL[solver]}. Installed here: "
+                f"{', '.join(installed)}."
+            ),
         )
     if is_complex and not SOLVERS[solver].COMPLEX:
         able = [n for n in installed if SOLVERS[n].COMPLEX]
         raise ModelError(
-            f"solver {solver}", "takes no complex matrices.", f"Choose one of {', '.join(able)}."
+            f"solver {solver}", "accepts no complex matrices.", f"Choose one of {', '.join(able)}."
         )
     return (solver,)

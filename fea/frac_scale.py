@@ -107,8 +107,8 @@ def frac_with_scale(
     if plain < 0:
         raise ModelError(
             "responses",
-            f"share too little of the band: computed {unit * own[0]:g} to {unit * own[-1]:g} Hz, "
-            f"measured {unit * lines[0]:g} to {unit:g} Hz.",
+            f"have too little of the band in common: computed {unit * own[0]:g} to "
+            f"{unit * own[-1]:g} Hz, measured {unit * lines[0]:g} to {unit:g} Hz.",
             "Compute at least half of the measured band.",
         )
     step = max(0.5 * float(np.median(np.diff(lines))), 1e-7)

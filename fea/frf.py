@@ -206,7 +206,7 @@ def response_at(
         raise NumericalError(
             "frequency response",
             "is not finite at some line.",
-            "Give damping, or leave zero frequency out where the structure floats.",
+            "Give damping, or omit zero frequency where the structure floats.",
         )
     apart = uncoupled(response)
     response = np.where(apart[:, None], 0.0, response)[:, :, rows][..., columns]
@@ -261,7 +261,7 @@ def _direct(
         except np.linalg.LinAlgError as error:
             raise NumericalError(
                 "frequency response",
-                "a line falls on a resonance without damping.",
+                "a line coincides with a resonance without damping.",
                 "Give damping, or move the line.",
             ) from error
         largest = np.abs(solution).max(axis=-2, initial=0.0)
@@ -271,10 +271,10 @@ def _direct(
             line = int(np.argmax(np.nan_to_num(share, nan=np.inf).max(axis=(0, 2))))
             raise NumericalError(
                 "frequency response",
-                f"the direct solution at {lines[start + line]:.6g} Hz is certain to "
+                f"the direct solution at {lines[start + line]:.6g} Hz is accurate to "
                 f"{share.max():.2g} of its largest displacement only.",
-                "Its stiffnesses or masses differ too much, or hardly anything damps there; leave "
-                "that line out.",
+                "Its stiffnesses or masses differ too much, or there is hardly any damping "
+                "there; omit that line.",
             )
         solution += correction
         result[:, start : start + step] = np.swapaxes(scaled.real, -1, -2)[:, None] @ solution

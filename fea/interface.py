@@ -102,7 +102,7 @@ def tie(interface: Interface, points: Array, nodes: NDArray[np.intp], weights: A
         raise ModelError(
             part,
             f'its patch "{interface.patch}" is empty.',
-            "Choose a patch that holds faces of the mesh.",
+            "Choose a patch that contains faces of the mesh.",
         )
     share = np.asarray(weights) / total
     at = points[nodes]
@@ -114,7 +114,7 @@ def tie(interface: Interface, points: Array, nodes: NDArray[np.intp], weights: A
             part,
             f'the {len(nodes)} nodes of its patch "{interface.patch}" lie on one line, which '
             "leaves a rotation undefined.",
-            "Take a patch with an area, at least one face.",
+            "Use a patch with an area, at least one face.",
         )
     position = middle if interface.position is None else np.asarray(interface.position, dtype=float)
     rigid = rigid_map(at - position)[:, :3]

@@ -121,7 +121,7 @@ def lowest_modes(
     n = stiffness.shape[0]
     if not 1 <= count <= n // 3:
         raise ModelError(
-            "lowest modes", f"{count} of {n} dofs.", "Ask for one to a third of the dofs."
+            "lowest modes", f"{count} of {n} dofs.", "Request from one to a third of the dofs."
         )
     shift = _first_shift(stiffness, mass) if floating else 0.0
     if solver == "slepc":
@@ -136,7 +136,7 @@ def lowest_modes(
     square, vectors, residuals = _lanczos(stiffness, mass, shift, factor, count, block)
     if square[0] < -RIGID * shift or (not floating and square[0] <= 0):
         raise NumericalError(
-            "lowest modes", "of a stiffness that is not positive.", "Look at supports and springs."
+            "lowest modes", "of a stiffness that is not positive.", "Check supports and springs."
         )
     if counted:
         _count(stiffness, mass, square, shift, solver)
@@ -217,12 +217,12 @@ def _lanczos(
             raise NumericalError(
                 "lowest modes",
                 f"did not converge with {known} vectors.",
-                "Ask for fewer; the structure may have fewer modes with mass.",
+                "Request fewer; the structure may have fewer modes with mass.",
             )
         last = new
     if values.min() <= 0:
         raise NumericalError(
-            "lowest modes", "has fewer modes with mass than asked for.", "Ask for fewer."
+            "lowest modes", "has fewer modes with mass than requested.", "Ask for fewer."
         )
     shapes = basis.vectors[:, :known] @ turn / np.sqrt(values)
     return 1.0 / values - shift, shapes, residuals
@@ -244,5 +244,5 @@ def _count(
             "lowest modes",
             f"{below} were found below {np.sqrt(middle) / (2 * np.pi):.4g} Hz, where there are "
             f"{found}.",
-            "Ask for another number of modes.",
+            "Request another number of modes.",
         )

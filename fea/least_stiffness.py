@@ -203,7 +203,7 @@ def _require_damping(model: ModalModel) -> None:
 def _no_damping(where: str) -> ModelError:
     return ModelError(
         "damping",
-        f"is zero{where}: the dynamic stiffness falls to nothing at resonance.",
+        f"is zero{where}: the dynamic stiffness falls to zero at resonance.",
         "Give a damping ratio or a loss factor.",
     )
 

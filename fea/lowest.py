@@ -51,7 +51,7 @@ def natural_frequencies(placed: PlacedStructure, count: int = 10) -> tuple[Array
         Modes whose strain energy is not certain (`strutwork.fea.eigen_work`); names the pose.
     """
     if count < 1:
-        raise ModelError("frequencies", f"{count} asked for.", "Ask for at least one.")
+        raise ModelError("frequencies", f"{count} asked for.", "Request at least one.")
     system = system_of(placed)
     found = [
         _lowest(reduce_system(system_of(system.placed[start : start + CHUNK])), count)

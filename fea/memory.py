@@ -87,10 +87,10 @@ def require_solid(
         lighter = "order = 1, " if order == 2 else ""
         raise NumericalError(
             f"solid {name}",
-            f"its {cells:,} cells of order {order} have {dofs:,} dofs or more; to reduce them "
+            f"its {cells:,} cells of order {order} have {dofs:,} dofs or more; their reduction "
             f"takes {need / 1e9:.3g} GB at the least with {library}, and {available / 1e9:.3g} GB "
             "are available.",
-            f"Choose {lighter}larger cells, or part it into several solids; strutwork[accel] "
+            f"Choose {lighter}larger cells, or divide it into several solids; strutwork[accel] "
             "takes half of SuperLU's memory.",
         )
     return dofs, need

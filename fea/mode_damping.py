@@ -71,8 +71,8 @@ def damping_ratios(modes: Modes, damping: AnyDamping) -> Array:
         named = ", ".join(f"{m + 1} ({frequencies[m]:.4g} Hz)" for m in lost)
         warnings.warn(
             f"damping ratios of the modes {named} are withheld: the residual of their poles does "
-            "not verify them. Poles that nearly fall together are the usual cause: change the "
-            "damping by a little.",
+            "not verify them. Poles that nearly coincide are the usual cause: change the damping "
+            "slightly.",
             UnverifiedWarning,
             stacklevel=2,
         )

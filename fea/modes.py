@@ -167,7 +167,7 @@ def searched_modes(
     method : "dense" or "sparse", optional
     """
     if count < 1:
-        raise ModelError("modes", f"{count} modes asked for.", "Ask for at least one.")
+        raise ModelError("modes", f"{count} modes asked for.", "Request at least one.")
     if method not in (None, "dense", "sparse"):
         raise ModelError("modes", f'unknown method "{method}".', "Choose dense or sparse.")
     if preload is not None:
@@ -194,7 +194,7 @@ def searched_modes(
     exist = int(np.isfinite(frequencies).sum(axis=-1).max())
     note = ""
     if exist < asked:
-        note = f"{asked} modes were asked for and {exist} exist: these are all there are."
+        note = f"{asked} modes were requested, but only {exist} exist."
         frequencies, shapes = frequencies[:, :exist], shapes[:, :exist]
         effective, shares = effective[:, :exist], shares[:, :exist]
     if not np.all(np.isfinite(shapes[outcome.solved])):

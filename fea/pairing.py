@@ -46,9 +46,11 @@ class ModeSet:
         frequencies = np.asarray(self.frequencies, dtype=float)
         shapes = np.atleast_2d(np.asarray(self.shapes))
         if not frequencies.size or shapes.shape[0] != len(frequencies):
-            raise ModelError("modes", "have no shape each.", "Give one shape a frequency.")
+            raise ModelError(
+                "modes", "do not have one shape each.", "Give one shape per frequency."
+            )
         if not np.all(np.isfinite(frequencies)) or np.any(np.diff(frequencies) < 0):
-            raise ModelError("modes", "have frequencies that do not rise.", "Sort them.")
+            raise ModelError("modes", "have frequencies that do not ascend.", "Sort them.")
         if not self.damping_ratios:
             object.__setattr__(self, "damping_ratios", (None,) * len(frequencies))
         elif len(self.damping_ratios) != len(frequencies):

@@ -100,7 +100,7 @@ def slepc_modes(
     values, vectors = answer["values"], answer["vectors"].T
     if len(values) < count:
         raise NumericalError(
-            "SLEPc", f"found {len(values)} of {count} modes.", "Ask for fewer, or move the shift."
+            "SLEPc", f"found {len(values)} of {count} modes.", "Request fewer, or move the shift."
         )
     order = np.argsort(values)
     values, vectors = values[order], vectors[:, order]
@@ -165,7 +165,7 @@ def _run(
     if python is None or launcher is None:
         raise ModelError(
             "solver slepc",
-            "needs petsc4py, slepc4py and mpiexec, which are not here.",
+            "needs petsc4py, slepc4py and mpiexec, which are not installed here.",
             "On Debian: apt install python3-petsc4py python3-slepc4py openmpi-bin; elsewhere "
             "petsc4py and slepc4py from conda-forge, or compiled by pip.",
         )

@@ -88,7 +88,7 @@ def find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
         return _find_poles(reduced, eigen, damping)
     except np.linalg.LinAlgError as error:
         raise NumericalError(
-            "poles", "cannot be told apart.", "Change the damping by a little."
+            "poles", "cannot be distinguished.", "Change the damping slightly."
         ) from error
 
 

@@ -71,7 +71,7 @@ class Port:
         """
         named, _, direction = text.rpartition(":")
         if not named or not direction:
-            raise ModelError(f'port "{text}"', "is no node with a direction.", "Write NODE:x.")
+            raise ModelError(f'port "{text}"', "is not a node with a direction.", "Write NODE:x.")
         if named in nodes or "-" not in named:
             return cls(named, direction)
         cuts = [i for i, letter in enumerate(named) if letter == "-"]
@@ -82,7 +82,7 @@ class Port:
         if len(pairs) != 1:
             raise ModelError(
                 f'port "{text}"',
-                "does not tell which node moves against which.",
+                "does not state which node moves relative to which.",
                 "Write NODE-NODE:x with two nodes of the structure.",
             )
         first, second = pairs[0]

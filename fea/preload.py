@@ -47,7 +47,7 @@ NOWHERE = (0.0, 0.0, 0.0)
 def preloaded(
     placed: PlacedStructure, case: LoadCase, method: Method | None = None
 ) -> PlacedStructure:
-    """The structure with the geometric stiffness that a load case gives it.
+    """The structure with the geometric stiffness of a load case.
 
     The forces come from the linear static solution; their second-order work is the stiffness:
     of the section forces along every beam, of all forces on rigid bodies off their reference

@@ -50,9 +50,9 @@ def same_nodes(
         if not by_name:
             return {}, (_extents(computed.positions, measured.positions),)
         return by_name, (
-            "no node of one file lies where one of the other does, nodes are matched by their "
-            "names: shapes are compared rightly only if the axes of both files are parallel"
-            + _extents(computed.positions, measured.positions),
+            "no node of one file coincides with one of the other, so nodes are matched by their "
+            "names: the comparison of shapes is correct only if the axes of both files are "
+            "parallel" + _extents(computed.positions, measured.positions),
         )
     rest = {
         name: name
@@ -62,12 +62,14 @@ def same_nodes(
     notes = []
     renamed = sum(a != b for a, b in placed.items())
     if renamed:
-        notes.append(f"{renamed} of {len(placed)} nodes are matched by place, their names differ")
+        notes.append(
+            f"{renamed} of {len(placed)} nodes are matched by position because their names differ"
+        )
     if near:
-        notes.append(f"{near} nodes of the same name do not lie at quite the same place")
+        notes.append(f"{near} nodes of the same name are not at exactly the same place")
     if apart:
         listed = ", ".join(apart[:5]) + (" …" if len(apart) > 5 else "")
-        notes.append(f"{len(apart)} measured nodes lie where no computed one does: {listed}")
+        notes.append(f"{len(apart)} measured nodes are where no computed one is: {listed}")
     taken = set(placed.values())
     return {**{a: b for a, b in rest.items() if b not in taken}, **placed}, tuple(notes)
 

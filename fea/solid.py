@@ -116,8 +116,9 @@ class Solid:
                 raise ModelError(
                     self._part,
                     f"its mesh has cells of type {kind!r}, and its order is 1.",
-                    "Choose order=2, or keep their corners alone by `strutwork.meshes.order.linear`"
-                    ", which makes curved edges straight and takes volume.",
+                    "Choose order=2, or keep only their corners with "
+                    "`strutwork.meshes.order.linear`, which makes curved edges straight and "
+                    "removes volume.",
                 )
         if len(kinds) > 1:
             raise ModelError(
@@ -144,6 +145,6 @@ class Solid:
                 raise ModelError(
                     f"{self._part}, region {region!r}",
                     f"the material {material.name} has a Poisson's ratio of "
-                    f"{material.poissons_ratio:.6g}, it cannot be compressed.",
+                    f"{material.poissons_ratio:.6g}, so it is incompressible.",
                     "Give a Poisson's ratio below 0.5; with 0.49 use order=2.",
                 )

@@ -121,7 +121,7 @@ def solid_modes(
     if not 1 <= count <= len(free) // 3:
         raise ModelError(
             part,
-            f"{count} modes are asked of {len(free)} free degrees of freedom.",
+            f"{count} modes are requested of {len(free)} free degrees of freedom.",
             f"Ask for 1 to {len(free) // 3}.",
         )
     motions = free_rigid_motions(matrices, known.dofs)
@@ -135,7 +135,7 @@ def solid_modes(
         raise NumericalError(
             part,
             f"{still} modes have no stiffness, but {rigid.shape[1]} rigid motions are free.",
-            "Look for parts that meet only at a node or along an edge, or for very flat cells.",
+            "Check for parts that meet only at a node or along an edge, or for very flat cells.",
         )
     shapes = np.zeros((matrices.size, count))
     shapes[free] = np.hstack([rigid, found.vectors[:, still:]])

@@ -143,8 +143,11 @@ def solve_solid(
         if not size <= CERTAIN:
             raise NumericalError(
                 f"solid {matrices.solid.name}",
-                f"its static solution is certain to {size:.1e} of its largest displacement only.",
-                "Look for parts that meet only at a node or along an edge, or for very flat cells.",
+                f"its static solution is accurate to {size:.1e} of its largest displacement only.",
+                (
+                    "Check for parts that meet only at a node or along an edge, or for very flat "
+                    "cells."
+                ),
             )
     internal = matrices.stiffness @ displacements
     reactions = np.zeros_like(forces)

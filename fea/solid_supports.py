@@ -91,7 +91,7 @@ def supports(
             f"supports {owners[int(first[which[there]])]!r} and {owners[there]!r} displace node "
             f"{dof // 3} along {AXES[dof % 3]} by {amounts[first[which[there]]]:.6g} and "
             f"{amounts[there]:.6g} m.",
-            "Give both the same displacement, or take the node out of one.",
+            "Give both the same displacement, or remove the node from one.",
         )
     return Supports(unique, amounts[first])
 

@@ -96,7 +96,7 @@ def sparse_modes(reduced: SparseReduced, count: int) -> LowestModes:
         raise ModelError(
             "sparse modes",
             f"{count} of {reduced.size} are too many for Lanczos' method.",
-            "Ask for fewer than a third, or leave the method out.",
+            "Request fewer than a third, or omit the method.",
         )
     rigid = reduced.rigid[:, :count]
     flexible = count - reduced.rigid.shape[1]
@@ -209,7 +209,7 @@ def _lanczos(
         )
     except ArpackNoConvergence as error:
         raise NumericalError(
-            "modes", "did not converge.", "Ask for fewer, or use the dense method."
+            "modes", "did not converge.", "Request fewer, or use the dense method."
         ) from error
     order = np.argsort(values, kind="stable")
     return values[order], vectors[:, order]

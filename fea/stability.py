@@ -220,7 +220,10 @@ def unstable(system: System, factor: float, pose: int) -> NumericalError:
         return NumericalError(
             "structure",
             f'buckles under its preload "{case}"{where}: the critical load is {factor:.4g} of it.',
-            "Lower the preload, stiffen what is pressed, or check the sign: tension is positive.",
+            (
+                "Lower the preload, stiffen the parts in compression, or check the sign: tension "
+                "is positive."
+            ),
         )
     linkage = system.placed.structure.linkage
     found = mobility(linkage, system.placed.placement[pose])
@@ -230,7 +233,7 @@ def unstable(system: System, factor: float, pose: int) -> NumericalError:
     part = "joints " + ", ".join(names) if names else "structure"
     return NumericalError(
         part,
-        f'the structure falls under its preload "{case}"{where}: it is not stable in a motion that '
-        "no stiffness resists, however small the load.",
-        "Lock, drive or spring one of these directions, or turn the load.",
+        f'the structure collapses under its preload "{case}"{where}: it is not stable in a motion '
+        "that no stiffness resists, however small the load.",
+        "Lock, drive or spring one of these directions, or reverse the load.",
     )

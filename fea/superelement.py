@@ -128,7 +128,7 @@ class Superelement:
         if miss > MISPLACED * np.abs(mine).max():
             raise ModelError(
                 f"superelement {self.name}",
-                f"its nodes stand {miss:.3g} m aside of where they are in the mesh.",
+                f"its nodes are {miss:.3g} m away from their places in the mesh.",
                 "Place all of them by one rigid motion of `positions`.",
             )
         return np.asarray(rotation)

@@ -111,8 +111,8 @@ def read_superelement(path: Path) -> Superelement:
     if not whole.startswith(_MARK) or whole[len(_MARK) :][:32] != hashlib.sha256(body).digest():
         raise ModelError(
             part,
-            "is damaged or no superelement: its content does not match its checksum.",
-            "Delete it; it is made anew when next needed.",
+            "is damaged or not a superelement: its content does not match its checksum.",
+            "Delete it; it is made again when next needed.",
         )
     try:
         with np.load(io.BytesIO(body), allow_pickle=False) as data:
@@ -124,7 +124,7 @@ def read_superelement(path: Path) -> Superelement:
             )
     except (KeyError, ValueError, zipfile.BadZipFile) as error:
         raise ModelError(
-            part, "was written by another version.", "Delete it; it is made anew."
+            part, "was written by another version.", "Delete it; it is made again."
         ) from error
 
 
@@ -184,13 +184,13 @@ def _stored(path: Path) -> Superelement | None:
     try:
         return read_superelement(path)
     except ModelError as error:
-        note_once(str(path), f"{error.part}: {error.problem} It is made anew.")
+        note_once(str(path), f"{error.part}: {error.problem} It is made again.")
         return None
 
 
 def _note_not_kept(why: str) -> None:
     note_once(
         f"superelements: {why}",
-        f"superelements cannot be kept for later runs: {why}. The results are the same; each run "
-        "reduces the solids anew. Set XDG_CACHE_HOME to a folder that takes files.",
+        f"superelements cannot be stored for later runs: {why}. The results are the same; each "
+        "run reduces the solids again. Set XDG_CACHE_HOME to a writable folder.",
     )

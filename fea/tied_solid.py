@@ -231,8 +231,8 @@ class StaticSolver:
         if not np.all(error <= RESIDUAL * largest):
             raise NumericalError(
                 f"solid {solid.name}",
-                f"its static solutions are certain to {float(np.max(error / largest)):.2g} only.",
-                "Look for badly shaped cells or stiffnesses that differ too much.",
+                f"its static solutions are accurate to {float(np.max(error / largest)):.2g} only.",
+                "Check for badly shaped cells or stiffnesses that differ too much.",
             )
         return np.asarray(shapes + correction)
 
@@ -284,7 +284,7 @@ def _determinate(rigid: Array) -> NDArray[np.intp]:
     _, corner, pivots = sla.qr(rigid.T, mode="economic", pivoting=True)
     if abs(corner[-1, r - 1]) < 1e-9 * abs(corner[0, 0]):
         raise MechanismError(
-            "solid", "its rigid motions cannot be told apart.", "Check that it is not one point."
+            "solid", "its rigid motions cannot be distinguished.", "Check that it is not one point."
         )
     return np.asarray(pivots[:r], dtype=np.intp)
 

@@ -65,14 +65,14 @@ class FrfRecord:
         problem = remedy = ""
         if self.frequencies.ndim != 1 or self.frequencies.shape != self.values.shape:
             problem = f"has {self.frequencies.size} frequencies and {self.values.size} values."
-            remedy = "Give one value a frequency."
+            remedy = "Give one value per frequency."
         elif len(self.frequencies) < 2:
             problem, remedy = "has fewer than two lines.", "Give a frequency axis."
         elif not (np.all(np.isfinite(self.frequencies)) and np.all(np.isfinite(self.values))):
-            problem = "holds a number that is not finite."
-            remedy = "Repair or leave out the lines that have no value."
+            problem = "contains a number that is not finite."
+            remedy = "Repair or remove the lines that have no value."
         elif self.frequencies[0] < 0 or np.any(np.diff(self.frequencies) <= 0):
-            problem, remedy = "has frequencies that do not rise.", "Sort its lines."
+            problem, remedy = "has frequencies that do not ascend.", "Sort its lines."
         elif self.motion not in MOTIONS:
             problem, remedy = f'has the motion "{self.motion}".', ", ".join(MOTIONS) + "."
         elif not {self.output[1], self.input[1]} <= set(DIRECTIONS):
@@ -108,8 +108,8 @@ class FrfRecord:
         if power < 0 and self.frequencies[0] == 0:
             raise ModelError(
                 f"function {self.name}",
-                f"has a line at 0 Hz, where {self.motion} tells nothing of {motion}.",
-                "Leave that line out.",
+                f"has a line at 0 Hz, where {self.motion} gives no information on {motion}.",
+                "Omit that line.",
             )
         if not power:
             return np.asarray(self.values)
@@ -118,7 +118,7 @@ class FrfRecord:
         if not np.all(np.isfinite(found)):
             raise ModelError(
                 f"function {self.name}",
-                f"is beyond all numbers as {motion}.",
+                f"is out of range as {motion}.",
                 "Check its unit and its frequencies.",
             )
         return found
@@ -156,13 +156,13 @@ class ModeRecord:
             raise ModelError(
                 f"mode at {self.frequency:g} Hz",
                 f"has {len(self.nodes)} nodes and a shape of {self.shape.shape}.",
-                "Give six numbers a node.",
+                "Give six numbers per node.",
             )
         if not (np.all(np.isfinite(numbers)) and np.all(np.isfinite(self.shape))):
             raise ModelError(
                 f"mode at {self.frequency:g} Hz",
-                "holds a number that is not finite.",
-                "Repair the source or leave the mode out.",
+                "contains a number that is not finite.",
+                "Repair the source or omit the mode.",
             )
 
     def __repr__(self) -> str:
@@ -240,7 +240,10 @@ def _degree(port: Port) -> tuple[str, str]:
     if port.against is not None or not isinstance(port.direction, str):
         raise ModelError(
             f"port {port}",
-            "is no single direction of one node, which is all that a universal file knows.",
+            (
+                "is not a single direction of one node, the only kind that a universal file can "
+                "contain."
+            ),
             "Write it as CSV.",
         )
     return port.node, port.direction

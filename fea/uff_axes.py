@@ -67,7 +67,7 @@ class Axes:
         if place is None:
             raise ModelError(
                 part,
-                "has motion in a cylindrical coordinate system at a node without a place.",
+                "has motion in a cylindrical coordinate system at a node without a position.",
                 "Export the nodes too (data set 2411).",
             )
         x, y, _ = self.rows @ (place - self.origin)
@@ -182,6 +182,6 @@ def axes_of(number: int, systems: Mapping[int, Axes], part: str) -> Axes | None:
         return None
     raise ModelError(
         part,
-        f"refers to the coordinate system {number}, which the file does not hold.",
+        f"refers to the coordinate system {number}, which the file does not contain.",
         "Export the coordinate systems too (data set 2420), or the results in global axes.",
     )

@@ -110,6 +110,6 @@ def number(text: str, part: str, line: int) -> float:
     except ValueError:
         raise ModelError(
             part,
-            f'cannot be read: "{text.strip()[:40]}" in line {line} is no number.',
+            f'cannot be read: "{text.strip()[:40]}" in line {line} is not a number.',
             "Export the file again.",
         ) from None

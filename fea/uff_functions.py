@@ -129,11 +129,11 @@ def raw_function(source: DataSet, units: FileUnits, given: Mapping[str, str]) ->
     abscissa, above, below = (_field(line, 0, 10) for line in head[7:10])
     labels = tuple(line.text[46:67].strip() for line in head[7:10])
     if abscissa not in _FREQUENCIES:
-        return f"response over something else than frequency (type {abscissa})"
+        return f"response over something other than frequency (type {abscissa})"
     if load_case != 0:
         return f"response to several forces (load case {load_case})"
     if below not in _FORCES or 0 in (output.direction, load.direction) or above == 13:
-        return "function that is no motion per force in a direction"
+        return "function that is not a motion per force in a direction"
     if not all(abs(end.direction) <= 6 for end in (output, load)):
         raise ModelError(source.part, "has a direction beyond 6.", "Directions are 1 to 6.")
     motion = _MOTION.get(above)
@@ -141,7 +141,7 @@ def raw_function(source: DataSet, units: FileUnits, given: Mapping[str, str]) ->
         motion = motion_of(given.get(labels[1], labels[1]))
     if motion is None:
         return (
-            f"function that does not tell displacement, velocity or acceleration (type {above}, "
+            f"function that does not state displacement, velocity or acceleration (type {above}, "
             f'unit "{labels[1]}")'
         )
     turning = (abs(output.direction) > 3, abs(load.direction) > 3)
@@ -153,8 +153,8 @@ def raw_function(source: DataSet, units: FileUnits, given: Mapping[str, str]) ->
     if not (np.all(np.isfinite(lines)) and np.all(np.isfinite(values))):
         raise ModelError(
             source.part,
-            "holds a number that is not finite (NaN or infinity).",
-            "Repair the measurement or leave it out.",
+            "contains a number that is not finite (NaN or infinity).",
+            "Repair the measurement or omit it.",
         )
     return RawFunction(source.part, _plain(output), _plain(load), lines, values, motion)
 
@@ -170,7 +170,7 @@ def _field(line: Columns, start: int, end: int) -> int:
     if not abs(value) < 1e12 or value != int(value):
         raise ModelError(
             line.part,
-            f'cannot be read: "{text}" in line {line.line} is no whole number.',
+            f'cannot be read: "{text}" in line {line.line} is not a whole number.',
             "Export the file again.",
         )
     return int(value)
@@ -197,7 +197,7 @@ def _numbers(source: DataSet, form: Columns, body: bytes) -> tuple[Array, Array]
     if len(found) != count * each:
         raise ModelError(
             source.part,
-            f"is cut short: it says {count} lines and has {len(found) // each}.",
+            f"is cut short: it states {count} lines and has {len(found) // each}.",
             "Export the file again.",
         )
     rows = found.reshape(count, each)
@@ -217,7 +217,7 @@ def _binary(source: DataSet, body: bytes, kind: int, count: int, even: bool) -> 
     if order not in _ORDERS or form != _IEEE:
         raise ModelError(
             source.part,
-            f"holds binary numbers of byte order {order} and format {form}.",
+            f"contains binary numbers of byte order {order} and format {form}.",
             "Export them as IEEE 754 (format 2), or as text (58).",
         )
     way = _ORDERS[order]

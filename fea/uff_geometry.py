@@ -80,7 +80,7 @@ class Geometry:
                 if len(head) != 7:
                     raise ModelError(
                         source.part,
-                        f"is cut short: line {entry.line} does not hold a node and its place.",
+                        f"is cut short: line {entry.line} does not contain a node and its place.",
                         "Export the file again.",
                     )
                 number, defined_in, moves_in = entry.whole([10] * 4, 4)[:3]
@@ -91,8 +91,8 @@ class Geometry:
             if not np.all(np.isfinite(place)):
                 raise ModelError(
                     source.part,
-                    f"holds a number that is not finite (NaN or infinity) at node {number}.",
-                    "Repair the geometry or leave it out.",
+                    f"contains a number that is not finite (NaN or infinity) at node {number}.",
+                    "Repair the geometry or omit it.",
                 )
             with np.errstate(over="ignore"):
                 place = place / length

@@ -63,7 +63,7 @@ def read_universal(path: str | Path, units: Mapping[str, str] | None = None) -> 
     if not sets:
         what = "binary data" if b"\0" in data[:4096] else "text"
         raise ModelError(
-            str(path), f"is no universal file: it is {what} without a line of    -1.", _SEE
+            str(path), f"is not a universal file: it is {what} without a line of    -1.", _SEE
         )
     scales, notes = _units(sets)
     notes += outside
@@ -92,7 +92,7 @@ def read_universal(path: str | Path, units: Mapping[str, str] | None = None) -> 
     ignored += left
     if not records and not shapes:
         held = ", ".join(dict.fromkeys(ignored)) or "nodes and units"
-        raise ModelError(str(path), f"holds no function and no mode, only {held}.", _SEE)
+        raise ModelError(str(path), f"contains no function and no mode, only {held}.", _SEE)
     return UniversalFile(
         tuple(records),
         tuple(shapes),
@@ -108,9 +108,9 @@ def _units(sets: tuple[DataSet, ...]) -> tuple[list[FileUnits], list[str]]:
     read = {i: file_units(s) for i, s in enumerate(sets) if s.kind == 164}
     notes = [note for _, note in read.values() if note]
     if not read:
-        notes.append("no units (164): lengths are taken in m, forces in N")
+        notes.append("no units (164): lengths are assumed in m, forces in N")
     elif len({(u.length, u.force) for u, _ in read.values()}) > 1:
-        notes.append("several units (164): each is in force for what follows it")
+        notes.append("several units (164): each applies to the data that follow it")
     now = next((units for units, _ in read.values()), FileUnits())
     scales = []
     for i in range(len(sets)):

@@ -94,7 +94,7 @@ def data_sets(data: bytes, name: str) -> tuple[tuple[DataSet, ...], tuple[str, .
             raise ModelError(
                 part,
                 f"names no type in line {line + 1}.",
-                "Export the file again, or take the lines of this data set out.",
+                "Export the file again, or remove the lines of this data set.",
             )
         kind, binary = int(head[1]), bool(head[2])
         part = f"{part} (type {kind})"
@@ -166,7 +166,7 @@ def _binary_end(data: bytes, head: re.Match[bytes], part: str) -> tuple[int, int
     raise ModelError(
         part,
         f"is cut short or damaged: after the {sizes[0] if sizes else 0} bytes of numbers that its "
-        "header counts stands no line of    -1.",
+        "header counts there is no line of    -1.",
         "Copy it as a binary file, or export its functions as text (58).",
     )
 

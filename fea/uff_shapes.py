@@ -70,7 +70,7 @@ class _Header:
         if self.characteristic not in _VECTORS:
             return f"data set {kind} of data characteristic {self.characteristic}, no vectors"
         if self.count not in _VECTORS[self.characteristic]:
-            return f"data set {kind} with {self.count} values a node"
+            return f"data set {kind} with {self.count} values per node"
         return ""
 
 
@@ -137,7 +137,9 @@ def raw_mode(source: DataSet) -> RawMode | str:
         nodes.append(records.next().whole([10])[0])
         rows.append(records.numbers(each, 13))
     if not nodes:
-        raise ModelError(source.part, "is cut short: it holds no node.", "Export the file again.")
+        raise ModelError(
+            source.part, "is cut short: it contains no node.", "Export the file again."
+        )
     if len(set(nodes)) < len(nodes):
         raise ModelError(source.part, "holds a node twice.", "Export each node once.")
     values = np.array(rows)
@@ -147,8 +149,8 @@ def raw_mode(source: DataSet) -> RawMode | str:
     if not (np.all(np.isfinite(values)) and np.all(np.isfinite([*normal, root]))):
         raise ModelError(
             source.part,
-            "holds a number that is not finite (NaN or infinity).",
-            "Repair the measurement or leave it out.",
+            "contains a number that is not finite (NaN or infinity).",
+            "Repair the measurement or omit it.",
         )
     if analysis == _NORMAL:
         frequency, viscous, hysteretic = normal
@@ -192,7 +194,7 @@ def global_modes(found: list[RawMode], geometry: Geometry) -> tuple[list[ModeRec
     notes: list[str] = []
     for one in found:
         if any(_same(one, other) for other in taken):
-            notes.append("a mode that stands there twice")
+            notes.append("a mode that occurs twice")
             continue
         shape = np.zeros((len(one.values), 6), dtype=one.values.dtype)
         shape[:, : one.values.shape[1]] = one.values
@@ -203,9 +205,9 @@ def global_modes(found: list[RawMode], geometry: Geometry) -> tuple[list[ModeRec
                 shape[i] = np.concatenate([shape[i, :3] @ axes, shape[i, 3:] @ axes])
                 turned += 1
         if not np.all(np.isfinite(shape)):
-            raise ModelError(one.part, "holds numbers too large to turn.", "Scale the shape.")
+            raise ModelError(one.part, "contains numbers too large to rotate.", "Scale the shape.")
         if turned:
-            notes.append("modes turned from local axes of nodes into global ones")
+            notes.append("modes rotated from local axes of nodes into global ones")
         if not one.said:
             notes.append("modes of unknown kind, taken as displacements")
         taken.append(one)

@@ -121,7 +121,7 @@ def file_units(source: DataSet) -> tuple[FileUnits, str]:
     length, force = values[:2]
     if not all(np.isfinite([length, force])):
         raise ModelError(
-            source.part, "holds a number that is not finite (NaN or infinity).", "Correct it."
+            source.part, "contains a number that is not finite (NaN or infinity).", "Correct it."
         )
     if length <= 0 or force <= 0:
         raise ModelError(source.part, "has a unit factor of zero or below.", "Correct it.")
@@ -129,8 +129,8 @@ def file_units(source: DataSet) -> tuple[FileUnits, str]:
     note = ""
     if known is not None and not np.allclose(known, (length, force), rtol=0.01):
         note = (
-            f"units (164): code {code} stands for factors {known[0]:g} and {known[1]:g}, written "
-            f"are {length:g} and {force:g}, which are used"
+            f"units (164): code {code} stands for factors {known[0]:g} and {known[1]:g}, but the "
+            f"file gives {length:g} and {force:g}, which are used"
         )
     return FileUnits(length, force), note
 
@@ -319,7 +319,7 @@ def _one(text: str, powers: Powers, label: str, part: str, what: str) -> float:
     raise ModelError(
         part,
         f'has the label "{label.strip()[:40]}", '
-        + (f"which is no unit of {what}." if found else f"an unknown unit of {what}."),
-        f'Say which unit it is: --unit "{label.strip()[:40]}=mm/s^2" (in Python, units= of '
+        + (f"which is not a unit of {what}." if found else f"an unknown unit of {what}."),
+        f'State the unit: --unit "{label.strip()[:40]}=mm/s^2" (in Python, units= of '
         "read_universal), or correct the label in the file.",
     )

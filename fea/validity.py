@@ -46,7 +46,7 @@ def beyond(placed: PlacedStructure, highest: float) -> str:
     named = ", ".join(f"{name} {limit:.4g} Hz" for name, limit in short.items())
     return (
         f"Frequencies up to {highest:.4g} Hz are shown. Above half of a solid's cutoff their "
-        f"accuracy is not promised: {named}. Raise its cutoff or its number of modes."
+        f"accuracy is not guaranteed: {named}. Raise its cutoff or its number of modes."
     )
 
 

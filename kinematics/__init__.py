@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from strutwork.kinematics.forward import FoundPoses, forward_kinematics
 from strutwork.kinematics.frames import (
     angle,
     axes_frame,
@@ -14,11 +13,8 @@ from strutwork.kinematics.frames import (
     rotation_z,
     tangent_rotation,
 )
-from strutwork.kinematics.jacobians import Jacobians, jacobians
 from strutwork.kinematics.joint import DIRECTIONS, JOINT_TYPES, Joint, State
 from strutwork.kinematics.linkage import GROUND, Body, Linkage
-from strutwork.kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
-from strutwork.kinematics.mechanism import Mechanism, Poses, drive_values
 from strutwork.kinematics.mobility import FreeMotion, Mobility, SelfStress, mobility
 from strutwork.kinematics.near_mechanism import NearMechanism, near_motions
 from strutwork.kinematics.placement import Placement, check_coincidence
@@ -39,9 +35,13 @@ if TYPE_CHECKING:
     from strutwork.kinematics.drive_forces import Forces, inverse_dynamics
     from strutwork.kinematics.dynamics import Dynamics, PlacedDynamics
     from strutwork.kinematics.error_transmission import ErrorTransmission
+    from strutwork.kinematics.forward import FoundPoses, forward_kinematics
     from strutwork.kinematics.inverse_survey import InverseSurvey
+    from strutwork.kinematics.jacobians import Jacobians, jacobians
     from strutwork.kinematics.largest_shape import LargestShape
+    from strutwork.kinematics.manipulability import VelocityEllipsoid, velocity_ellipsoid
     from strutwork.kinematics.margins import Margins
+    from strutwork.kinematics.mechanism import Mechanism, Poses, drive_values
     from strutwork.kinematics.motion import Motion, Moved
     from strutwork.kinematics.regions import Regions
     from strutwork.kinematics.reversals import Reversals
@@ -139,13 +139,17 @@ _LATER = {
     "Ellipsoids": "transmission",
     "ErrorTransmission": "error_transmission",
     "Forces": "drive_forces",
+    "FoundPoses": "forward",
     "Interference": "capsules",
     "InverseSurvey": "inverse_survey",
+    "Jacobians": "jacobians",
     "LargestShape": "largest_shape",
     "Margins": "margins",
+    "Mechanism": "mechanism",
     "Motion": "motion",
     "Moved": "motion",
     "PlacedDynamics": "dynamics",
+    "Poses": "mechanism",
     "Regions": "regions",
     "Reversals": "reversals",
     "SingularCurve": "singularity_curves",
@@ -154,17 +158,21 @@ _LATER = {
     "TaskGrid": "task_grid",
     "ToolDriveSpace": "tool_drive_space",
     "Trajectory": "trajectory",
+    "VelocityEllipsoid": "manipulability",
     "Zonotope": "capability",
+    "drive_values": "mechanism",
     "force_ellipsoids": "transmission",
     "force_zonotope": "capability",
+    "forward_kinematics": "forward",
     "inverse_dynamics": "drive_forces",
+    "jacobians": "jacobians",
     "roughness": "trajectory",
     "singularities_in_plane": "singularity_curves",
     "singularities_on_line": "singularities",
     "singularity_distance": "singular_distance",
+    "velocity_ellipsoid": "manipulability",
     "velocity_ellipsoids": "transmission",
     "velocity_zonotope": "capability",
 }
-
 
 __getattr__, __dir__ = later(__name__, _LATER)

@@ -25,7 +25,7 @@ SAME = 1e-6
 
 @dataclass(frozen=True)
 class AssemblyModes:
-    """Ways to put together a machine whose drives stand, real ones first.
+    """Assembly modes of a machine with its drives held, real ones first.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def assembly_modes(
         raise ModelError(
             "assembly modes",
             f"cannot be found all at once: {found}.",
-            "Look for some by several starts: strutwork.kinematics.branches.",
+            "Search for some from several starts: strutwork.kinematics.branches.",
         )
     batch = placement.batch
     count = int(np.prod(batch, dtype=int))

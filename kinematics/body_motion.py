@@ -97,7 +97,7 @@ class BodyMotion:
                 f"bodies {', '.join(n for n, one in zip(names, loose, strict=True) if one)} move "
                 f"although {', '.join(self.coordinates.labels)} "
                 f"{'stands' if len(self.coordinates) == 1 else 'stand'} still.",
-                "Give further joint coordinates, or hold the joints that let them.",
+                "Give further joint coordinates, or hold the joints that let them move.",
             )
         return kept[kept < len(held)], tuple(spins)
 

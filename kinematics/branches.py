@@ -34,7 +34,7 @@ LOOSE = 1e-7
 
 @dataclass(frozen=True)
 class Branches:
-    """Ways to put a linkage together in which what is given has its values.
+    """Assemblies of a linkage in which the given coordinates have their values.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def branches(
     if wanted.poses != 1 or starts < 1:
         raise ModelError(
             "branches",
-            f"are asked for {wanted.poses} targets from {starts} starts.",
+            f"are requested for {wanted.poses} targets from {starts} starts.",
             "Give one target and one start or more.",
         )
     many = given(

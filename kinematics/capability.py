@@ -63,7 +63,7 @@ class Zonotope:
         count = self.generators.shape[-1]
         if count > MOST:
             raise ModelError(
-                "zonotope", f"has {count} generators.", f"At most {MOST} are counted out."
+                "zonotope", f"has {count} generators.", f"At most {MOST} are enumerated."
             )
         signs = np.array([(1.0, *rest) for rest in product((1.0, -1.0), repeat=count - 1)])
         return np.asarray(np.swapaxes(self.generators @ signs.T, -1, -2))
@@ -107,7 +107,7 @@ class Zonotope:
 
 
 def force_zonotope(inverse: ArrayLike, limits: ArrayLike) -> Zonotope:
-    """Forces that the tool can exert within the drives' limits, with any moment or none asked.
+    """Forces that the tool can exert within the drives' limits, with any moment or without one.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def force_zonotope(inverse: ArrayLike, limits: ArrayLike) -> Zonotope:
 
 
 def velocity_zonotope(forward: ArrayLike, limits: ArrayLike) -> Zonotope:
-    """Velocities, or errors, of the tool within the drives' limits; any rotation comes along.
+    """Velocities, or errors, of the tool within the drives' limits, with any rotation.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def _finite(matrix: ArrayLike, where: str, what: str) -> Array:
     found = np.asarray(matrix, dtype=float)
     if found.ndim < 2 or not np.all(np.isfinite(found)):
         raise ModelError(
-            what, "is no finite matrix.", f"Leave out poses out of reach and at {where}."
+            what, "is not a finite matrix.", f"Leave out poses out of reach and at {where}."
         )
     return found
 

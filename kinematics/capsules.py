@@ -187,7 +187,7 @@ class Interference:
         ):
             raise ModelError(
                 self.shapes[0].name,
-                "has a mesh, and the placement does not say how its body has turned.",
+                "has a mesh, and the placement does not give the rotation of its body.",
                 "Place the machine by its motion (`Motion.move`).",
             )
         flat = placement.flat()

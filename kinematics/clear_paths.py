@@ -88,7 +88,7 @@ def path_reversals(field: DriveField, points: ArrayLike, samples: int = SAMPLES)
     if lost.any():
         raise ModelError(
             "path",
-            f"leaves the reach of the machine on its piece {int(lost.argmax()) + 1}.",
+            f"leaves the reach of the machine on its segment {int(lost.argmax()) + 1}.",
             "Keep it within the reach.",
         )
     start, end = (np.sign(speeds[:, k]).astype(np.int8) for k in (1, -2))

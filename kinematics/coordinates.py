@@ -156,7 +156,7 @@ def require_independent(motion: Motion, coordinates: Coordinates) -> None:
         f"{bad[0]} cannot move from home: the joints hold it."
         if still
         else f"{bad[0]} follows from the other coordinates that are given at home.",
-        "Leave it out." if still else "Leave it out: it moves with them.",
+        "Leave it out." if still else "Omit it: it moves with them.",
     )
 
 

@@ -46,7 +46,7 @@ class Coupling:
             raise ModelError(
                 part,
                 f"has the ratio {self.ratio!r}.",
-                "Give the way of the second coordinate per way of the first, not zero.",
+                "Give the motion of the second coordinate per motion of the first, not zero.",
             )
         for _, direction in (self.first, self.second):
             if direction not in DIRECTIONS:
@@ -123,7 +123,7 @@ def ties_of(
             raise ModelError(
                 part,
                 f"joins {names[0]} and {names[1]}, and both are driven: one follows the other.",
-                "Leave one of the drives out.",
+                "Remove one of the drives.",
             )
         first, second = ends
         if not driven[1] and second not in found:
@@ -162,7 +162,7 @@ def _end(
     if d >= 3 and all(e in (*free, *joint.driven) for e in DIRECTIONS[3:]):
         raise ModelError(
             part,
-            f"couples {name}:{direction}, but {name} turns freely in all ways.",
-            "Make it of single revolute joints and couple one of them.",
+            f"couples {name}:{direction}, but {name} rotates freely in all directions.",
+            "Build it from single revolute joints and couple one of them.",
         )
     return index[name], d

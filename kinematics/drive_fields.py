@@ -126,7 +126,9 @@ class MotionField:
     def __post_init__(self) -> None:
         if not self.motion.linkage.driven:
             raise ModelError(
-                "linkage", "has no driven direction.", "Reversals are those of drives: name some."
+                "linkage",
+                "has no driven direction.",
+                "Reversals are those of drives: name at least one.",
             )
         _ = self._held
 

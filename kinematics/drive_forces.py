@@ -84,7 +84,7 @@ class Forces:
             raise SingularPoseError(
                 f"pose {first}",
                 "is a parallel singularity: the drives do not hold the tool there.",
-                "Leave it out, or keep the path away from it.",
+                "Omit it, or keep the path away from it.",
             )
         across = np.swapaxes(scaled, -1, -2)
         arm = np.where(dynamics.coordinates.rotary, dynamics.motion.length, 1.0)
@@ -155,9 +155,12 @@ class Forces:
         if not self.determined:
             raise ModelError(
                 "joint reactions",
-                "are not determined: the linkage is over-constrained or driven redundantly. Rigid "
-                "bodies do not tell how its joints share a load.",
-                "Ask the elastic structure (`strutwork solve`), or free the redundant directions.",
+                "are not determined: the linkage is over-constrained or driven redundantly. "
+                "Rigid bodies do not determine how its joints share a load.",
+                (
+                    "Solve the elastic structure (`strutwork solve`), or free the redundant "
+                    "directions."
+                ),
             )
         placed = self.at.placed
         driven = np.einsum("pan,pa->pn", placed.drives_on_bodies, self.drives)
@@ -172,7 +175,7 @@ class Forces:
 def inverse_dynamics(
     at: PlacedDynamics, rates: ArrayLike, changes: ArrayLike, wrench: ArrayLike = 0.0
 ) -> Forces:
-    """Forces that make a motion.
+    """Drive forces that produce a motion.
 
     Parameters
     ----------

@@ -102,9 +102,9 @@ class Dynamics:
             first = int(np.flatnonzero(placed.singular)[0])
             raise SingularPoseError(
                 f"pose {first}",
-                f"is singular: there {', '.join(self.coordinates.labels)} do not tell how the "
-                "bodies move (a leg at the end of its working mode).",
-                "Leave such poses out, or describe the motion by other coordinates.",
+                f"is singular: there {', '.join(self.coordinates.labels)} do not determine how "
+                "the bodies move (a leg is at the end of its working mode).",
+                "Omit such poses, or describe the motion by other coordinates.",
             )
         made = PlacedDynamics(self, placed)
         if self.bodies.idle:
@@ -206,9 +206,9 @@ class PlacedDynamics:
         if len(bad):
             raise ModelError(
                 f"body {self.of.bodies.idle[int(bad[0, 2])]}",
-                "turns freely about a line about which its mass is not balanced: the coordinates "
-                "do not tell how it moves.",
-                "Hold or drive the joint that lets it, or give a coordinate of that joint.",
+                "rotates freely about a line about which its mass is not balanced: the "
+                "coordinates do not determine how it moves.",
+                "Hold or drive the joint that lets it move, or give a coordinate of that joint.",
             )
 
     def coriolis(self, rates: ArrayLike) -> Array:

@@ -94,7 +94,7 @@ def error_transmission(
     """
     tool = linkage.tool_body
     if tool < 0:
-        raise ModelError("tool", "stands on the ground.", "Name a node of a moving body.")
+        raise ModelError("tool", "is on the ground.", "Name a node of a moving body.")
     held = linkage.elastic_or_locked()
     rows = list(zip(*np.nonzero(held), strict=True))
     number = {(linkage.joints[j].name, DIRECTIONS[d]): n for n, (j, d) in enumerate(rows)}
@@ -109,7 +109,7 @@ def error_transmission(
         if (joint, direction) not in number:
             raise ModelError(
                 f"joint {joint}",
-                f"is free in {direction}: an error there moves no tool.",
+                f"is free in {direction}: an error there does not move the tool.",
                 "Name a locked, elastic or driven direction.",
             )
     pick = np.array([number[c] for c in chosen], dtype=np.intp)

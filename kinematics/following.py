@@ -225,7 +225,7 @@ def fastest(followed: Followed, limits: ArrayLike) -> float:
     allowed = np.asarray(limits, dtype=float)
     if allowed.shape != followed.speeds.shape[1:] or not np.all(allowed > 0):
         raise ModelError(
-            "speed limits", "are not one positive number a drive.", "Give m/s or rad/s, or inf."
+            "speed limits", "are not one positive number per drive.", "Give m/s or rad/s, or inf."
         )
     return float((np.abs(followed.speeds) / allowed).max(initial=0.0))
 
@@ -314,5 +314,5 @@ def _require_time(dynamics: Dynamics, trajectory: Trajectory, times: Array) -> N
         raise ModelError(
             "trajectory",
             f"has {count:,} poses; they would take about {hours:.2g} hours and {gigabytes:.2g} GB.",
-            f"Take fewer samples: {LARGEST:,} poses or {HOURS:g} hours are the most.",
+            f"Use fewer samples: at most {LARGEST:,} poses or {HOURS:g} hours are allowed.",
         )

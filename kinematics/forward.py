@@ -32,22 +32,22 @@ TURN, SHIFT = 0.2, 0.2
 SHORTEST = 1e-9
 
 SINGULAR_PARALLEL = (
-    "a parallel singularity lies on the way: there the drives do not hold the tool, and other "
+    "a parallel singularity lies on the path: there the drives do not hold the tool, and other "
     "assembly modes begin"
 )
 SINGULAR_SERIAL = (
-    "a serial singularity lies on the way: there a leg reaches the end of its working mode"
+    "a serial singularity lies on the path: there a leg reaches the end of its working mode"
 )
-NOT_CONVERGED = "the way was not walked to its end in the steps allowed"
-CONTRADICT = "the drive coordinates contradict one another: no pose near the way has them"
+NOT_CONVERGED = "the path was not followed to its end within the steps allowed"
+CONTRADICT = "the drive coordinates contradict one another: no pose near the path has them"
 NOT_FINITE = "a drive coordinate is not finite"
-AT_START = "the start cannot be taken"
+AT_START = "the start cannot be reached"
 START_SINGULAR = "the start is a singular pose, from which no branch can be followed"
 
 
 @dataclass(frozen=True)
 class FoundPoses(Poses):
-    """Poses of forward kinematics, and why some have none.
+    """Poses of forward kinematics, with the reasons for missing ones.
 
     Parameters
     ----------
@@ -110,8 +110,8 @@ class FoundPoses(Poses):
         raise _kind(self.reasons[code - 1])(
             f"forward kinematics{where}",
             f"{self.reason(first)}; {len(bad)} of {self.status.size} poses were not found.",
-            "Start closer to the pose, on its side of the singularity, go there by way of others, "
-            "or check that the drive coordinates can be reached.",
+            "Start closer to the pose, on its side of the singularity, go there through other "
+            "poses, or check that the drive coordinates can be reached.",
         )
 
     def __getitem__(self, index: Any) -> FoundPoses:
@@ -171,7 +171,7 @@ def forward_kinematics(
         raise ModelError(
             "forward kinematics",
             f"got drive coordinates of shape {target.shape} for {drives} drives.",
-            "Give one coordinate a drive, in the order of the linkage's driven directions.",
+            "Give one coordinate per drive, in the order of the linkage's driven directions.",
         )
     batch = np.broadcast_shapes(target.shape[:-1], start.batch)
     count = int(np.prod(batch, dtype=int))

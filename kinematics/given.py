@@ -135,7 +135,7 @@ def given(
         )
     except ValueError as error:
         raise ModelError(
-            part, "has targets whose shapes do not go together.", "Give arrays that broadcast."
+            part, "has targets whose shapes do not match.", "Give arrays that broadcast."
         ) from error
     index = [joints.names.index(pair) for pair in pairs]
     values = _flat(batch, [(wanted or {})[pair] for pair in pairs]) - home_values[index]
@@ -186,7 +186,7 @@ def _check_coordinate(joints: JointMotion, pair: tuple[str, str]) -> None:
         ):
             raise ModelError(
                 f"joint {name}",
-                f"turns freely in all ways: {direction} alone is no coordinate of it.",
+                f"rotates freely in all directions: {direction} alone is not a coordinate of it.",
                 f"Give the pose of the tool, or make the {joint.type} joint of single ones.",
             )
         return

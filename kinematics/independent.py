@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
@@ -17,6 +16,9 @@ Array = NDArray[Any]
 
 #: Share of a row that is left beside the others below which it depends on them.
 DEPENDENT = 1e-7
+
+#: Rows up to which their singular values cost less than loading SciPy for a pivoted QR.
+FEW = 300
 
 
 def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
@@ -122,7 +124,15 @@ def _held(rows: Array) -> tuple[list[int], Array]:
     """Independent rows among those of the joints, and an orthonormal basis of their span."""
     if not len(rows):
         return [], np.zeros((rows.shape[1], 0))
-    directions, triangle, order = scipy.linalg.qr(rows.T, mode="economic", pivoting=True)
+    if len(rows) <= FEW:
+        _, values, right = np.linalg.svd(rows, full_matrices=False)
+        # no pivot is less than the least singular value: none of these rows depends on others
+        if len(values) == len(rows) and values[-1] > RANK_TOLERANCE * values[0]:
+            return list(range(len(rows))), right.T
+    # loading SciPy takes longer than all else that a machine without redundant rows needs
+    from scipy.linalg import qr  # noqa: PLC0415
+
+    directions, triangle, order = qr(rows.T, mode="economic", pivoting=True)
     sizes = np.abs(np.diagonal(triangle))
     count = int(np.sum(sizes > RANK_TOLERANCE * sizes.max(initial=0.0)))
     return list(np.sort(order[:count])), directions[:, :count]

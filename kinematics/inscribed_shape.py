@@ -49,7 +49,9 @@ class InscribedShape:
         if half.ndim != 1 or not np.all((half > 0) & np.isfinite(half)):
             raise ModelError("shape", f"has the halves {half}.", "Give positive numbers.")
         if turn.shape != (half.size,) * 2 or np.abs(turn @ turn.T - np.eye(half.size)).max() > 1e-9:
-            raise ModelError("shape", "has a rotation that is none.", "Give orthonormal columns.")
+            raise ModelError(
+                "shape", "has a matrix that is not a rotation.", "Give orthonormal columns."
+            )
         if self.kind == "cylinder" and (half.size != 3 or half[0] != half[1]):
             raise ModelError(
                 "shape",

@@ -25,7 +25,7 @@ PIECE = 2048
 
 @dataclass(frozen=True)
 class InverseSurvey:
-    """What poses ask of a mechanism, without where its bodies then are.
+    """Drive coordinates and margins at poses, without the positions of the bodies.
 
     Parameters
     ----------

@@ -259,7 +259,7 @@ def jacobians(
     if tool_body < 0 or not driven_mask.any():
         raise ModelError(
             "linkage",
-            "the tool stands on the ground." if tool_body < 0 else "has no driven direction.",
+            "the tool is on the ground." if tool_body < 0 else "has no driven direction.",
             "Jacobians need a moving tool and at least one driven direction.",
         )
     batch = placement.batch
@@ -275,7 +275,7 @@ def jacobians(
     if found is None and method == "legs":
         raise ModelError(
             "linkage",
-            "does not fall into legs that each let the tool move in six ways.",
+            "does not split into legs that each let the tool move in six directions.",
             'Choose method = "rows".',
         )
     if found is None:

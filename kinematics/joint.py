@@ -33,7 +33,7 @@ JOINT_TYPES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 
 class State(IntEnum):
-    """What a joint direction does in statics, where driven directions are held."""
+    """State of a joint direction in statics, where driven directions are held."""
 
     FREE = 0
     LOCKED = 1
@@ -98,7 +98,7 @@ class Joint:
             raise ModelError(
                 part,
                 f'joins node "{self.between[0]}" to itself.',
-                "Give the joint two nodes at the same place, one of each side.",
+                "Give the joint two nodes at the same place, one on each side.",
             )
         for what, named in (
             ("stiffness", self.stiffness),
@@ -159,14 +159,14 @@ class Joint:
             raise ModelError(
                 part,
                 f"is helical with the pitch {self.pitch!r}.",
-                "Give its way along the axis for one turn, m, not zero; negative for a left-hand "
+                "Give its travel along the axis per turn, m, not zero; negative for a left-hand "
                 "thread.",
             )
         if "z" in (*self.stiffness, *self.damping, *self.limits, *self.driven):
             raise ModelError(
                 part,
                 "is helical: z follows rz and takes no stiffness, damping, limit or drive.",
-                "Name rz, which is free; put the nut's stiffness into a bushing beside it.",
+                "Name rz, which is free; give the nut's stiffness to a bushing beside it.",
             )
 
     def _check_driven(self, part: str) -> None:
@@ -222,6 +222,6 @@ def _check_matrix(part: str, matrix: NDArray[np.float64]) -> None:
     if np.linalg.eigvalsh(matrix / np.outer(scale, scale)).min() < -1e-9:
         raise ModelError(
             part,
-            "matrix has a negative eigenvalue: it would give energy away.",
+            "matrix has a negative eigenvalue: it would release energy.",
             "Check signs and the order x y z rx ry rz.",
         )

@@ -32,7 +32,7 @@ ROUNDS = 10
 
 @dataclass(frozen=True)
 class LargestShape:
-    """The largest shape of the search, and what keeps it from being larger.
+    """The largest shape found, and what limits its size.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def _seeds(grid: MarginGrid) -> Array:
     good = np.argwhere(grid.good)
     if not good.size:
         raise ModelError(
-            "shape", "finds no good pose in the grid.", "Move the grid, or take a finer one."
+            "shape", "finds no good pose in the grid.", "Move the grid, or use a finer one."
         )
     good = good[:: -(-len(good) // SEEDS)]
     return np.stack([axis[good[:, k]] for k, axis in enumerate(grid.axes)], axis=-1)
@@ -216,6 +216,6 @@ def _confirmed(
 def _lost() -> NumericalError:
     return NumericalError(
         "shape",
-        f"holds bad points wherever it is put, {ROUNDS} times.",
-        "Take a finer grid: the workspace has gaps that this one does not see.",
+        f"contains bad points wherever it is placed, in {ROUNDS} attempts.",
+        "Use a finer grid: the workspace has gaps that this one does not resolve.",
     )

@@ -30,8 +30,8 @@ BELIEVED = 1e-6
 ROUGHLY, ROUGH = 1e-2, 1e-6
 
 ENDS = (
-    "out of reach: on the way the leg of {} comes to the end of its working mode",
-    "the way of the leg of {} was not walked to its end in the steps allowed",
+    "out of reach: on the path the leg of {} reaches the end of its working mode",
+    "the path of the leg of {} was not followed to its end within the steps allowed",
 )
 
 

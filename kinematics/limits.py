@@ -52,7 +52,7 @@ class Limit:
 
 
 def joint_limits(linkage: Linkage) -> tuple[Limit, ...]:
-    """The ranges that the joints of a linkage state themselves.
+    """The ranges that the joints of a linkage define.
 
     Parameters
     ----------

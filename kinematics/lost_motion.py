@@ -57,13 +57,16 @@ class Kind(Enum):
 
 
 _MEANING = {
-    Kind.END_EFFECTOR: "drives move while the tool stands, which has lost a motion (type 1)",
-    Kind.ACTUATOR: "the tool moves although the drives are held (type 2)",
-    Kind.BOTH: "drives move at a standing tool and the tool at held drives (type 3)",
-    Kind.CONFIGURATION: "the joints alone lose a condition: the linkage can branch",
-    Kind.TURN: "the coordinates turn back, while the tool still moves in others",
+    Kind.END_EFFECTOR: "drives can move while the tool stands still, having lost a motion (type 1)",
+    Kind.ACTUATOR: "the tool can move although the drives are held (type 2)",
+    Kind.BOTH: (
+        "drives can move while the tool stands still, and the tool while the drives are held "
+        "(type 3)"
+    ),
+    Kind.CONFIGURATION: "the joints alone lose a constraint: the linkage can branch",
+    Kind.TURN: "the coordinates reverse, while the tool still moves in others",
     Kind.LIMIT: "a joint is at the end of its range",
-    Kind.UNKNOWN: "the way ends, and no singularity was found there",
+    Kind.UNKNOWN: "the path ends without a singularity there",
 }
 
 
@@ -143,13 +146,13 @@ def _at_held_drives(linkage: Linkage, placement: Placement, length: float) -> Lo
     twists = motion.T @ tool.T if motion.size else np.zeros((0, 6))
     continuous = _continuous(linkage, placement, rows, motion, length)
     words = {
-        True: "the motion goes on at held drives, to second order (degenerate)",
+        True: "the motion continues with the drives held, to second order (degenerate)",
         False: "isolated: the motion ends at second order",
-        None: "second order does not decide whether the motion goes on",
+        None: "second order does not decide whether the motion continues",
     }[continuous]
     twist = _twist(twists[0], length) if len(twists) else None
     moving = _named(linkage, placement, motion, length, drives=False)
-    text = "" if twist is None else f"at held drives the tool {twist_words(twist, length)}; "
+    text = "" if twist is None else f"with the drives held the tool {twist_words(twist, length)}; "
     return Lost(twist, moving, continuous, f"{text}{words}")
 
 
@@ -191,7 +194,7 @@ def _of_the_joints(linkage: Linkage, placement: Placement, length: float, known:
         linkage.joints[j].name for j in joints[force > STILL * force.max(initial=1e-30)]
     )
     return Lost(
-        None, moving, None, "joints that lose a condition: " + ", ".join(loaded or {"none": 0})
+        None, moving, None, "joints that lose a constraint: " + ", ".join(loaded or {"none": 0})
     )
 
 

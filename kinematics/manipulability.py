@@ -18,7 +18,7 @@ FLAT = 1e-14
 
 @dataclass(frozen=True)
 class VelocityEllipsoid:
-    """Tool velocities that drive rates of size one can make.
+    """Tool velocities for drive rates of unit norm.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class VelocityEllipsoid:
 
 
 def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
-    """Velocity ellipsoid of some of the tool's freedoms, the others held (Son 2002, eqs 11-13).
+    """Velocity ellipsoid of some tool directions, the others held (Son 2002, eqs 11-13).
 
     With drive rates C v for a tool velocity v the ellipsoid is vᵀ Cᵀ C v = 1; its semi-axes are
     the inverse singular values of C.
@@ -85,13 +85,13 @@ def velocity_ellipsoid(inverse: ArrayLike) -> VelocityEllipsoid:
         raise ModelError(
             "velocity ellipsoid",
             f"got an inverse Jacobian of shape {matrix.shape}.",
-            "Give one row a drive and one column a freedom, with at least as many rows.",
+            "Give one row per drive and one column per freedom, with at least as many rows.",
         )
     if np.any(np.isnan(matrix)):
         raise ModelError(
             "velocity ellipsoid",
             "got an inverse Jacobian with entries that are not numbers.",
-            "Leave out poses that the machine cannot take.",
+            "Omit poses that the machine cannot reach.",
         )
     freedoms = matrix.shape[-1]
     stuck = np.isinf(matrix).any(axis=-2)

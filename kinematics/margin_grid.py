@@ -205,7 +205,9 @@ def check_axes(directions: Sequence[str], axes: Sequence[Array]) -> None:
         step = np.diff(axis)
         if not np.all(np.isfinite(axis)) or step[0] <= 0 or np.ptp(step) > 1e-6 * step[0]:
             raise ModelError(
-                f"workspace in {name}", "does not rise evenly.", "Give numpy.linspace(low, high)."
+                f"workspace in {name}",
+                "is not evenly spaced and ascending.",
+                "Give numpy.linspace(low, high).",
             )
 
 

@@ -45,7 +45,7 @@ class JointRange(Protocol):
 
 @dataclass(frozen=True)
 class Margins:
-    """Margins of a batch of poses, and what each is least by.
+    """Margins of a batch of poses, and the smallest slack of each.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class FreeMotion:
 
 @dataclass(frozen=True)
 class SelfStress:
-    """A set of joint forces in balance without any load.
+    """A set of joint forces in equilibrium without any load.
 
     Parameters
     ----------

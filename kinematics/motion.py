@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from strutwork.errors import ModelError
 from strutwork.kinematics.given import Given, given
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
@@ -31,7 +32,7 @@ PIECE = 1024
 
 @dataclass(frozen=True)
 class Moved:
-    """Where a linkage was moved to.
+    """Configurations that a linkage was moved to.
 
     Parameters
     ----------
@@ -84,7 +85,7 @@ class Moved:
 
 @dataclass(frozen=True)
 class Motion:
-    """How a linkage moves: rigid bodies, whose joints' held directions stay closed.
+    """Motion of a linkage of rigid bodies that keeps the locked joint directions closed.
 
     Parameters
     ----------
@@ -255,10 +256,17 @@ class Motion:
         ModelError
             Names a direction in which the joints hold it.
         """
-        for direction in directions:
-            task = {direction: 0.0}
-            wanted = given(self.joints, self.home_pose, self.home_values, None, task, None)
-            Walk(self.joints, self.rotation, wanted)
+        try:
+            # directions that are independent together are so one by one
+            self._require(directions)
+        except ModelError:
+            for direction in directions:
+                self._require([direction])
+
+    def _require(self, directions: Sequence[str]) -> None:
+        task = dict.fromkeys(directions, 0.0)
+        wanted = given(self.joints, self.home_pose, self.home_values, None, task, None)
+        Walk(self.joints, self.rotation, wanted)
 
     def place(self, poses: Poses) -> Placement:
         """Inverse kinematics of poses of the tool; those that cannot be taken are marked.

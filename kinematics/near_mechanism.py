@@ -47,7 +47,7 @@ class NearMechanism:
 
 
 def near_motions(linkage: Linkage, placement: Placement) -> tuple[NearMechanism, ...]:
-    """Motions that would be free if coordinates agreed to all digits, at a single pose.
+    """Motions that would be free if coordinates agreed exactly, at a single pose.
 
     Elastic directions count as locked, and drives as held. The singular values of each block of
     the linkage's graph are looked at by themselves, so that no unrelated part changes them.
@@ -91,8 +91,8 @@ def _near(values: Array) -> NDArray[np.intp]:
 
 def _named(motion: FreeMotion, share: float) -> NearMechanism:
     text = (
-        f"nearly free: {motion.description}. Only disagreement of {share:.1g} between the joints "
-        "of the loop locks it, as coordinates of few digits leave; "
-        "forces there are as large as that is small."
+        f"nearly free: {motion.description}. Only a disagreement of {share:.1g} between the "
+        "joints of the loop locks it, as when coordinates have few digits; the smaller it is, "
+        "the larger are the forces there."
     )
     return NearMechanism(motion, share, text)

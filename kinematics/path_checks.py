@@ -70,7 +70,7 @@ def placed_along(
         first = int(bad[0])
         raise UnreachableError(
             _place(trajectory, float(times[first])),
-            f"cannot be taken: {moved.placement.reason(first)}.",
+            f"cannot be reached: {moved.placement.reason(first)}.",
             "Keep the path within reach of the machine.",
         )
     placed = dynamics.bodies.at(moved)
@@ -95,7 +95,7 @@ def singular_at(trajectory: Trajectory, when: float, kind: str) -> SingularPoseE
     return SingularPoseError(
         _place(trajectory, when),
         f"passes through a singularity, {kind}.",
-        "Lead the path round it.",
+        "Lead the path around it.",
     )
 
 

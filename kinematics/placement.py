@@ -89,9 +89,9 @@ class Placement:
             first = tuple(int(i) for i in bad[0])
             raise UnreachableError(
                 f"pose {first[0] if len(first) == 1 else first}",
-                f"cannot be taken: {self.reason(first)} "
-                f"({len(bad)} of {self.reachable.size} poses are like it).",
-                "Move the pose into the workspace, or use `reachable` to leave such poses out.",
+                f"cannot be reached: {self.reason(first)} ({len(bad)} of {self.reachable.size} "
+                "poses are not reached).",
+                "Move the pose into the workspace, or use `reachable` to omit such poses.",
             )
         return self
 
@@ -124,7 +124,7 @@ class Placement:
 
 
 def check_coincidence(linkage: Linkage, placement: Placement) -> None:
-    """Check that the two nodes of every joint stand at the same place.
+    """Check that the two nodes of every joint coincide.
 
     Parameters
     ----------

@@ -79,10 +79,10 @@ def platform_circles(linkage: Linkage, placement: Placement) -> PlatformCircles 
     """
     paths = leg_paths(linkage)
     if paths is None:
-        return "the linkage does not fall into legs between ground and platform"
+        return "the linkage does not split into legs between ground and platform"
     legs = [_leg(linkage, path) for path in paths]
     if any(leg is None for leg in legs):
-        return "a leg does not end in a ball on the platform, or slides with its drives held"
+        return "a leg does not end in a ball joint on the platform, or slides with its drives held"
     known = [leg for leg in legs if leg is not None]
     groups = _groups(known, placement)
     if len(groups) != 3:
@@ -96,12 +96,12 @@ def platform_circles(linkage: Linkage, placement: Placement) -> PlatformCircles 
             circles.append(_about_line(group, placement))
         else:
             name = linkage.joints[group[0].ball].name
-            return f"{name} does not run on a circle with the drives held"
+            return f"{name} does not move on a circle with the drives held"
     centre, first, radius, axis = (
         np.stack([c[k] for c in circles], axis=-2 if k != 2 else -1) for k in range(4)
     )
     if not np.all(radius[placement.reachable] > COINCIDENCE):
-        return "a joint of the platform stands on the axis about which it would turn"
+        return "a joint of the platform lies on the axis about which it would rotate"
     names = tuple(linkage.joints[group[0].ball].name for group in groups)
     return PlatformCircles(centre, first, cross(axis, first), radius, names)
 

@@ -104,14 +104,16 @@ class Polytope:
         rank = np.linalg.matrix_rank(self.normals)
         if rank < self.normals.shape[1] or not np.all(b > 0.0):
             raise NumericalError(
-                "polytope", "has no end or no inside.", "The pose is singular: take another."
+                "polytope",
+                "is unbounded or has no interior.",
+                "The pose is singular: choose another.",
             )
         half = np.concatenate([rows, -b[:, None]], axis=1)
         try:
             found = HalfspaceIntersection(half, np.zeros(rows.shape[1])).intersections
         except QhullError as error:
             raise NumericalError(
-                "polytope", f"has no vertices that can be told apart: {error}", "Take another pose."
+                "polytope", f"has no distinct vertices: {error}", "Take another pose."
             ) from error
         scale = np.abs(found).max()
         _, index = np.unique(np.round(found / scale, 10), axis=0, return_index=True)

@@ -189,7 +189,7 @@ class PoseFamily:
         if not reach.any() and self.known is None:
             raise ModelError(
                 "section",
-                f"no pose of the {len(parameters)} can be taken: {words[-1]}.",
+                f"no pose of the {len(parameters)} can be reached: {words[-1]}.",
                 "Move it into the machine's reach.",
             )
         found = joined(placements) if placements else self.place(parameters)

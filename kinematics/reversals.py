@@ -29,7 +29,7 @@ STILL = 1e-9
 
 @dataclass(frozen=True)
 class Reversals:
-    """What the drives do over a patch of a surface.
+    """Behaviour of the drives over a patch of a surface.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ class Reversals:
         """
         g = self.field.gradient(np.asarray(point, dtype=float)[None])[0]
         if np.isnan(g).any():
-            raise UnreachableError("point", "cannot be taken.", "Take one within reach.")
+            raise UnreachableError("point", "cannot be reached.", "Choose one within reach.")
         still = np.setdiff1d(np.arange(len(g)), self.moving)
         g[still] = 0.0
         return sectors(g)
@@ -181,7 +181,7 @@ def reversals(field: DriveField, u: ArrayLike, v: ArrayLike) -> Reversals:
         if axis.ndim != 1 or len(axis) < 3 or not np.all(np.diff(axis) > 0.0):
             raise ModelError(
                 f"{name} parameter",
-                "is no ascending row of three values or more.",
+                "is not an ascending row of three or more values.",
                 "Give a range from a lower to a higher value.",
             )
     patch = Patch(*axes)
@@ -189,7 +189,7 @@ def reversals(field: DriveField, u: ArrayLike, v: ArrayLike) -> Reversals:
     if np.isnan(gradient).any(axis=(1, 2)).all():
         raise UnreachableError(
             "surface",
-            "has no point that the machine can take.",
+            "has no point that the machine can reach.",
             "Move the range into its reach.",
         )
     shape = (len(patch.u), len(patch.v), *gradient.shape[1:])

@@ -203,7 +203,9 @@ def decompose(graph: RigidGraph) -> Blocks:
     group, tree = _grouped(graph)
     ends = [np.where(side >= 0, group[side], -1) for side in (graph.first, graph.second)]
     used = np.concatenate([rows for rows, _, _ in tree]) if tree else np.zeros(0, dtype=np.intp)
-    left = np.setdiff1d(np.arange(len(graph.axes)), used)
+    unused = np.ones(len(graph.axes), dtype=bool)
+    unused[used] = False
+    left = np.flatnonzero(unused)
     inside = ends[0][left] == ends[1][left]
     outer = left[~inside]
     count = int(group.max(initial=-1)) + 1

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy.linalg as sl
 from numpy.typing import NDArray
 
 from strutwork.kinematics.rigid_graph import Block, Blocks, RigidGraph
@@ -69,7 +68,10 @@ def _left_null(block: Block, tolerance: float) -> list[tuple[Ints, Array]]:
     rank = int(np.count_nonzero(block.values > tolerance * largest))
     if rank == count:
         return []
-    _, order = sl.qr(block.matrix.T, mode="r", pivoting=True)
+    # SciPy takes longer to load than a check of a small machine, which needs no block of many rows
+    from scipy.linalg import qr  # noqa: PLC0415
+
+    _, order = qr(block.matrix.T, mode="r", pivoting=True)
     chosen, others = order[:rank], order[rank:]
     shares = np.linalg.lstsq(block.matrix[chosen].T, block.matrix[others].T, rcond=None)[0]
     states = []

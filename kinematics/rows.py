@@ -241,7 +241,7 @@ def characteristic_length(placement: Placement) -> float:
         (...); any batch axes.
     """
     sizes = characteristic_lengths(placement)[placement.reachable]
-    return float(np.median(sizes)) if sizes.size else 1.0
+    return float(_median(sizes)) if sizes.size else 1.0
 
 
 def characteristic_lengths(placement: Placement) -> Array:
@@ -280,8 +280,16 @@ def _marks(points: Array) -> NDArray[np.bool_]:
     for i in sorted({0, count // 2, count - 1}) if count else ():
         apart = np.linalg.norm(points - points[..., i : i + 1, :], axis=-1)
         # two nodes of a joint are one place, whatever rounding has left between them
-        usual = np.median(np.where(apart > COINCIDENCE, apart, 0.0), axis=-1)
+        usual = _median(np.where(apart > COINCIDENCE, apart, 0.0))
         better = (usual > 0) & (usual < best)
         best = np.where(better, usual, best)
         far = np.where(better[..., None], apart > FAR * usual[..., None], far)
     return far
+
+
+def _median(values: Array) -> Array:
+    """Median along the last axis, none of them NaN: NumPy's own reads `numpy.ma` to look for it."""
+    count = values.shape[-1]
+    low, high = (count - 1) // 2, count // 2
+    parted = np.partition(values, (low, high), axis=-1)
+    return np.asarray(0.5 * (parted[..., low] + parted[..., high]))

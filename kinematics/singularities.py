@@ -32,7 +32,7 @@ SAME = 1e-6
 def singularities_on_line(
     family: PoseFamily, values: ArrayLike, progress: Progress | None = None
 ) -> tuple[Singularity, ...]:
-    """Singular poses and ends of reach along a line of poses, in its order.
+    """Singular poses and limits of reach along a line of poses, in its order.
 
     Between neighbours a minor of the motions' tool or drive part changes its sign at a simple
     singularity; others (where it touches zero, or of machines with more drives than freedoms)

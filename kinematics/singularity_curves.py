@@ -54,7 +54,7 @@ CELL = 1.5
 
 @dataclass(frozen=True)
 class SingularCurve:
-    """A curve of singular poses, or a piece of the border of reach.
+    """A curve of singular poses, or a section of the limit of reach.
 
     Parameters
     ----------
@@ -214,9 +214,9 @@ def _checked(family: PoseFamily, axes: tuple[ArrayLike, ArrayLike]) -> tuple[Arr
     if count > LARGEST:
         raise ModelError(
             "plane",
-            f"has {count:,} poses, more than the {LARGEST:,} that are taken: about "
+            f"has {count:,} poses, more than the {LARGEST:,} that are allowed: about "
             f"{SECONDS * count / 60:.0f} minutes and {BYTES * count / 1e9:.1f} GB.",
-            "Take fewer steps: curves are refined whatever the grid.",
+            "Use fewer steps: curves are refined whatever the grid.",
         )
     return x, y
 

@@ -23,7 +23,7 @@ ENDLESS = 10**12
 
 @dataclass(frozen=True)
 class TaskGrid:
-    """Values along task coordinates, each with each.
+    """Grid of values along task coordinates.
 
     Parameters
     ----------
@@ -58,8 +58,8 @@ class TaskGrid:
             raise ModelError(
                 "workspace",
                 f"has {count:.3g} poses: {8e-12 * count * len(self.axes):.3g} TB of coordinates "
-                f"alone, and {count / 1e3 / 3.2e7:.2g} years at a thousand poses a second.",
-                "Take fewer points along a direction.",
+                f"alone, and {count / 1e3 / 3.2e7:.2g} years at a thousand poses per second.",
+                "Use fewer points along a direction.",
             )
 
     def __len__(self) -> int:
@@ -89,9 +89,9 @@ class TaskGrid:
         if len(self) > LARGEST:
             raise ModelError(
                 "workspace",
-                f"has {len(self):,} poses, more than the {LARGEST:,} that are taken: "
+                f"has {len(self):,} poses, more than the {LARGEST:,} that are allowed: "
                 f"{8e-9 * len(self) * len(self.axes):.3g} GB of coordinates alone.",
-                "Take fewer points along a direction.",
+                "Use fewer points along a direction.",
             )
         grids = np.meshgrid(*self.axes.values(), indexing="ij")
         return {name: g.ravel() for name, g in zip(self.axes, grids, strict=True)}

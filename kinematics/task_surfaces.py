@@ -164,7 +164,7 @@ def sphere(radius: float, top: ArrayLike) -> Height:
             raise ModelError(
                 "surface",
                 f"reaches beyond the sphere's radius of {1e3 * radius:g} mm.",
-                "Take a smaller range, or a larger radius.",
+                "Use a smaller range, or a larger radius.",
             )
         rise = np.sqrt(left)[:, None]
         slope = -aside / rise

@@ -51,7 +51,7 @@ class Freedoms:
 
 @dataclass(frozen=True)
 class ToolDriveSpace:
-    """Motions that the passive joints allow, reduced to what tool and drives do in them.
+    """Motions that the passive joints allow, reduced to the motions of tool and drives.
 
     The columns of `basis` are an orthonormal basis of that space: twist of the tool (v, L ω) over
     rates of the drives (m/s, L rad/s). A unit motion in which the drives stand has a drive part
@@ -309,8 +309,8 @@ def _ranks(parts: list[_Rows], drives: int) -> Freedoms:
     if drives < freedoms:
         raise ModelError(
             "drives",
-            f"are {drives}, and the machine has {freedoms} freedoms: it moves at held drives "
-            "everywhere.",
+            f"are {drives}, and the machine has {freedoms} freedoms: it can move with the drives "
+            "held everywhere.",
             "Drive as many joint directions as `strutwork check` counts freedoms.",
         )
     # directions of the tool that tell its motions apart best over all poses
@@ -338,7 +338,7 @@ def check_driven(linkage: Linkage, length: ArrayLike | None = None) -> None:
     if body < 0 or not linkage.driven:
         raise ModelError(
             "linkage",
-            "the tool stands on the ground." if body < 0 else "has no driven direction.",
+            "the tool is on the ground." if body < 0 else "has no driven direction.",
             "Singularities need a moving tool and at least one driven direction.",
         )
     if length is not None and not (np.isfinite(length) and float(np.asarray(length)) > 0.0):

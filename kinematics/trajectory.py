@@ -131,7 +131,7 @@ def sampled(
     if (rates is None) != (changes is None):
         raise ModelError(
             "trajectory",
-            "has first or second derivatives alone.",
+            "has only first or only second derivatives.",
             "Give speeds and accelerations, or neither.",
         )
     given = [x, *(np.asarray(d, dtype=float) for d in (rates, changes) if d is not None)]
@@ -139,7 +139,7 @@ def sampled(
         raise ModelError(
             "trajectory",
             f"has {t.shape} times and values {x.shape} of {len(coordinates)} coordinates.",
-            "Give a row a time and a column a coordinate.",
+            "Give a row per time and a column per coordinate.",
         )
     _check_times(t, 2 if rates is not None else FEWEST)
     bad = np.flatnonzero(~np.isfinite(np.concatenate(given, axis=1)).all(axis=1))
@@ -172,7 +172,7 @@ def _check_times(t: Array, fewest: int) -> None:
         raise ModelError(
             "trajectory",
             f"has a time that does not ascend: {t[bad[0] + 1]:g} s after {t[bad[0]]:g} s.",
-            "Sort the samples by time, and leave out what is twice there.",
+            "Sort the samples by time, and remove duplicates.",
         )
 
 

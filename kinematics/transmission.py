@@ -34,7 +34,7 @@ _SLICES = {"translation": slice(0, 3), "rotation": slice(3, 6), "all": slice(0, 
 
 @dataclass(frozen=True)
 class Ellipsoids:
-    """What drives of size one do at the tool.
+    """Effect of drives of unit norm at the tool.
 
     Parameters
     ----------
@@ -79,7 +79,7 @@ def velocity_ellipsoids(
     others: Others = "free",
     weights: Sequence[float] | None = None,
 ) -> Ellipsoids:
-    """Velocities of the tool for drive rates whose weighted squares sum up to one.
+    """Velocities of the tool for drive rates whose weighted squares add up to one.
 
     Also error ellipsoids: for small errors of the drives the same holds.
 
@@ -148,7 +148,7 @@ def force_ellipsoids(
     others: Others = "free",
     weights: Sequence[float] | None = None,
 ) -> Ellipsoids:
-    """Forces that the tool can bear for drive forces whose weighted squares sum up to one.
+    """Forces that the tool can carry for drive forces whose weighted squares add up to one.
 
     By the principle of virtual power they are the reciprocals of the velocity ellipsoids. A
     machine with less freedoms than six bears the rest by its joints: such directions have no

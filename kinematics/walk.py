@@ -40,17 +40,20 @@ BESIDE = 1e-2
 #: How many times better the condition of other rows must be, and the first step with them.
 BETTER, RESTART = 2.0, 1e-2
 
-REACH = "out of reach: on the way a leg comes to the end of its working mode"
+REACH = "out of reach: on the path a leg reaches the end of its working mode"
 PARALLEL = (
-    "a parallel singularity (type 2) lies on the way, where what is given no longer holds the tool"
+    "a parallel singularity (type 2) lies on the path, where the given coordinates no longer "
+    "hold the tool"
 )
-CONTRADICT = "what is given contradicts itself or the joints: no pose near the way has it"
+CONTRADICT = (
+    "the given coordinates contradict one another or the joints: no pose near the path has them"
+)
 SPECIAL = (
     "home is a special position, such as links in one line or a flat parallelogram, where the "
-    "joints allow motions that end at once or part into branches: give a home beside it, or "
+    "joints allow motions that end at once or split into branches: give a home beside it, or "
     "coordinates of further joints that name the branch"
 )
-LOST = "the way was not walked to its end in the steps allowed"
+LOST = "the path was not followed to its end within the steps allowed"
 
 
 class Walk(WalkRows):
@@ -226,7 +229,7 @@ class Walk(WalkRows):
         words = ", ".join(names[k] for k in sorted(late))
         return (
             f"; {len(names)} coordinates are given for {free} freedoms, and {words} "
-            f"follow{'s' * (len(late) == 1)} from the others: leave out {len(late)} of them"
+            f"follow{'s' * (len(late) == 1)} from the others: omit {len(late)} of them"
         )
 
     def _end(self, at: Indices, reason: str) -> None:

@@ -84,7 +84,9 @@ class WalkRows:
         self.kept, self.independent = independent_rows(matrix[0], len(held))
         self.held_rows = len(held)
         # what follows from the rest of what is given agrees at the target, not on the straight way
-        late = np.setdiff1d(np.arange(self.held_rows, len(matrix[0])), self.kept)
+        given = np.arange(len(matrix[0])) >= self.held_rows
+        given[self.kept] = False
+        late = np.flatnonzero(given)
         self.late = late if wanted.tool is None else late[:0]
         if not (self.independent or lenient):
             refuse_dependent(matrix[0], len(held), wanted)

@@ -112,7 +112,7 @@ class Platform:
 
 @dataclass(frozen=True, kw_only=True)
 class VibratingLegs:
-    """A machine of three legs with what it needs to vibrate.
+    """A machine of three legs with the data for vibration.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ class VibratingLegs:
         if not np.isfinite(self.tool_offset):
             raise ModelError("tool_offset", f"is {self.tool_offset!r}.", "Give a length, m.")
         if self.elements < 1:
-            raise ModelError("elements", f"are {self.elements}.", "Give at least one a link.")
+            raise ModelError("elements", f"are {self.elements}.", "Give at least one per link.")
 
     @property
     def linkage(self) -> Linkage:
@@ -285,7 +285,7 @@ def models_for_statics_and_vibration(
         Variant("static", "true spherical joints, drives with their stiffness", machine),
         Variant(
             "apparent",
-            "links clamped in the platform, carriages that do not turn: as the paper's static "
+            "links clamped in the platform, carriages that do not rotate: as the paper's static "
             "tables suggest",
             lambda: machine().apparent(),
         ),

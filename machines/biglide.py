@@ -35,8 +35,8 @@ PLANE = 1e-9
 
 #: What a pose of a leg, or of the tool, is refused for.
 REACH = "its end is farther from the rail than its rod is long"
-OFF = "the tool stands off the plane z = 0 in which the machine moves"
-TURNED = "the tool is turned, which the parallelograms do not let it"
+OFF = "the tool is outside the plane z = 0 in which the machine moves"
+TURNED = "the tool is rotated, which the parallelograms prevent"
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -32,7 +32,7 @@ THIRD = tube(0.100, 0.084, name="tube 100 x 8")
 _HINGE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 _DOWN = np.diag([1.0, -1.0, -1.0])
 
-TURNED = "the tool is turned about another axis than y"
+TURNED = "the tool is rotated about an axis other than y"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,8 +162,8 @@ def models_by_legs(report: str) -> tuple[Variant, ...]:
         What writes the turning machine's report, as `Variant.report`.
     """
     turning = {"x": (0.4, 5), "y": (0.4, 5), "ry": (radians(60.0), 5)}
-    words = "a third drive across the plane turns the tool"
+    words = "a third drive across the plane rotates the tool"
     return (
-        Variant("plane", "two drives, the tool does not turn", Biglide),
+        Variant("plane", "two drives, the tool does not rotate", Biglide),
         Variant("third-leg", words, BiglideThirdLeg, MappingProxyType(turning), report),
     )

@@ -40,7 +40,7 @@ from strutwork.msa.structure import Structure
 
 
 class Machine(Mechanism, Protocol):
-    """A mechanism with what makes it flexible and with the ranges of its joints."""
+    """A mechanism with its flexibility and the ranges of its joints."""
 
     @property
     def structure(self) -> Structure:
@@ -53,7 +53,7 @@ class Machine(Mechanism, Protocol):
 
 @dataclass(frozen=True)
 class CatalogueEntry:
-    """A machine of the literature.
+    """A machine from the literature.
 
     Its report, tolerances and scale are references to `papers`, see
     `strutwork.machines.paper_reference.resolve`.

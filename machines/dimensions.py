@@ -68,7 +68,7 @@ def check_proportions(machine: str, dimensions: Mapping[str, float]) -> None:
     others = [v for n, v in dimensions.items() if n != name]
     raise ModelError(
         f"{machine}.{name}",
-        f"is {dimensions[name]:g} m, out of all proportion to the machine's other lengths of "
+        f"is {dimensions[name]:g} m, out of proportion to the machine's other lengths of "
         f"{min(others):g} to {max(others):g} m.",
         "Lengths are in metres: write 0.216 for 216 mm.",
     )

@@ -41,5 +41,5 @@ class Drive:
                 raise ModelError(
                     f"drive {self.joint}:{self.direction}",
                     f"{what} is {value!r}.",
-                    "Give a positive number, or leave it out.",
+                    "Give a positive number, or omit it.",
                 )

@@ -127,7 +127,7 @@ class LinearDelta:
             raise ModelError(
                 "LinearDelta.base_radius",
                 f"is not larger than the platform's radius of {self.platform_radius:g} m.",
-                "Set the rails farther out.",
+                "Place the rails farther out.",
             )
         half = self.workspace_side / 2.0
         if self.rod_length <= self.reach + sqrt(2.0) * half:
@@ -320,7 +320,7 @@ class LinearDelta:
         turns = np.abs(poses.rotation.real - np.eye(3)).max(axis=(-2, -1)) > LEVEL
         masks = np.concatenate([turns[..., None], missing], axis=-1)
         reasons = (
-            "the platform is turned, which its parallelograms do not allow",
+            "the platform is rotated, which its parallelograms do not allow",
             *(f"leg {i}: its rods are too short" for i in LEGS),
         )
         return np.where(masks.any(axis=-1), masks.argmax(axis=-1) + 1, 0).astype(np.int8), reasons

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def load(name: str | Path) -> Model:
-    """A machine by its name or from its file.
+    """Load a machine by its name or from its file.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def load(name: str | Path) -> Model:
     if path.name == text and not os.path.lexists(path):
         raise ModelError(
             text,
-            "is no machine of the catalogue and no model file.",
+            "is neither a machine of the catalogue nor a model file.",
             meant(text, CATALOGUE)
             + f"Machines: {', '.join(CATALOGUE)}; a model file ends in .toml.",
         )

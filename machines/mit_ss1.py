@@ -361,10 +361,10 @@ def _status(poses: Poses, missing: NDArray[np.bool_]) -> tuple[NDArray[np.int8],
     """Code of the first fault of each pose, and the reasons the codes stand for."""
     turned = poses.rotation[..., 1].real - np.array([0.0, 1.0, 0.0])
     faults = {
-        "the tool stands off the plane y = 0 in which the machine moves": (
+        "the tool is outside the plane y = 0 in which the machine moves": (
             np.abs(poses.position[..., 1].real) > PLANE
         ),
-        "the tool is turned about another axis than y": np.abs(turned).max(axis=-1) > PLANE,
+        "the tool is rotated about an axis other than y": np.abs(turned).max(axis=-1) > PLANE,
     }
     for k, i in enumerate(parts.STRUTS):
         reason = f"strut {i}: its joint on the housing is farther from the guide than it reaches"

@@ -5,21 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, ModelWarning
-from strutwork.kinematics import Placement, Poses
-from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.kinematics.motion import Motion
-from strutwork.kinematics.task_grid import TaskGrid
-from strutwork.machines.drives import Drive
-from strutwork.machines.limits import Limit
-from strutwork.machines.model_solid_element import SolidElement
-from strutwork.msa import LoadCase, PlacedStructure, Structure
-from strutwork.overconstraint.tolerance import Tolerance
+
+if TYPE_CHECKING:
+    # a file without solids, shapes or tolerances does not wait for what computes with them
+    from strutwork.kinematics import Placement, Poses
+    from strutwork.kinematics.mesh_shapes import MeshShape
+    from strutwork.kinematics.task_grid import TaskGrid
+    from strutwork.machines.drives import Drive
+    from strutwork.machines.limits import Limit
+    from strutwork.machines.model_solid_element import SolidElement
+    from strutwork.msa import LoadCase, PlacedStructure, Structure
+    from strutwork.overconstraint.tolerance import Tolerance
 
 __all__ = ["Damping", "Model", "ModelWarning"]
 

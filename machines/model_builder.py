@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +13,6 @@ from numpy.typing import ArrayLike
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
 from strutwork.kinematics.coupling import ties_of
-from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Damping, Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
@@ -26,10 +26,13 @@ from strutwork.machines.model_motion_tables import (
 )
 from strutwork.machines.model_parts import beams_of, joint_of, masses_of, springs_of
 from strutwork.machines.model_schema import ModelTable
-from strutwork.machines.model_solid_element import SolidElement
-from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Beam, Structure
 from strutwork.msa.unjoined import in_words, unjoined_nodes
+
+if TYPE_CHECKING:
+    from strutwork.kinematics.mesh_shapes import MeshShape
+    from strutwork.machines.model_solid_element import SolidElement
+    from strutwork.overconstraint.tolerance import Tolerance
 
 
 def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
@@ -67,7 +70,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     grounds = tuple(joint.between[0] for joint in supports.values())
     beams, springs, masses = beams_of(tables), springs_of(tables), masses_of(tables)
     cases = load_cases(tables, joints, supports, follows)
-    toleranced = model_tolerances(tables, joints, supports)
+    tolerances, costs, limits = _tolerances(tables, joints, supports)
     # last, for a solid may take minutes
     solids = _solids(tables, folder)
     monitors = {
@@ -111,9 +114,9 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         joints=tuple(joint.name for joint in joints),
         supports={node: joint.name for node, joint in supports.items()},
         damping=_damping(tables),
-        tolerances=toleranced.tolerances,
-        tolerance_costs=toleranced.costs,
-        force_limits=toleranced.limits,
+        tolerances=tolerances,
+        tolerance_costs=costs,
+        force_limits=limits,
         solids=solids,
         preload=tables.preload,
         limits=joint_limits(linkage),
@@ -141,6 +144,18 @@ def _warn_of_unjoined(model: Model) -> None:
                 ModelWarning,
                 stacklevel=4,
             )
+
+
+def _tolerances(
+    tables: ModelTable, joints: Sequence[Joint], supports: Mapping[str, Joint]
+) -> tuple[tuple[Tolerance, ...], Mapping[str, float], Mapping[tuple[str, str], float]]:
+    if not (tables.tolerances or tables.force_limits):
+        return (), {}, {}
+    # only such files wait for what assembly forces are computed with
+    from strutwork.machines.model_tolerances import model_tolerances  # noqa: PLC0415
+
+    made = model_tolerances(tables, joints, supports)
+    return made.tolerances, made.costs, made.limits
 
 
 def _solids(tables: ModelTable, folder: Path) -> tuple[SolidElement, ...]:
@@ -218,7 +233,7 @@ def _supports(tables: ModelTable) -> dict[str, Joint]:
     for table in tables.supports:
         if not table.fixed:
             raise ModelError(
-                f"support of node {table.node}", "fixes no direction.", 'Name some, or say "all".'
+                f"support of node {table.node}", "fixes no direction.", 'Name some, or use "all".'
             )
         for direction in table.fixed:
             if direction in fixed.setdefault(table.node, []):

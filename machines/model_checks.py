@@ -60,14 +60,14 @@ def _check_size(tables: ModelTable) -> None:
         raise ModelError(
             "model",
             f"has {mesh} nodes, those inside divided beams counted; at most {MAX_MESH_NODES} are "
-            "taken.",
+            "allowed.",
             "Divide beams into fewer elements.",
         )
     count = len(tables.joints) + len(tables.supports)
     if count > MAX_JOINTS:
         raise ModelError(
             "model",
-            f"has {count} joints and supports; at most {MAX_JOINTS} are taken.",
+            f"has {count} joints and supports; at most {MAX_JOINTS} are allowed.",
             "Split it.",
         )
 
@@ -116,7 +116,7 @@ def _check_bodies(tables: ModelTable) -> None:
             raise ModelError(
                 f"body {table.name}",
                 f"has {len(set(table.nodes))} node{'s' if not table.nodes else ''}.",
-                "Give it two nodes at least; a single node needs no body.",
+                "Give it at least two nodes; a single node needs no body.",
             )
         for node in table.nodes:
             if owner.get(node) == table.name:

@@ -34,23 +34,26 @@ def _coupling(table: CouplingTable) -> Coupling:
         raise ModelError(
             part,
             "has neither ratio nor per_turn, or both.",
-            "Give ratio, or per_turn where the first turns and the second slides.",
+            "Give ratio, or per_turn where the first rotates and the second slides.",
         )
     turns = [direction.startswith("r") for _, direction in (first, second)]
     if table.per_turn is not None:
         if turns != [True, False]:
             raise ModelError(
                 part,
-                "has per_turn, and its coordinates are not first a turn, then a way.",
-                "Write the one that turns first; of two of a kind give ratio.",
+                (
+                    "has per_turn, but its coordinates are not first a rotation and then a "
+                    "translation."
+                ),
+                "Write the rotation first; for two of the same kind give ratio.",
             )
         return Coupling(table.name, first, second, table.per_turn / (2.0 * pi))
     if turns[0] != turns[1]:
         raise ModelError(
             part,
-            f"has a plain ratio between {':'.join(first)} and {':'.join(second)}, a turn and a "
-            "way.",
-            'Write the one that turns first and give per_turn, as in "10 mm".',
+            f"has a plain ratio between {':'.join(first)} and {':'.join(second)}, a rotation and "
+            "a translation.",
+            'Write the rotation first and give per_turn, as in "10 mm".',
         )
     return Coupling(table.name, first, second, table.ratio or 0.0)
 
@@ -60,7 +63,7 @@ def _coordinate(part: str, text: str) -> Coordinate:
     if not colon or not joint or direction not in DIRECTIONS:
         raise ModelError(
             part,
-            f'names "{text}", which is no joint coordinate.',
+            f'names "{text}", which is not a joint coordinate.',
             'Write JOINT:DIRECTION, as in "motor:rz".',
         )
     return joint, direction

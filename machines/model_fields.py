@@ -99,7 +99,8 @@ class Quantity:
 class Table(BaseModel):
     """A table whose keys are all known."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    # a file's tables are made ready once, together, when the first file is read
+    model_config = ConfigDict(extra="forbid", frozen=True, defer_build=True)
 
 
 def _shown(name: str) -> str:
@@ -109,8 +110,8 @@ def _shown(name: str) -> str:
             "range",
             "{problem}",
             {
-                "problem": f'"{visible(name)}" holds a character that is not shown.',
-                "remedy": "Leave out control characters, ends of lines and marks of direction.",
+                "problem": f'"{visible(name)}" contains a character that is not shown.',
+                "remedy": "Remove control characters, ends of lines and marks of direction.",
             },
         )
     return name

@@ -46,7 +46,7 @@ def home_values(tables: ModelTable, joints: Sequence[Joint]) -> dict[Coordinate,
                 f"joint {limit.joint}",
                 f"has limits that exclude home: {limit.words}, and it is "
                 f"{_shown(limit.coordinate, value)} there.",
-                f"Correct the limits, or say what it is: [home.{limit.joint}] with "
+                f"Correct the limits, or give its value: [home.{limit.joint}] with "
                 f"{limit.coordinate} = …; without it home counts as zero.",
             )
     return found
@@ -103,8 +103,8 @@ def workspace_of(tables: ModelTable, task: Sequence[str]) -> TaskGrid | None:
         if task and direction not in task:
             raise ModelError(
                 "workspace",
-                f"goes along {direction}, which is none of the task's directions.",
-                f"The task has {', '.join(task)}: add it there, or leave it out here.",
+                f"goes along {direction}, which is not one of the task's directions.",
+                f"The task has {', '.join(task)}: add it there, or remove it here.",
             )
         if not span.from_ < span.to:
             raise ModelError(f"workspace.{direction}", "has no extent.", "Give from below to.")

@@ -129,8 +129,8 @@ def _of_the_asked(placement: Placement, joints: Mapping[Coordinate, ArrayLike]) 
             continue
         value = placement.values[..., placement.names.index((joint, direction))]
         why = (
-            f"the machine's own formulas choose {joint}:{direction} by themselves: ask for a pose "
-            "of the tool alone"
+            f"the machine's own formulas choose {joint}:{direction} by themselves: give only a "
+            "pose of the tool"
         )
         reasons = (*placement.reasons, why)
         other = (np.abs(value - np.asarray(asked)) > SAME) & placement.reachable
@@ -232,4 +232,4 @@ def _offer(
         {d: v for (owner, d), v in near.items() if not owner},
         {name: v for name, v in near.items() if name[0]},
     )
-    return f"On the way from home it gets to {words}."
+    return f"On the path from home it reaches {words}."

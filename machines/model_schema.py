@@ -213,10 +213,10 @@ class JointTable(Table):
     between: Pair
     axis: Vector = (0.0, 0.0, 1.0)
     second_axis: Vector | None = None
-    stiffness: StiffnessTable = StiffnessTable()
-    damping: DampingByDirection = DampingByDirection()
+    stiffness: StiffnessTable = StiffnessTable.model_construct()
+    damping: DampingByDirection = DampingByDirection.model_construct()
     driven: tuple[Direction, ...] = ()
-    limits: LimitsTable = LimitsTable()
+    limits: LimitsTable = LimitsTable.model_construct()
     matrix: Annotated[Matrix | None, BeforeValidator(_empty_is_absent)] = None
     pitch: Length | None = None
 

@@ -44,7 +44,7 @@ def shapes_of(
     if len(tables.shapes) > MOST_SHAPES:
         raise ModelError(
             "shapes",
-            f"are {len(tables.shapes)}; at most {MOST_SHAPES} are taken.",
+            f"are {len(tables.shapes)}; at most {MOST_SHAPES} are allowed.",
             "Join those of one body.",
         )
     nodes = _nodes(tables, linkage)
@@ -84,8 +84,7 @@ def _held(linkage: Linkage, node: str, field: str) -> str:
     if not len(mine):
         raise ModelError(
             field,
-            "has no node that stays where it is on the body: each is the first of a joint that "
-            "slides.",
+            "has no node that stays fixed on the body: each is the first of a joint that slides.",
             "Give the body one more node.",
         )
     return linkage.nodes[int(mine[0])]

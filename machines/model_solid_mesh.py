@@ -110,7 +110,7 @@ def check_source(table: SolidTable) -> str:
         if getattr(table, key) is not None:
             raise ModelError(
                 f"{field}.{key}",
-                f"is no key of a {source}.",
+                f"is not a key of a {source}.",
                 f"A {source} has: {', '.join((*needed, *allowed)) or 'no further keys'}.",
             )
     return source

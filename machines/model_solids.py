@@ -80,7 +80,7 @@ def _check_table(table: SolidTable, tables: ModelTable) -> None:
         raise ModelError(
             field,
             f"has {found} materials.",
-            "Give material for the whole solid, or materials = { REGION = MATERIAL }.",
+            "Give material for the entire solid, or materials = { REGION = MATERIAL }.",
         )
     named = {"material": table.material} if table.materials is None else table.materials
     for key, name in named.items():
@@ -107,7 +107,7 @@ def _check_table(table: SolidTable, tables: ModelTable) -> None:
             raise ModelError(part, f"has {found}.", "Name a patch of the mesh, or give a box.")
         if interface.normal is not None and interface.box is None:
             raise ModelError(
-                f"{part}.normal", "goes with a box alone.", "Remove it, or give a box."
+                f"{part}.normal", "applies only to a box.", "Remove it, or give a box."
             )
         if times[interface.node] > 1:
             raise ModelError(
@@ -164,7 +164,7 @@ def _check_spread(field: str, stiffness: Array) -> None:
         raise NumericalError(
             field,
             f"the stiffnesses of its reduced model spread over {spread:.2g}: its mesh is too "
-            "coarse to tell so many modes apart.",
+            "coarse to distinguish so many modes.",
             "Choose smaller cells, or retain fewer modes.",
         )
 
@@ -214,7 +214,7 @@ def _check_place(field: str, node: str, at: Array, mesh: Mesh, patch: str) -> No
         here = ", ".join(f"{1e3 * v:.6g}" for v in at)
         raise ModelError(
             field,
-            f'node "{node}" stands at ({here}) mm of the mesh, {1e3 * distance:.4g} mm from the '
+            f'node "{node}" is at ({here}) mm of the mesh, {1e3 * distance:.4g} mm from the '
             f"middle of its patch, ({there}) mm, and no point of the patch is farther than "
             f"{1e3 * reach:.4g} mm.",
             "Move the node onto the patch, or place the solid by position and axis; a node "

@@ -10,11 +10,11 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Joint, State
 from strutwork.machines.model_parts import unknown
 from strutwork.machines.model_schema import ForceLimitTable, ModelTable, ToleranceTable
-from strutwork.overconstraint.responses import KINDS
+from strutwork.overconstraint.joint_forces import JOINT_FORCES
 from strutwork.overconstraint.tolerance import Tolerance
 
 #: Key of a force limit by the quantity that it bounds.
-LIMIT_KEYS: Mapping[str, str] = {kind: kind.replace(" ", "_") for kind, _, _ in KINDS}
+LIMIT_KEYS: Mapping[str, str] = {kind: kind.replace(" ", "_") for kind, _, _ in JOINT_FORCES}
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def _add_limits(
             if kind not in carried:
                 raise ModelError(
                     part,
-                    f"limits the {kind} of {name}, which is free to give way.",
+                    f"limits the {kind} of {name}, which is free and carries no load.",
                     f"It carries: {', '.join(carried) or 'nothing'}.",
                 )
             if (name, kind) in limits:
@@ -160,4 +160,4 @@ def carries(joint: Joint) -> tuple[str, ...]:
     joint : Joint
     """
     held = {d for d, s in zip(DIRECTIONS, joint.states, strict=True) if s != State.FREE}
-    return tuple(kind for kind, directions, _ in KINDS if held.intersection(directions))
+    return tuple(kind for kind, directions, _ in JOINT_FORCES if held.intersection(directions))

@@ -28,7 +28,7 @@ WAY_HEIGHT = 0.900
 
 @dataclass(frozen=True, kw_only=True)
 class MovingBridge(MitSS1):
-    """The three blocks' rails lie on a bridge that slides along y; the workpiece stands still.
+    """The three blocks' rails are on a bridge that slides along y; the workpiece is fixed.
 
     "The planar PKM in the MIT-SS-1 may be attached to a moving bridge" of "almost unlimited
     length", with four axes: x, z and b of the planar machine and y of the bridge. That is all the

@@ -17,7 +17,7 @@ MARK = ":"
 
 @dataclass(frozen=True)
 class NamedMachine:
-    """A machine as it was named.
+    """A machine with the name that selected it.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def variants(name: str) -> Mapping[str, Variant]:
 
 
 def is_machine(text: str) -> bool:
-    """Whether a name stands for a machine of the catalogue, with or without a variant.
+    """Whether a name denotes a machine of the catalogue, with or without a variant.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def is_machine(text: str) -> bool:
 
 
 def named_machine(text: str) -> NamedMachine:
-    """The machine that `NAME` or `NAME:VARIANT` stands for; without a variant the first.
+    """The machine that `NAME` or `NAME:VARIANT` denotes; by default the first variant.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def require_mass(found: NamedMachine) -> NamedMachine:
         return found
     raise ModelError(
         f"machine {found.name}",
-        "is a model for statics: its platform has no mass, so it cannot be asked how it vibrates.",
+        "is a model for statics: its platform has no mass, so its vibration cannot be computed.",
         "Name a model that can: " + ", ".join(heavy) + ".",
     )
 

@@ -14,7 +14,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class PoseGrid:
-    """Every place along x with every tilt.
+    """Every position along x with every tilt.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class PoseGrid:
 
 @runtime_checkable
 class GridMachine(Protocol):
-    """A machine that is looked at over x and a tilt, not over a hemisphere."""
+    """A machine that is studied over x and a tilt, not over a hemisphere."""
 
     def pose_grid(self, steps: int = 10) -> PoseGrid:
         """2 · steps + 1 places along x, as many tilts.

@@ -254,10 +254,10 @@ class SerialFiveAxis:
             parts.TOOL: poses.position,
         }
         short = {
-            "the saddle stands at the foot of the column or under it": (
+            "the saddle is at the foot of the column or below it": (
                 end[..., 2].real <= -self.rail_depth
             ),
-            "the ram's end stands in the saddle or behind it": (
+            "the ram's end is in the saddle or behind it": (
                 end[..., 1].real <= self.saddle_depth - self.column_distance
             ),
         }

@@ -97,7 +97,7 @@ def pose_distance(model: Model, length: float | None = None) -> PoseDistance:
         raise ModelError(
             "tool",
             "moves in no direction at home.",
-            "Put it on a body that moves, or home where it can.",
+            "Place it on a body that moves, or home where it can move.",
         )
     rng = np.random.default_rng(1)
     beside = {

@@ -123,8 +123,8 @@ class Deck:
                 self._row(text)
             elif not self._started:
                 raise self.lines.error(
-                    f"holds {text[:60]!r} before the first keyword",
-                    "The file is no deck of Abaqus or CalculiX: export it as .inp.",
+                    f"contains {text[:60]!r} before the first keyword",
+                    "The file is not a deck of Abaqus or CalculiX: export it as .inp.",
                 )
         if pending:
             self._keyword(pending)
@@ -150,7 +150,7 @@ class Deck:
         elif name in REFUSED:
             raise self.lines.error(
                 f"holds *{fields[0].strip()}, which changes the mesh and is not read",
-                "Let the program write all nodes and elements out, and export the deck anew.",
+                "Let the program write all nodes and elements out, and export the deck again.",
             )
         elif near := get_close_matches(name, MESH_WORDS, n=1, cutoff=0.8):
             raise self.lines.error(

@@ -160,7 +160,7 @@ class DeckModel:
                 return method(place, inner, open_)
         raise self.deck.fail(
             piece.where,
-            f"begins a set that names {name!r}, which is no {what} set of the file",
+            f"begins a set that names {name!r}, which is not among the {what} sets of the file",
             "Check the name.",
         )
 
@@ -322,7 +322,7 @@ def _one_part(deck: Deck) -> tuple[Scope, Array]:
     if instance.rows and instance.has_mesh:
         raise deck.fail(
             instance.where,
-            "begins an instance that is placed and holds its own mesh",
+            "begins an instance that is placed and contains its own mesh",
             "Make the mesh on the part (in Abaqus: Make Dependent).",
         )
     try:

@@ -230,7 +230,7 @@ class Index:
                     block.where,
                     f"begins elements of which {table[row, 0]} has the node {node}, "
                     "which the file does not give",
-                    "Export the mesh again, whole.",
+                    "Export the entire mesh again.",
                 )
             yield block, at + self.offset
 

@@ -101,7 +101,7 @@ def placed(points: Array, rows: Sequence[Sequence[float]]) -> Array:
         Rows of other lengths, an axis without length.
     """
     if len(rows) > 2 or (rows and len(rows[0]) > 3) or (len(rows) == 2 and len(rows[1]) != 7):
-        raise ValueError("is placed by lines that are no translation and rotation")
+        raise ValueError("is placed by lines that are not a translation and rotation")
     move = np.zeros(3)
     if rows:
         move[: len(rows[0])] = rows[0]
@@ -112,6 +112,6 @@ def placed(points: Array, rows: Sequence[Sequence[float]]) -> Array:
     axis = second - first
     length = float(np.linalg.norm(axis))
     if length == 0.0:
-        raise ValueError("turns about an axis without length")
+        raise ValueError("rotates about an axis without length")
     turn = Rotation.from_rotvec(np.radians(angle) * axis / length)
     return np.asarray(first + turn.apply(moved - first))

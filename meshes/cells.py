@@ -38,7 +38,7 @@ TETRAHEDRON_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 
 @dataclass(frozen=True)
 class CellType:
-    """One kind of cell.
+    """One type of cell.
 
     Parameters
     ----------

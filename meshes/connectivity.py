@@ -22,7 +22,7 @@ Ints = NDArray[np.int64]
 
 @dataclass(frozen=True, repr=False)
 class Connectivity:
-    """How the cells of a mesh hang together.
+    """Connectivity of the cells of a mesh.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class Connectivity:
 
 
 def connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
-    """How the cells of a mesh hang together.
+    """Connectivity of the cells of a mesh.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
 
 
 def check_connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivity:
-    """How the cells of a mesh that is one body hang together.
+    """Connectivity of the cells of a mesh that is one body.
 
     Parameters
     ----------
@@ -133,7 +133,7 @@ def check_connectivity(mesh: Mesh, tolerance: float | None = None) -> Connectivi
     if len(found.part_regions) > 1:
         raise _apart(mesh, found)
     for cells, what, remedy in (
-        (found.collapsed, "use a node twice", "Mesh that place anew, or use tetrahedra there."),
+        (found.collapsed, "use a node twice", "Remesh that region, or use tetrahedra there."),
         (found.doubled, "have the nodes of another", "Delete the copies."),
     ):
         if len(cells):

@@ -18,7 +18,7 @@ ROUNDED = 1e-6
 
 
 def is_straight(mesh: Mesh) -> bool:
-    """Whether every middle node stands in the middle of its corners, so that `linear` keeps all.
+    """Whether every midside node is at the midpoint of its corners.
 
     Nodes off by a millionth of their edge, the rounding of a file, count as in the middle.
 
@@ -31,7 +31,7 @@ def is_straight(mesh: Mesh) -> bool:
 
 
 def straightened(mesh: Mesh, cells: Ints) -> Mesh:
-    """The mesh with the middle nodes of some cells put in the middle of their corners.
+    """The mesh with the midside nodes of some cells moved to the midpoints of their corners.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def straightened(mesh: Mesh, cells: Ints) -> Mesh:
 
 
 def unbent(mesh: Mesh) -> tuple[Mesh, Ints]:
-    """The mesh with straight edges where curved ones would turn cells inside out.
+    """The mesh with straight edges where curved ones would invert cells.
 
     Parameters
     ----------

@@ -138,7 +138,7 @@ def remedy_for(kind: str) -> str:
     """
     if kind == "voxel":
         return "Export hexahedra, VTK's type 12."
-    return "Mesh with hexahedra or tetrahedra alone."
+    return "Mesh with hexahedra or tetrahedra only."
 
 
 def by_tag(tags: Ints, names: Mapping[int, str], what: str, first: int = 0) -> dict[str, Ints]:

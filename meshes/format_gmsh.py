@@ -102,7 +102,7 @@ def _nodes(found: GmshFile, index: Numbered, cells: Cells) -> Ints:
             str(found.path),
             f"element {cells.numbers[row]} has the node {cells.nodes[row][~known[row]][0]}, which "
             "the file does not give.",
-            "Export the mesh again, whole.",
+            "Export the entire mesh again.",
         )
     return at[:, list(NODE_ORDER[cells.kind])] if cells.kind in NODE_ORDER else at
 
@@ -174,7 +174,7 @@ def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
     for group in groups:
         if '"' in group.name or "\n" in group.name:
             raise ModelError(
-                f"mesh {mesh.name}", f"Gmsh cannot hold the name {group.name!r}.", "Rename it."
+                f"mesh {mesh.name}", f"Gmsh cannot store the name {group.name!r}.", "Rename it."
             )
     keys = list(dict.fromkeys((g.dimension, g.name) for g in groups))
     number = {key: i + 1 for i, key in enumerate(keys)}

@@ -83,7 +83,7 @@ def write(path: Path, mesh: Mesh, groups: list[Group]) -> None:
         if not group.name.isascii() or "/" in group.name or len(group.name) > LONGEST_NAME:
             raise ModelError(
                 f"mesh {mesh.name}",
-                f"MED cannot hold the name {group.name!r}.",
+                f"MED cannot store the name {group.name!r}.",
                 f"Use at most {LONGEST_NAME} ASCII characters without '/'.",
             )
     cells, tags = [], []

@@ -42,7 +42,7 @@ class GltfPart:
 
 
 def write_gltf(parts: Sequence[GltfPart], path: Path | str, *, swings: bool = True) -> Path:
-    """Write a scene that any viewer of glTF 2.0 opens; z points up in it.
+    """Write a scene for any glTF 2.0 viewer, with z pointing up.
 
     Parameters
     ----------

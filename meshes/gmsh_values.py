@@ -61,7 +61,7 @@ class Values:
         except (DeprecationWarning, ValueError, UnicodeDecodeError):
             raise ModelError(
                 str(self.path),
-                f"${name} holds what is no number{self._first_wrong(body)}.",
+                f"${name} contains an entry that is not a number{self._first_wrong(body)}.",
                 "The file is cut short or damaged: export it again.",
             ) from None
 
@@ -147,7 +147,7 @@ class Values:
         """The error for a section that ends too soon."""
         return ModelError(
             str(self.path),
-            f"ends before $End{self.section} is due: it is cut short or damaged.",
+            f"ends before $End{self.section}: it is cut short or damaged.",
             "Export the mesh again.",
         )
 

@@ -86,7 +86,7 @@ def tetrahedra(
     if not (isfinite(size) and size > 0) or order not in {1, 2}:
         raise ModelError(
             f"mesh {name}",
-            f"is asked with cells of {size!r} m of order {order!r}.",
+            f"is requested with cells of {size!r} m of order {order!r}.",
             "Give a positive size in m, and order 1 or 2.",
         )
     if isinstance(source, Surface):

@@ -55,7 +55,7 @@ def grid(
     for axis, values in zip("xyz", axes, strict=True):
         if values.ndim != 1 or len(values) < 2 or not (np.diff(values) > 0).all():
             raise ModelError(
-                f"mesh {name}", f"its lines along {axis} do not rise.", "Sort them; at least two."
+                f"mesh {name}", f"its lines along {axis} do not ascend.", "Sort them; at least two."
             )
     counts = tuple(len(a) - 1 for a in axes)
     kept = np.ones(counts, dtype=bool) if keep is None else np.asarray(keep, dtype=bool)

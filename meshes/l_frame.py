@@ -26,7 +26,7 @@ def l_frame(
     region: str = "frame",
     name: str = "l-frame",
 ) -> Mesh:
-    """An L of a vertical plate and a base, one body.
+    """An L-frame of a vertical plate and a base, as one body.
 
     x runs along the width, y to the front, z up; the origin is the lower left corner at the
     back. The base fills y = 0 to `depth` below z = `base`, the plate y = 0 to `plate` up to

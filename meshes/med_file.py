@@ -88,7 +88,7 @@ def read_file(path: Path) -> MedFile:
 
     content = limits.read_bytes(path)
     if not content.startswith(b"\x89HDF"):
-        raise ModelError(str(path), "is no MED file: it is not HDF5.", DAMAGED)
+        raise ModelError(str(path), "is not a MED file: it is not HDF5.", DAMAGED)
     try:
         # from the path: the size is checked, and HDF5 reads what it needs
         with h5py.File(path, "r") as file:
@@ -129,7 +129,7 @@ def _cells(found: MedFile, group: Any, code: str) -> None:
         raise ModelError(
             str(path),
             f"has cells of MED's type {code}, which cannot be used.",
-            "Mesh with hexahedra or tetrahedra alone.",
+            "Mesh with hexahedra or tetrahedra only.",
         )
     kind, width = KINDS[code]
     if not kind:

@@ -27,7 +27,7 @@ def _fixed(values: ArrayLike, dtype: type) -> Array:
 
 @dataclass(frozen=True, repr=False)
 class Faces:
-    """Faces of one kind.
+    """Faces of one type.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ class Faces:
 
 @dataclass(frozen=True, repr=False)
 class Patch:
-    """A part of a surface: faces of one or more kinds.
+    """A part of a surface: faces of one or more types.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class Patch:
 
 @dataclass(frozen=True, repr=False)
 class CellBlock:
-    """Cells of one kind.
+    """Cells of one type.
 
     Parameters
     ----------

@@ -120,7 +120,7 @@ def read_mesh(path: Path | str, unit: str = "m", *, check: bool = True) -> Mesh:
 
 
 def write_mesh(mesh: Mesh, path: Path | str, unit: str = "m") -> Path:
-    """Write a mesh; `read_mesh` says what each format keeps.
+    """Write a mesh; `read_mesh` lists what each format stores.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def _format(path: Path) -> Format:
     if suffix not in FORMATS:
         raise ModelError(
             str(path),
-            f"the suffix {suffix!r} is none of a mesh file that is read.",
+            f"the suffix {suffix!r} is not that of a supported mesh file.",
             f"Use {', '.join(FORMATS)} (ParaView and Gmsh save other formats as these); "
             "STL, OBJ and glTF are surfaces (`strutwork.meshes.surfaces`).",
         )

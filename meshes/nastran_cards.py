@@ -95,7 +95,7 @@ def _is_card(lines: DeckLines, name: str, text: str) -> bool:
     if CONTROL.match(text.strip()):
         return False
     raise lines.error(
-        f"holds {text[:60]!r}, which is no card", "Check the line, or export it again."
+        f"holds {text[:60]!r}, which is not a card", "Check the line, or export it again."
     )
 
 

@@ -88,7 +88,7 @@ class BulkData:
                 self._take(card)
             except (ValueError, OverflowError):
                 raise self.lines.error(
-                    f"holds a {card.name} card with a field that is no number: "
+                    f"holds a {card.name} card with a field that is not a number: "
                     f"{', '.join(card.fields)[:80]!r}",
                     "Check the card; where the file is cut short or damaged, export it again.",
                     card.where,
@@ -192,7 +192,7 @@ class BulkData:
                     str(self.lines.path),
                     f"element {table[row, 0]} ({name}) has the grid point "
                     f"{given[row][lost[row]][0]}, which the file does not give.",
-                    "Export the mesh again, whole.",
+                    "Export the entire mesh again.",
                 )
             nodes = np.where(known, at, -1)[:, list(order)]
             corners = CORNERS[plain]

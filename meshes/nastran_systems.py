@@ -85,7 +85,7 @@ class Systems:
             and np.array_equal(before.points, given.points)  # type: ignore[arg-type]
         ):
             raise self.lines.error(
-                f"gives the coordinate system {number} another time", "Number it anew.", given.where
+                f"gives the coordinate system {number} again", "Renumber it.", given.where
             )
 
     def to_global(self, numbers: Numbered, systems: Ints, places: Array) -> Array:
@@ -154,7 +154,7 @@ class Systems:
         given = self._of(number, "")
         if number in open_:
             raise self.lines.error(
-                f"gives the coordinate system {number} by itself", "Check its card.", given.where
+                f"defines the coordinate system {number} by itself", "Check its card.", given.where
             )
         args = (numbers, systems, places, found, done, (*open_, number))
         if given.points is None:

@@ -25,7 +25,7 @@ SERENDIPITY = {**FULL, "hexahedron": "hexahedron20", "quad": "quad8"}
 
 
 def quadratic(mesh: Mesh, *, serendipity: bool = False) -> Mesh:
-    """The mesh with quadratic cells; new nodes stand in the middle of their corners.
+    """The mesh with quadratic cells; new nodes are at the midpoints of their corners.
 
     A new node joins a node set when all its corners are in it.
 
@@ -75,7 +75,7 @@ def quadratic(mesh: Mesh, *, serendipity: bool = False) -> Mesh:
 
 
 def linear(mesh: Mesh) -> Mesh:
-    """The mesh with its corner nodes alone; curved edges become straight.
+    """The mesh with only its corner nodes; curved edges become straight.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def linear(mesh: Mesh) -> Mesh:
 
 
 def without_orphans(mesh: Mesh) -> Mesh:
-    """The mesh without points that no cell uses; they leave the node sets too.
+    """The mesh without points that no cell uses, also in its node sets.
 
     Parameters
     ----------

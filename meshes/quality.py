@@ -130,7 +130,7 @@ def check_quality(mesh: Mesh, least: float = FLAT) -> Quality:
             f"with a scaled Jacobian of {found.scaled_jacobian[found.worst]:.3g}.",
             "Check the order of the nodes of these cells"
             + (", put middle nodes nearer to the middle of their edges" if bent else "")
-            + ", or mesh that place anew.",
+            + ", or remesh that region.",
         )
     return found
 

@@ -48,7 +48,7 @@ def patch(
     where: Rule | None = None,
     angle: float = TURN,
 ) -> Mesh:
-    """The mesh with a further patch: outer faces that lie in a box, face a way, obey a rule.
+    """The mesh with a further patch of outer faces, selected by box, normal or rule.
 
     Parameters
     ----------

@@ -170,7 +170,7 @@ def surface_of(mesh: Mesh, patch: Patch) -> Surface:
 
 
 def welded(surface: Surface, tolerance: float | None = None) -> Surface:
-    """The surface with coincident points merged and triangles without area dropped.
+    """The surface with coincident points merged and triangles without area removed.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def welded(surface: Surface, tolerance: float | None = None) -> Surface:
 
 
 def flipped(surface: Surface) -> Surface:
-    """The surface with its inside out.
+    """The surface with reversed orientation.
 
     Parameters
     ----------
@@ -202,7 +202,7 @@ def flipped(surface: Surface) -> Surface:
 
 
 def check_closed(surface: Surface) -> None:
-    """Pass a surface that bounds a volume: closed, of one orientation, outwards.
+    """Return a surface that bounds a volume: closed, consistently oriented, outwards.
 
     Self-intersections are not looked for: `strutwork.meshes.self_intersections.check_simple`.
 
@@ -231,7 +231,7 @@ def check_closed(surface: Surface) -> None:
             part,
             f"has {len(joined)} edges with more than two triangles, the first at "
             f"{_place(middle)}: bodies touch along them, or triangles lie on one another.",
-            "Take double triangles out, or part the bodies in CAD.",
+            "Remove double triangles, or separate the bodies in CAD.",
         )
     alone = np.flatnonzero(uses == 1)
     if len(alone):
@@ -366,7 +366,7 @@ def _stl_text(path: Path) -> bytes | None:
         wanted = "its last line is not `endsolid`"
     raise ModelError(
         str(path),
-        f"is cut short or no STL file: {wanted}, the file has {size} bytes.",
+        f"is cut short or not an STL file: {wanted}, the file has {size} bytes.",
         "Export it again.",
     )
 
@@ -381,7 +381,7 @@ def _scale(path: Path, unit: str) -> float:
     if path.suffix.lower() not in SUFFIXES:
         raise ModelError(
             str(path),
-            f"the suffix {path.suffix!r} is none of a surface.",
+            f"the suffix {path.suffix!r} is not that of a surface.",
             f"Use {', '.join(SUFFIXES)}; solid meshes are read by `strutwork.meshes.read_mesh`.",
         )
     if unit not in UNITS:
@@ -389,7 +389,7 @@ def _scale(path: Path, unit: str) -> float:
             str(path), f"its unit is given as {unit!r}.", f"Choose {' or '.join(UNITS)}."
         )
     if unit != "m" and path.suffix.lower() in {".glb", ".gltf"}:
-        raise ModelError(str(path), "glTF is in m by its standard.", "Leave the unit out.")
+        raise ModelError(str(path), "glTF is in m by its standard.", "Omit the unit.")
     return UNITS[unit]
 
 

@@ -25,7 +25,7 @@ COINCIDENT = 1e-9
 def moved(
     mesh: Mesh, rotation: ArrayLike | None = None, translation: ArrayLike | None = None
 ) -> Mesh:
-    """The mesh turned about the origin, then shifted.
+    """The mesh rotated about the origin, then translated.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def moved(
     proper = turn.shape == (3, 3) and np.allclose(turn @ turn.T, np.eye(3), atol=1e-9)
     if not (proper and np.linalg.det(turn) > 0):
         raise ModelError(
-            f"mesh {mesh.name}", "is turned by a matrix that is not a rotation.",
+            f"mesh {mesh.name}", "is rotated by a matrix that is not a rotation.",
             "Give an orthonormal matrix with determinant 1, or use `mapped`.",
         )  # fmt: skip
     return replace(mesh, points=mesh.points @ turn.T + shift)

@@ -33,7 +33,7 @@ SOLIDS = {
 
 @dataclass(frozen=True)
 class VtkBlock:
-    """Cells of one kind.
+    """Cells of one type.
 
     Parameters
     ----------

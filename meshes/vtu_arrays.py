@@ -111,7 +111,7 @@ class VtuFile:
         try:
             return np.array(words, dtype=float) if words else np.zeros(0)
         except ValueError:
-            raise self.error(f"has an array {name!r} with a word that is no number.") from None
+            raise self.error(f"has an array {name!r} with a word that is not a number.") from None
 
     def _bytes(self, element: ET.Element, form: str, name: str) -> bytes:
         if form == "appended":

@@ -24,7 +24,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class System(Clusters):
-    """The clusters of a structure at a flat batch of p poses, with what loads them.
+    """The clusters of a structure at a flat batch of p poses, with their loads.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ class System(Clusters):
                 if direction not in resists:
                     raise ModelError(
                         f"joint {name}",
-                        f"has a misfit in {direction}, which is free or no direction.",
+                        f"has a misfit in {direction}, which is free or not a direction.",
                         "Name a locked or elastic direction: " + ", ".join(resists) + ".",
                     )
                 every[j, DIRECTIONS.index(direction), m] += value

@@ -109,7 +109,7 @@ def compliance_budget(
     if not np.all(np.abs(total - work) <= 1e-6 * np.abs(work)):
         raise NumericalError(
             "compliance budget",
-            "the parts' energies do not add to the work of the wrench.",
+            "the parts' energies do not add up to the work of the wrench.",
             "The structure is badly conditioned: look for stiffnesses that differ too much.",
         )
     # a wrench that rigid joints take alone stores nothing: no part has a share

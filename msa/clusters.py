@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
@@ -26,6 +25,9 @@ from strutwork.msa.row_blocks import row_blocks
 from strutwork.msa.structure import PlacedStructure, rigid_map
 from strutwork.msa.topology import Topology
 from strutwork.msa.triplets import sum_of_parts
+
+if TYPE_CHECKING:
+    import scipy.sparse as sp
 
 Array = NDArray[Any]
 
@@ -186,7 +188,7 @@ class Clusters:
         """
         arms, vertex = self.placed.arms[0], self.placed.structure.vertex_of_node
         found = sum_of_parts((n, part[0], arms[n], vertex[n]) for _, n, part in parts)
-        return sp.csc_array(found.matrix((self.topology.size, self.topology.size)))
+        return found.matrix((self.topology.size, self.topology.size)).tocsc()
 
     @cached_property
     def row_owner(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

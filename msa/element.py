@@ -13,7 +13,7 @@ Array = NDArray[Any]
 
 
 class Element(Protocol):
-    """Anything that stands in a structure: nodes and a stiffness between them.
+    """Any element of a structure: nodes and a stiffness between them.
 
     Only a rigid motion of its nodes may cost no energy.
     """

@@ -15,7 +15,7 @@ Wrench = tuple[float, float, float, float, float, float]
 
 @dataclass(frozen=True)
 class LineLoad:
-    """A load per length in global axes, over a whole beam, N/m.
+    """A load per length in global axes, over an entire beam, N/m.
 
     Parameters
     ----------

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
@@ -14,6 +13,9 @@ from strutwork.msa.assembly import System, system_of
 from strutwork.msa.beam import to_global
 from strutwork.msa.point_mass import mass_axes
 from strutwork.msa.structure import PlacedStructure, rigid_map
+
+if TYPE_CHECKING:
+    import scipy.sparse as sp
 
 Array = NDArray[Any]
 

@@ -29,7 +29,7 @@ UNCOUPLED = 1e-12
 
 @dataclass(frozen=True)
 class MovableDirections:
-    """Twists that the locked directions leave the tool.
+    """Twists of the tool that the locked directions permit.
 
     Parameters
     ----------

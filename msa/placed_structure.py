@@ -230,5 +230,5 @@ class PlacedStructure:
                     f"spring {spring.name}",
                     f"its nodes are {np.linalg.norm(arm, axis=-1).max():.3g} m apart across its "
                     "direction: it would resist a rigid rotation of both.",
-                    "Put its nodes at one place or along its direction, or use a joint.",
+                    "Place its nodes at one point or along its direction, or use a joint.",
                 )

@@ -48,7 +48,7 @@ def warn_of_proportions(placed: PlacedStructure) -> None:
     points = first.placement.positions.real
     size = float(np.ptp(points, axis=0).max(initial=0.0)) if len(points) else 0.0
     if size > LARGEST:
-        found.append(f"its nodes stand up to {size:.4g} m apart")
+        found.append(f"its nodes are up to {size:.4g} m apart")
     if structure.beams:
         start, end = first.beam_ends
         lengths = np.linalg.norm(np.real(end - start), axis=-1)
@@ -63,8 +63,8 @@ def warn_of_proportions(placed: PlacedStructure) -> None:
     if found:
         more = f"; and {len(found) - _LISTED} more" if len(found) > _LISTED else ""
         warnings.warn(
-            f"dimensions are out of all proportion: {'; '.join(found[:_LISTED])}{more}. Lengths "
-            "are in metres: write 0.019 for 19 mm.",
+            f"dimensions are out of proportion: {'; '.join(found[:_LISTED])}{more}. Lengths are "
+            "in metres: write 0.019 for 19 mm.",
             ProportionWarning,
             stacklevel=3,
         )

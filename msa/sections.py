@@ -8,7 +8,6 @@ from functools import partial
 from math import isfinite, pi, tanh
 
 from strutwork.errors import ModelError
-from strutwork.msa.hollow_rectangle import hollow_rectangle
 
 #: Shear coefficients κ_y, κ_z as functions of Poisson's ratio.
 ShearCoefficients = Callable[[float], tuple[float, float]]
@@ -223,6 +222,9 @@ def box(width_y: float, height_z: float, thickness: float, name: str = "box") ->
             f"thickness {thickness:g} m leaves no hollow in {width_y:g} x {height_z:g} m.",
             "Use a rectangle, or a thinner wall.",
         )
+    # it solves by SciPy, which other sections do not wait for
+    from strutwork.msa.hollow_rectangle import hollow_rectangle  # noqa: PLC0415
+
     inner_y, inner_z = width_y - 2 * thickness, height_z - 2 * thickness
     exact = hollow_rectangle(width_y, height_z, thickness)
     return Section(

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import splu
 
 from strutwork.errors import InconsistentConstraintsError, ModelError
@@ -17,6 +15,7 @@ from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.msa.assembly import System
 from strutwork.msa.constraints import CONSISTENCY, free_unknowns, scales
 from strutwork.msa.diagnosis import check_held, mechanism_error
+from strutwork.msa.row_groups import row_groups, unit_rows
 from strutwork.msa.triplets import Triplets
 from strutwork.msa.trust import Unknowns, solve_trusted
 
@@ -106,8 +105,8 @@ class Blocks:
 
 def _orthonormal_blocks(system: System, gaps: Array, d: Array) -> Blocks:
     """Orthonormal rows by groups of rows that share a cluster, and the map back to those of A."""
-    a, size = unit_rows(system, d)
-    count = a.shape[0]
+    a = unit_rows(system, d)
+    count, n, size = len(a), system.topology.size, a.size
     bases, lifts = Triplets(), Triplets()
     found = 0
     for rows, block, columns in row_groups(a):
@@ -127,49 +126,4 @@ def _orthonormal_blocks(system: System, gaps: Array, d: Array) -> Blocks:
         bases.add(kept, columns, right[:rank])
         lifts.add(rows, kept, left[:, :rank] / singular[:rank] / size[rows, None])
         found += rank
-    return Blocks(bases.matrix((found, a.shape[1])), lifts.matrix((count, found)))
-
-
-def unit_rows(system: System, d: Array) -> tuple[sp.csr_array, Array]:
-    """Constraint rows on scaled unknowns, (r, n), of unit size, and their sizes, (r,).
-
-    Parameters
-    ----------
-    system : System
-        At one pose.
-    d : (n,)
-        Scales of the unknowns: 1 of a translation, 1/length of a rotation, 1/m.
-    """
-    _, values = system.row_blocks
-    a = sparse_rows(system, values[0]) @ sp.diags_array(d)
-    size = np.sqrt(np.asarray(a.multiply(a).sum(axis=1)).ravel())
-    size[size == 0] = 1.0
-    return sp.csr_array(sp.diags_array(1.0 / size) @ a), size
-
-
-def row_groups(a: sp.csr_array) -> Iterator[tuple[NDArray[np.intp], Array, NDArray[np.intp]]]:
-    """Rows that share an unknown: their indices (k,), dense block (k, c) and columns (c,).
-
-    Parameters
-    ----------
-    a : (r, n) sparse
-        Rows, no unit.
-    """
-    touched = abs(a).sign()
-    if a.shape[0] == 0:
-        return
-    # rows and unknowns are the two sides of one graph: no product of rows by rows is made
-    graph = sp.block_array([[None, touched], [touched.T, None]], format="csr")
-    _, label = connected_components(graph, directed=False)
-    label = label[: a.shape[0]]
-    entries = a.tocoo()
-    # entries and rows in the order of their groups: slicing a sparse matrix is slow
-    by_group = np.argsort(label[entries.row], kind="stable")
-    order = np.argsort(label, kind="stable")
-    names, starts = np.unique(label[order], return_index=True)
-    cuts = np.searchsorted(label[entries.row][by_group], names)
-    for rows, own in zip(np.split(order, starts[1:]), np.split(by_group, cuts[1:]), strict=True):
-        columns, column = np.unique(entries.col[own], return_inverse=True)
-        block = np.zeros((len(rows), len(columns)))
-        block[np.searchsorted(rows, entries.row[own]), column] = entries.data[own]
-        yield rows, block, columns.astype(np.intp)
+    return Blocks(bases.matrix((found, n)), lifts.matrix((count, found)))

@@ -15,7 +15,7 @@ from strutwork.kinematics import DIRECTIONS
 
 @dataclass(frozen=True)
 class Spring:
-    """A spring; to ground in global axes, else in those that its first node's body carries.
+    """A spring; to ground in global axes, otherwise in axes that move with its first node's body.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Spring:
                 raise ModelError(
                     f"spring {self.name}",
                     f"stiffness in {direction} is {value!r}.",
-                    "Give a positive number, or leave the direction out.",
+                    "Give a positive number, or omit the direction.",
                 )
 
     @property

@@ -257,7 +257,7 @@ def stiffness_ellipsoid(compliance: Array, rotation: str = "free") -> StiffnessE
         Another word for `rotation`.
     """
     if rotation not in ("free", "blocked"):
-        raise ModelError("ellipsoid", f'rotation is "{rotation}".', 'Say "free" or "blocked".')
+        raise ModelError("ellipsoid", f'rotation is "{rotation}".', 'Use "free" or "blocked".')
     compliance = np.asarray(compliance, dtype=float)
     flat, known = _flat(compliance)
     values = np.full((len(flat), 3), np.nan)

@@ -27,7 +27,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Structure:
-    """A linkage with what makes it flexible and heavy.
+    """A linkage with its flexibility and mass.
 
     A body of the linkage is rigid unless a beam or element lies in it; a flexible body may
     hold rigid groups.

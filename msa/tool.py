@@ -108,8 +108,8 @@ def compliance_and_outcome(
         if program is None and method == "compiled":
             raise ModelError(
                 "tool_compliance",
-                "the compiled kernel does not take this structure, or numba is not installed.",
-                "Leave the method out.",
+                "the compiled kernel does not support this structure, or numba is not installed.",
+                "Omit the method.",
             )
     if program is None:
         result, outcome = _stacked(system, method)

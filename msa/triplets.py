@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from strutwork.msa.structure import rigid_map
+
+if TYPE_CHECKING:
+    import scipy.sparse as sp
 
 Array = NDArray[Any]
 
@@ -52,6 +54,9 @@ class Triplets:
         shape : (int, int)
             Rows and columns.
         """
+        # loading it takes longer than the check of a model, which makes no such matrix
+        import scipy.sparse as sp  # noqa: PLC0415
+
         if not self._parts:
             return sp.csr_array(shape)
         row, column, value = (np.concatenate(x) for x in zip(*self._parts, strict=True))

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.msa.assembly import System, system_of
 from strutwork.msa.constraints import orthonormal_rows, scales
-from strutwork.msa.sparse import SPARSE_FROM, row_groups, unit_rows
+from strutwork.msa.row_groups import row_groups, unit_rows
+from strutwork.msa.sparse import SPARSE_FROM
 from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
@@ -50,8 +51,8 @@ def _dense_share(system: System) -> Array:
 
 
 def _sparse_share(system: System) -> Array:
-    a, _ = unit_rows(system, scales(system)[0])
-    share = np.zeros((1, a.shape[0]))
+    a = unit_rows(system, scales(system)[0])
+    share = np.zeros((1, len(a)))
     for rows, block, _ in row_groups(a):
         if not block.shape[1]:
             share[0, rows] = 1.0

@@ -96,7 +96,7 @@ def in_words(placed: PlacedStructure, nodes: Sequence[str]) -> str:
         ]
         named.append(f"{node} of {parts[0]}" if parts else node)
     listed = f"{', '.join(named[:-1])} and {named[-1]}"
-    return f"nodes {listed} stand at one place, and nothing joins them"
+    return f"nodes {listed} are at one place, and nothing joins them"
 
 
 def _labels(count: int, edges: Sequence[Sequence[int]]) -> np.ndarray:

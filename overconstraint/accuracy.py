@@ -182,16 +182,16 @@ def _transmission(
         # the message of the saddle-point system names the joints, where it sees the same
         raise MechanismError(
             "tool",
-            f"can move although the drives are held{_where(found.loose)}: its place is not "
-            "settled.",
-            "Lock, drive or spring what is free, or keep away from singular poses.",
+            f"can move although the drives are held{_where(found.loose)}: its position is "
+            "indeterminate.",
+            "Lock, drive or spring the free directions, or avoid singular poses.",
         )
     if not np.any(found.redundant):
         return found.matrix, found.redundant
     if method == "rows":
         raise ModelError(
             "joints",
-            f"hold more than they need{_where(found.redundant)}: errors are locked in as forces.",
+            f"are over-constrained{_where(found.redundant)}: errors are locked in as forces.",
             'Use method = "stiffness", with real stiffnesses.',
         )
     # one pose may be redundant where others are not: at a singular one

@@ -39,7 +39,7 @@ MAKES = 0.05
 
 @dataclass(frozen=True)
 class Allocation:
-    """Tolerances that keep the limits.
+    """Tolerances that satisfy the limits.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def allocate(
     bounds: Mapping[str, tuple[float | None, float | None]] | None = None,
     samples: int = 100_000,
 ) -> Allocation:
-    """Largest tolerances, by one factor or at least cost, that keep all limits.
+    """Largest tolerances, by one factor or at least cost, that satisfy all limits.
 
     The worst case is convex in the sizes, so that the worst-case allocations are solved to a
     certificate. The cost of a tolerance is taken as reciprocal in its size, c·given/allocated
@@ -242,7 +242,7 @@ def _words(objective: str, quantile: float | None, samples: int) -> tuple[str, s
             "least sum of costs over sizes within the exact worst case, by cutting planes",
             "global optimum: a convex problem; certified by its Lagrange dual to the gap",
         )
-    kept = f"{quantile:.6g} of {samples} sampled assemblies keep all limits"
+    kept = f"{quantile:.6g} of {samples} sampled assemblies meet all limits"
     error = 1.96 * np.sqrt(quantile * (1 - quantile) / samples)
     doubt = f"as a share of all assemblies this is known to ±{error:.2g} (95 %)"
     if objective == "uniform":

@@ -95,7 +95,7 @@ def cheapest(zones: ScaledZones, costs: Array, cuts: Cuts) -> tuple[Array, float
         raise NumericalError(
             "allocation",
             f"its cost is known to {gap:.1e} only after {ROUNDS} rounds of cuts.",
-            "Give costs and bounds of sizes nearer to one another.",
+            "Give costs and bounds of sizes closer to one another.",
         )
     return scale, gap
 

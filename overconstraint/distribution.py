@@ -98,7 +98,7 @@ def distribution(
     limits: Limits | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Distribution:
-    """Sample the tolerances and spread out the quantities, a chunk at a time.
+    """Sample the tolerances and the resulting quantities in chunks.
 
     Parameters
     ----------
@@ -144,7 +144,7 @@ def distribution(
         raise ModelError(
             "distribution",
             f"{len(variables.span)} quantities at all poses are too many at once.",
-            "Take fewer poses at a time.",
+            "Use fewer poses at a time.",
         )
     spread_out = 2 ** int(np.log2(fineness)) * BINS
     chunk = 2 ** int(np.log2(max(64, CHUNK // len(variables.span))))

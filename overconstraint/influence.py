@@ -26,12 +26,12 @@ Array = NDArray[Any]
 
 
 class UndeterminedWarning(UserWarning):
-    """Forces of which the sum alone is determined."""
+    """Only the sum of some forces is determined."""
 
 
 @dataclass(frozen=True)
 class Influence:
-    """What every misfit causes, at a batch of poses.
+    """Effect of every misfit, at a batch of poses.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ class Influence:
 
 @dataclass(frozen=True)
 class AssemblyForces:
-    """What given misfits cause.
+    """Forces and tool displacement due to given misfits.
 
     Parameters
     ----------
@@ -266,9 +266,9 @@ def _warn_of_rigid_shares(linkage: Linkage, forces: Array, open_: NDArray[np.boo
     ]
     if named:
         warnings.warn(
-            f"joints {', '.join(named)}: rigid parts alone decide how these share a force, so only "
-            "their sum is sure; the least forces in balance are given. Give one of these joints "
-            "or bodies its real stiffness.",
+            f"joints {', '.join(named)}: rigid parts alone decide how these share a force, so "
+            "only their sum is certain; the least forces in balance are given. Give one of these "
+            "joints or bodies its real stiffness.",
             UndeterminedWarning,
             stacklevel=3,
         )

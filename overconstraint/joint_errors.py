@@ -56,9 +56,7 @@ class JointError:
                 "Directions are " + ", ".join(DIRECTIONS) + ".",
             )
         if not (isfinite(self.size) and self.size > 0):
-            raise ModelError(
-                self.name, f"is {self.size:g}.", "Give a positive size, or leave it out."
-            )
+            raise ModelError(self.name, f"is {self.size:g}.", "Give a positive size, or omit it.")
 
     @property
     def name(self) -> str:
@@ -106,7 +104,7 @@ def error_sources(
         if states[DIRECTIONS.index(error.direction)] == State.FREE:
             raise ModelError(
                 error.name,
-                "is in a direction that is free: it moves no tool.",
+                "is in a direction that is free: it does not move the tool.",
                 "Name a locked, elastic or driven direction of the joint.",
             )
         if names.count(error.name) > 1:

@@ -97,7 +97,7 @@ def least_cost(
         raise NumericalError(
             "allocation",
             f"its cost is known to {best[0]:.1e} only.",
-            "Give costs and bounds of sizes nearer to one another.",
+            "Give costs and bounds of sizes closer to one another.",
         )
     return best[1], best[2] / given
 

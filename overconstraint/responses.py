@@ -13,24 +13,17 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Linkage, State
 from strutwork.msa.structure import PlacedStructure
 from strutwork.overconstraint.influence import Influence, influence
+from strutwork.overconstraint.joint_forces import JOINT_FORCES
 from strutwork.overconstraint.rounding import product_without_rounding, row_scale
 from strutwork.overconstraint.sources import MisfitSources, misfit_sources
 from strutwork.overconstraint.tolerance import Tolerance
 
 Array = NDArray[Any]
 
-#: Name of a quantity by the joint directions that it takes together.
-KINDS = (
-    ("radial force", ("x", "y"), "N"),
-    ("axial force", ("z",), "N"),
-    ("bending moment", ("rx", "ry"), "N*m"),
-    ("torque", ("rz",), "N*m"),
-)
-
 
 @dataclass(frozen=True)
 class Quantity:
-    """The size of one or two components of a joint's force, or of the tool's displacement.
+    """Magnitude of one or two components of a joint force or of the tool displacement.
 
     Parameters
     ----------
@@ -122,7 +115,7 @@ def joint_quantities(linkage: Linkage) -> tuple[Quantity, ...]:
         if joint.type == "support":
             continue
         carried = {d for d, s in zip(DIRECTIONS, states, strict=True) if s != State.FREE}
-        for kind, directions, unit in KINDS:
+        for kind, directions, unit in JOINT_FORCES:
             here = tuple(d for d in directions if d in carried)
             if here:
                 found.append(Quantity(joint.name, kind, here, unit))
@@ -195,7 +188,7 @@ def tolerance_responses(
     tolerances: Sequence[Tolerance],
     quantities: Sequence[Quantity] | None = None,
 ) -> Responses:
-    """From a structure and its tolerances to all that is asked of them.
+    """Responses of a structure to its tolerances.
 
     Parameters
     ----------

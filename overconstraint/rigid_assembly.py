@@ -54,7 +54,7 @@ class RigidAssembly:
 
 @dataclass(frozen=True)
 class RigidEquilibrium:
-    """Where the body comes to rest.
+    """Equilibrium of the rigid body.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def rigid_equilibrium(
         raise MechanismError(
             "rigid assembly",
             "its joints leave the body free to move.",
-            "Give stiffness to joints enough: six independent directions at least.",
+            "Give enough joints a stiffness: at least six independent directions.",
         )
     load = (turned @ (stiffness @ misfits[..., None])).sum(axis=-3)
     solution = np.linalg.solve(matrix, load)

@@ -71,7 +71,7 @@ class SampledZones:
                 return factor
         raise ModelError(
             "limits",
-            f"fewer than {self.share:.6g} of the assemblies keep them, even with every tolerance "
+            f"fewer than {self.share:.6g} of the assemblies meet them, even with every tolerance "
             "that may change at its least.",
             "Raise the limits, lower the bounds, or free a fixed tolerance.",
         )

@@ -64,7 +64,7 @@ def uniform_numbers(
             "sampling", f'unknown method "{method}".', f"Choose one of: {', '.join(METHODS)}."
         )
     if samples < 1:
-        raise ModelError("sampling", f"{samples} samples were asked for.", "Ask for one or more.")
+        raise ModelError("sampling", f"{samples} samples were requested.", "Request one or more.")
     if parameters == 0:
         raise ModelError("sampling", "there is no tolerance to sample.", "Give a tolerance.")
     generator = np.random.default_rng(seed)
@@ -91,7 +91,7 @@ def points_per_scramble(samples: int) -> int:
 
 
 def draw(sources: MisfitSources, uniform: Array) -> Array:
-    """Parameters z as their tolerances' distributions say.
+    """Sample the parameters z from the distributions of their tolerances.
 
     Parameters
     ----------

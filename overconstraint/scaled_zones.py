@@ -150,7 +150,7 @@ class ScaledZones:
         least = found.value.ravel()[first]
         raise ModelError(
             f"limit of the {quantity.name}",
-            f"{self.limit[q]:.6g} {quantity.unit} cannot be kept: with every tolerance that may "
+            f"{self.limit[q]:.6g} {quantity.unit} cannot be met: with every tolerance that may "
             f"change at its least, the worst case is still {least:.6g} {quantity.unit}.",
             "Raise the limit, lower the bounds, free a fixed tolerance, or move the middle of a "
             "zone that loads this joint.",
@@ -193,7 +193,7 @@ class ScaledZones:
         raise NumericalError(
             "allocation",
             f"the worst case did not come down to its limit in {ROUNDS} steps.",
-            "Give limits and sizes nearer to one another.",
+            "Give limits and sizes closer to one another.",
         )
 
     def clip(self, factor: float, ray: Array) -> Array:

@@ -20,7 +20,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Redundancy:
-    """What is held more than once.
+    """Redundant constraints of a structure.
 
     Parameters
     ----------

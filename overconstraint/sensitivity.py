@@ -18,7 +18,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """What every tolerance does to every quantity.
+    """Effect of every tolerance on every quantity.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Sensitivity:
 
 
 def given_size(tolerance: Tolerance) -> float:
-    """The number that a tolerance is given by, and that its zone scales with.
+    """The value that defines a tolerance and scales its zone.
 
     Its slope, rad; its size, m; or half the distance of its limits, m.
 

@@ -28,7 +28,7 @@ ROUNDING = 1e-13
 
 
 class ToleranceWarning(UserWarning):
-    """A tolerance that cannot do anything."""
+    """A tolerance has no effect."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ class Block:
 
 @dataclass(frozen=True)
 class MisfitSources:
-    """Misfits of joints as tolerances cause them, g = mean + M z.
+    """Misfits of joints that tolerances cause, g = mean + M z.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ BINS = 64
 
 @dataclass(frozen=True)
 class Spread:
-    """How variables are spread between zero and their exact worst case.
+    """Distribution of variables between zero and their exact worst case.
 
     Parameters
     ----------

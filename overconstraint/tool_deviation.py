@@ -155,7 +155,7 @@ def farthest(
         raise NumericalError(
             "tool deviation",
             "its bound exceeds its value by more than the tolerance.",
-            "Ask for a larger tolerance.",
+            "Request a larger tolerance.",
         )
     return z, place, bound
 
@@ -205,7 +205,7 @@ def _largest(
     raise NumericalError(
         "tool deviation",
         f"its bound did not come within {tolerance:g} of the value.",
-        "Ask for a larger tolerance, or take fewer poses at a time.",
+        "Request a larger tolerance, or use fewer poses at a time.",
     )
 
 

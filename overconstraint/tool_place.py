@@ -71,7 +71,7 @@ def check_tool_place(system: System, tool: Array) -> None:
     raise MechanismError(
         "joints " + ", ".join(names) if names else "structure",
         f'the misfits move the tool "{linkage.tool}" along a mechanism that nothing holds{where}: '
-        f"{motions}. Its place is not settled.",
-        "Lock, drive or spring one of these directions, or leave the tool out: the forces do not "
+        f"{motions}. Its position is indeterminate.",
+        "Lock, drive or spring one of these directions, or omit the tool: the forces do not "
         "depend on it.",
     )

@@ -32,7 +32,7 @@ STEPS = 40
 
 @dataclass(frozen=True)
 class WorstCase:
-    """Largest size of every quantity that the tolerances allow.
+    """Largest magnitude of every quantity that the tolerances allow.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def worst_case(responses: Responses, tolerance: float = 1e-9) -> WorstCase:
         raise NumericalError(
             "worst case",
             f"its bound exceeds its value by {np.max(excess / np.maximum(value, 1e-300)):.2g}.",
-            "Ask for a larger tolerance.",
+            "Request a larger tolerance.",
         )
     return WorstCase(
         responses,

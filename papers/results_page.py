@@ -13,17 +13,13 @@ from pathlib import Path
 
 from strutwork.errors import ModelError
 from strutwork.files import write_text
-from strutwork.papers.published_rows import Status
-from strutwork.papers.statements import Statement, read_statements, shown
-
-#: Kinds of status in the order in which they are counted.
-STATUSES: tuple[Status, ...] = ("predicted", "calibrated", "not reproducible")
+from strutwork.papers.statements import STATUSES, Statement, read_statements, shown
 
 HEAD = """# Published results
 
 Every result that the five documents print, beside the computed one, with its status, the reason,
-and the test that holds it. *Predicted* means that no choice was made with the published value in
-sight; *calibrated*, that one was; *not reproducible*, that the document does not say enough, or
+and the test that holds it. *Predicted* means that no choice was made to match the published
+value; *calibrated*, that one was; *not reproducible*, that the document does not state enough, or
 that it errs, as the reason states.
 The page is written from the reports' files:
 

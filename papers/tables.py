@@ -7,7 +7,7 @@ from pathlib import Path
 
 from strutwork.files import write_whole
 from strutwork.papers.published_rows import CLOSE, COLUMNS, FAIR, PublishedRow, file_name
-from strutwork.reports.content import Cell, Column, Table
+from strutwork.reports.content import Cell, Column, Points, Table
 from strutwork.reports.data_files import DataFile, csv_file
 from strutwork.reports.numbers import percent, significant
 
@@ -35,9 +35,24 @@ def ours(groups: Iterable[str], unit: str = "") -> tuple[Column, ...]:
     )
 
 
-def assumed(title: str, rows: Sequence[Sequence[str | Cell]]) -> Table:
-    """Assumptions with their values and sources."""
-    return Table(title, texts("assumption", "value", "source"), rows)
+def assumed(title: str, rows: Sequence[Sequence[str]]) -> Points:
+    """Assumptions in sentences: those of one source together.
+
+    Parameters
+    ----------
+    title : str
+    rows : sequence of (str, str, str)
+        Assumption, value, source.
+
+    >>> assumed("Dimensions", [("Rod", "1 m", "assumed"), ("Load", "none", "assumed")]).items
+    ('Rod: 1 m; Load: none (assumed).',)
+    """
+    found: dict[str, list[str]] = {}
+    for what, value, source in rows:
+        found.setdefault(source, []).append(f"{what}: {value}" if value else what)
+    return Points(
+        tuple(f"{'; '.join(values)} ({source})." for source, values in found.items()), title
+    )
 
 
 def difference(row: PublishedRow) -> Cell:
@@ -45,6 +60,12 @@ def difference(row: PublishedRow) -> Cell:
     size = abs(row.difference_percent)
     tone = "good" if size < CLOSE else "fair" if size < FAIR else "poor"
     return Cell(percent(nearly(row.difference_percent)), tone)  # type: ignore[arg-type]
+
+
+def beside(row: PublishedRow, text: str) -> Cell:
+    """The computed number with its difference from the print below it."""
+    found = difference(row)
+    return Cell(text, found.tone, found.text)
 
 
 def nearly(percentage: float) -> float:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 LISTED = 3
 
 #: Shown where the members of a group have different values.
-DIFFERS = "each its own"
+DIFFERS = "one for each"
 
 
 def pattern(name: str) -> str:

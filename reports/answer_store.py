@@ -116,7 +116,7 @@ class AnswerStore:
         body = content[len(_MARK) + 32 :]
         head = _MARK + hashlib.sha256(body).digest()
         if not content.startswith(head):
-            note_once("damaged answer", f"{path} is damaged; its answer is found again.")
+            note_once("damaged answer", f"{path} is damaged; its answer is computed again.")
             return None
         try:
             found = pickle.loads(body)  # noqa: S301 - our own file, in our own folder
@@ -154,15 +154,15 @@ class AnswerStore:
             if not _private(self.folder):
                 note_once(
                     "answers",
-                    f"{self.folder} is open to others: answers are not kept for later runs. Remove "
-                    "it, or close it (chmod 700).",
+                    f"{self.folder} is accessible to other users: results are not stored for "
+                    "later runs. Remove it, or restrict it (chmod 700).",
                 )
                 return False
             write_whole(self.path(name), lambda path: path.write_bytes(whole))
         except (OSError, OutputError) as error:
             cause = error.__cause__ if isinstance(error, OutputError) else error
             why = reason(cause if isinstance(cause, Exception) else error)
-            note_once("answers", f"answers are not kept for later runs ({self.folder}: {why}).")
+            note_once("answers", f"results are not stored for later runs ({self.folder}: {why}).")
             return False
         make_room(self.folder, self.path(name).parent)
         return True

@@ -170,7 +170,7 @@ def write_page(
 def with_archive(page: Page) -> Page:
     """A page whose list of files, in its last chapter, ends with all of them in one."""
     *before, closing = page.chapters
-    what = "all of them in one file; this page carries them too, and may be passed on alone"
+    what = "all of them in one file; this page contains them too and can be passed on alone"
     blocks = tuple(
         Links((*block.items, (ARCHIVE, what))) if isinstance(block, Links) else block
         for block in closing.blocks
@@ -211,9 +211,7 @@ def compose(
     subject: Subject | None = None
     if target in pages:
         if put is not None:
-            raise ModelError(
-                target, "is a comparison, which has no pose of its own.", "Name a machine."
-            )
+            raise ModelError(target, "is a comparison and has no pose.", "Name a machine.")
         own = DocumentPage(pages[target])
         kept = Kept(store_at(own.key, fresh=fresh))
         title, subtitle, chapters = own.of(kept, progress)
@@ -226,7 +224,7 @@ def compose(
     else:
         raise ModelError(
             f"report {target}",
-            "is no machine of the catalogue and no model file.",
+            "is neither a machine of the catalogue nor a model file.",
             meant(target, [*CATALOGUE, *pages])
             + f"Machines: {', '.join(CATALOGUE)}; comparison: {', '.join(pages)}; or the path of a "
             "TOML file.",
@@ -258,7 +256,7 @@ def _machine(
     if put is not None or not found.report:
         subtitle = found.entry.topology
         if put is None:
-            subtitle += f" · what is printed stands in the report of {found.entry.name}"
+            subtitle += f" · the published values are in the report of {found.entry.name}"
         with answering(about, fresh=fresh) as subject:
             return subject.title, subtitle, report_of(subject), subject
     asked = name if found.variant.report else found.entry.name

@@ -37,10 +37,10 @@ from strutwork.reports.subject import Subject
 #: Cover of a machine that a document describes.
 COVER = "cover"
 COVER_TEXT = (
-    "The machine as it stands at home, each answer with the chapter that says more. What its "
-    "document prints stands beside the computed values further down. Where the document leaves a "
-    "dimension "
-    "open it is calibrated or assumed, and these answers depend on it: the assumptions name each."
+    "These answers are for the machine at home, and each links to the chapter that says more. "
+    "Further down, published values are shown beside the computed ones. Where the document "
+    "leaves a dimension open, it is calibrated or assumed and these answers depend on it; the "
+    "assumptions name each."
 )
 
 NO_TOOL = "it has no tool: add [tool] with tcp"
@@ -107,7 +107,7 @@ CHAPTERS: tuple[Offered, ...] = (
     Offered("structure", "What is it made of?", _always, lambda s: structure_chapter(s.model)),
     Offered(
         "check",
-        "Can it move, and is anything held twice?",
+        "Can it move, and is any direction constrained twice?",
         _always,
         lambda s: check_chapter(s.check),
     ),
@@ -118,7 +118,7 @@ CHAPTERS: tuple[Offered, ...] = (
     _module(reversals),
     Offered("tool", "How stiff is it at home?", _needs_tool, _solved(tool_chapter)),
     _module(ellipsoids),
-    Offered("budget", "What gives way?", _needs_stiffness, lambda s: budget_chapter(s.model)),
+    Offered("budget", "What deforms most?", _needs_stiffness, lambda s: budget_chapter(s.model)),
     _module(workspace_stiffness),
     Offered("loads", "How does it bend under its loads?", _needs_cases, _solved(loads_chapter)),
     Offered("forces", "What do its joints and beams carry?", _needs_cases, _solved(forces_chapter)),
@@ -241,7 +241,9 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
     if left:
         lines = tuple(f"{title} {reason[0].upper()}{reason[1:]}." for title, reason in left)
         absent = Chapter(
-            "absent", "What is not here", (Text("Questions that have no answer:"), Points(lines))
+            "absent",
+            "What is missing here",
+            (Text("These questions have no answer:"), Points(lines)),
         )
         chapters = (*chapters, absent)
     shown = visible(subject.name)

@@ -90,10 +90,19 @@ class Column:
 
 @dataclass(frozen=True)
 class Cell:
-    """A cell with a tone: its colour never says more than its words."""
+    """A cell with a tone: its colour never says more than its words.
+
+    Parameters
+    ----------
+    text : str
+    tone : "plain", "good", "fair", "poor" or "quiet"
+    detail : str
+        Second line, smaller.
+    """
 
     text: str
     tone: Tone = "plain"
+    detail: str = ""
 
 
 @dataclass(frozen=True)
@@ -232,9 +241,17 @@ class Links:
 
 @dataclass(frozen=True)
 class Points:
-    """A list of short statements."""
+    """A list of short statements.
+
+    Parameters
+    ----------
+    items : tuple of str
+    title : str
+        Stands above them.
+    """
 
     items: tuple[str, ...]
+    title: str = ""
     kind: ClassVar[str] = "points"
 
 

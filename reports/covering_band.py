@@ -76,6 +76,6 @@ def covering_band(
         if all_ > 0 and part[inside].max(initial=0.0) < STATIC_SHARE
     ]
     return (band[0], limit), (
-        f"The band stops at {significant(limit)} Hz, where the modes inside it carry of the static "
-        f"compliance: {', '.join(short)}. The rest belongs to modes beyond."
+        f"The band ends at {significant(limit)} Hz. The modes in it carry this share of the "
+        f"static compliance: {', '.join(short)}; the rest belongs to higher modes."
     )

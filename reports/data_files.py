@@ -64,7 +64,7 @@ def json_file(name: str, what: str, value: Any) -> DataFile:
         text = json.dumps(value, allow_nan=False, ensure_ascii=False, indent=1, default=_plain)
     except ValueError:
         raise NumericalError(
-            name, "would hold a number that is not finite.", "Check the model."
+            name, "would contain a number that is not finite.", "Check the model."
         ) from None
     # halves of pairs, as in file names that are no UTF-8, become the escapes that JSON has for them
     return DataFile(
@@ -103,7 +103,7 @@ def _entry(name: str, value: Any) -> Any:
     if isinstance(value, float | np.floating):
         number = float(value)
         if np.isinf(number):
-            raise NumericalError(name, "would hold an infinite number.", "Check the model.")
+            raise NumericalError(name, "would contain an infinite number.", "Check the model.")
         return "" if np.isnan(number) else repr(number)
     return "" if value is None else value
 

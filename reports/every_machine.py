@@ -25,6 +25,7 @@ from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.chapters.workspace_size import shown_unit
 from strutwork.reports.content import Chapter, Column, Links, Note, Points, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file
+from strutwork.reports.long_tables import LONGEST
 from strutwork.reports.numbers import micro, significant
 from strutwork.reports.report_folder import PAGE, require_ours
 from strutwork.reports.subject import Subject, Teller
@@ -126,7 +127,7 @@ def comparison_page(
     content = {"machines": {c.name: c.answers.to_dict() for c in compared}}
     closing = closing_chapter("all machines", {"task": TASK}, content, chapters)
     all_ = (*chapters, closing)
-    subtitle = f"{len(compared)} machines, asked the same questions in the same task"
+    subtitle = f"{len(compared)} machines, compared at the same task"
     files = tuple(f for chapter in all_ for f in chapter.files)
     return Composed(page_of(TITLE, subtitle, all_), files)
 
@@ -165,43 +166,51 @@ def _comparison(compared: Sequence[Compared]) -> Chapter:
         Column("redundant constraints"),
         Column("condition, least to largest"),
         Column("task reached"),
-        Column("whole workspace"),
+        Column("entire workspace"),
     )
+    parts = _parts(compared)
     blocks = (
         Text(
-            "Every machine stands at home with its drives held and is asked the same. The task is "
-            f"{TASK}."
+            "Every machine is at home with its drives held, and the same is computed for each. "
+            f"The task is {TASK}."
         ),
-        Table(
-            "How stiff it is at the tool centre point, the other directions free to follow",
-            stiff,
-            [
+        *(
+            Table(
+                "Stiffness at the tool centre point, with the other directions free to follow"
+                + words,
+                stiff,
                 [
-                    c.name,
-                    *(_stiffness(v) for v in (*c.answers.home, *c.answers.worst)),
-                    _softest(c.answers),
-                    _known(c.answers.frequency),
-                ]
-                for c in compared
-            ],
-            CSV,
+                    [
+                        c.name,
+                        *(_stiffness(v) for v in (*c.answers.home, *c.answers.worst)),
+                        _softest(c.answers),
+                        _known(c.answers.frequency),
+                    ]
+                    for c in some
+                ],
+                CSV,
+            )
+            for words, some in parts
         ),
-        Table(
-            "How it moves; redundant constraints with the drives held",
-            moves,
-            [
+        *(
+            Table(
+                "Mobility; redundant constraints are those with the drives held" + words,
+                moves,
                 [
-                    c.name,
-                    f"{c.answers.mobility}",
-                    f"{c.answers.drives}",
-                    f"{c.answers.redundant}",
-                    _range(c.answers.condition),
-                    f"{c.answers.reached} of {c.answers.poses}",
-                    c.workspace or NONE,
-                ]
-                for c in compared
-            ],
-            CSV,
+                    [
+                        c.name,
+                        f"{c.answers.mobility}",
+                        f"{c.answers.drives}",
+                        f"{c.answers.redundant}",
+                        _range(c.answers.condition),
+                        f"{c.answers.reached} of {c.answers.poses}",
+                        c.workspace or NONE,
+                    ]
+                    for c in some
+                ],
+                CSV,
+            )
+            for words, some in parts
         ),
         Note(
             "Machines differ in size, and the documents leave dimensions open: a row shows what "
@@ -211,6 +220,16 @@ def _comparison(compared: Sequence[Compared]) -> Chapter:
         *((Points(remarks),) if (remarks := tuple(_remarks(compared))) else ()),
     )
     return Chapter("comparison", "How do the machines compare?", blocks, (_csv(compared),))
+
+
+def _parts(compared: Sequence[Compared]) -> list[tuple[str, Sequence[Compared]]]:
+    """Many machines in two tables by their freedoms, with what the captions say of them."""
+    if len(compared) <= LONGEST:
+        return [("", compared)]
+    six = [c for c in compared if c.answers.mobility >= 6]
+    fewer = [c for c in compared if c.answers.mobility < 6]
+    named = ((": six freedoms or more", six), (": fewer than six freedoms", fewer))
+    return [(words, some) for words, some in named if some]
 
 
 def _softest(answers: MachineAnswers) -> str:
@@ -267,7 +286,7 @@ def _csv(compared: Sequence[Compared]) -> DataFile:
         ]
         for c in compared
     ]
-    return csv_file(CSV, "the same questions to all machines, SI", columns, rows)
+    return csv_file(CSV, "the same quantities of all machines, SI", columns, rows)
 
 
 def _stiffness(value: float) -> str:

@@ -40,17 +40,21 @@ def mathml(latex: str) -> str:
     return str(convert(latex))
 
 
-def typeset(prepare: Callable[[str], str]) -> Callable[[str], Markup]:
+def typeset(
+    prepare: Callable[[str], str], finish: Callable[[str], str] = str
+) -> Callable[[str], Markup]:
     """A filter for the template: text escaped, its formulas typeset.
 
     Parameters
     ----------
     prepare : callable
         What is done to the text before it is escaped.
+    finish : callable
+        What is done to the escaped text; may add markup.
     """
 
     def filtered(text: str) -> Markup:
-        safe = escape(prepare(str(text)))
+        safe = finish(escape(prepare(str(text))))
         shown = _KNOWN.sub(lambda found: mathml(_LATEX[found.group()]), safe)
         return Markup(shown)  # noqa: S704 - escaped above; the formulas are our own
 

@@ -45,7 +45,7 @@ def freedom_sentences(found: ModelCheck) -> list[str]:
         what = "motion is" if counts.mobility_locked == 1 else "motions are"
         said.append(
             f"With the drives held, {counts.mobility_locked} {what} left: add a constraint or a "
-            "drive, or leave it to a spring."
+            "drive, or hold it with a spring."
         )
     elif found.drives:
         said.append("The drives hold it." if tool is None else "The drives hold the tool.")
@@ -59,7 +59,7 @@ def freedom_sentences(found: ModelCheck) -> list[str]:
             f"{visible(listed(joints)) if len(joints) <= NAMED else f'{len(joints)} joints'}."
         )
     else:
-        said.append("No constraint is redundant: manufacturing errors lock no forces in.")
+        said.append("No constraint is redundant: manufacturing errors lock in no forces.")
     return said
 
 

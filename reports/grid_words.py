@@ -45,7 +45,7 @@ def grid_of_words(words: Iterable[str], part: str = "--over", points: int = POIN
         if not equals or name not in DIRECTIONS:
             raise ModelError(
                 part,
-                f'"{word}" is no range of a direction.',
+                f'"{word}" is not a range of a direction.',
                 "Write it as in x=-100mm..100mm:5 or rz=0deg..20deg.",
             )
         if name in axes:
@@ -68,8 +68,8 @@ def grid_of_words(words: Iterable[str], part: str = "--over", points: int = POIN
         if count > MOST:
             raise ModelError(
                 part,
-                f'"{word}" has more than the {MOST:,} points that are taken along a direction.',
-                "Take fewer points.",
+                f'"{word}" has more than the {MOST:,} points that are allowed along a direction.',
+                "Use fewer points.",
             )
         axes[name] = np.linspace(first, last, count)
     return TaskGrid({d: axes[d] for d in DIRECTIONS if d in axes})

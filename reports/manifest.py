@@ -91,7 +91,7 @@ def read_manifest(folder: Path) -> Manifest | None:
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise ModelError(
             str(path),
-            "is no manifest of a report, or a damaged one.",
+            "is not the manifest of a report, or is damaged.",
             "Choose another folder, or remove the report in this one by hand.",
         ) from error
 
@@ -111,9 +111,9 @@ def verify_report(folder: Path) -> Manifest:
     """
     found = read_manifest(folder)
     if found is None:
-        raise ModelError(str(folder), f"holds no {MANIFEST}.", "Name the folder of a report.")
+        raise ModelError(str(folder), f"contains no {MANIFEST}.", "Name the folder of a report.")
     if not found.complete:
-        raise ModelError(str(folder), "holds a report that was cut short.", "Write it again.")
+        raise ModelError(str(folder), "contains an incomplete report.", "Write it again.")
     wrong = [name for name, entry in found.files.items() if not _is(folder / name, entry)]
     if wrong:
         raise ModelError(

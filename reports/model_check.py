@@ -23,7 +23,7 @@ from strutwork.machines.model import Model, ModelWarning
 from strutwork.msa import PlacedStructure, system_of
 from strutwork.msa.constraints import scales
 from strutwork.msa.mass import mass_properties, total_mass
-from strutwork.msa.sparse import row_groups, unit_rows
+from strutwork.msa.row_groups import row_groups, unit_rows
 from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 from strutwork.stages import stage
 
@@ -155,7 +155,7 @@ def check_model(model: Model) -> ModelCheck:
 def degrees_of_freedom(placed: PlacedStructure) -> int:
     """Unknowns of the structure less the rank of its locked directions; single pose."""
     system = system_of(placed)
-    rows, _ = unit_rows(system, scales(system)[0])
+    rows = unit_rows(system, scales(system)[0])
     rank = 0
     for _, block, _ in row_groups(rows):
         values = np.linalg.svd(block, compute_uv=False)

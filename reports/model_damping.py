@@ -37,8 +37,8 @@ def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | No
     if found is not None and named:
         warnings.warn(
             f"material {', '.join(sorted(named))}: the loss factor is not used, since the damping "
-            f"of the structure ({found}) holds it already. Leave [damping] out to use the "
-            f"materials'.",
+            f"of the structure ({found}) already includes it. Remove [damping] to use the "
+            "materials'.",
             ModelWarning,
             stacklevel=2,
         )

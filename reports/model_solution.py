@@ -177,8 +177,8 @@ def _warn_of_undetermined(undetermined: Mapping[str, tuple[str, ...]]) -> None:
     more = len(undetermined) - len(shown)
     named = "; ".join(shown) + (f"; and {more} more" if more else "")
     warnings.warn(
-        f"joint forces: those of {named} are not determined and are withheld: rigid parts alone "
-        "decide how these share a force. Give one of these joints or bodies its real stiffness.",
+        f"joint forces: those of {named} are indeterminate and are withheld: only rigid parts "
+        "decide how they share a force. Give one of these joints or bodies its real stiffness.",
         ModelWarning,
         stacklevel=3,
     )

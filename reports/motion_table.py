@@ -121,13 +121,13 @@ def read_rows(path: Path, part: str) -> tuple[list[str], list[list[str]]]:
     """
     try:
         if path.stat().st_size > LARGEST_FILE:
-            raise ModelError(part, "is larger than 200 MB.", "Part it.")
+            raise ModelError(part, "is larger than 200 MB.", "Split it.")
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise ModelError(part, f"cannot be read: {error}.", "Give a CSV file in UTF-8.") from error
     rows = [row for row in csv.reader(StringIO(text)) if row]
     if len(rows) < 2:
-        raise ModelError(part, "has no row of numbers.", "Give a head and a row a target.")
+        raise ModelError(part, "has no row of numbers.", "Give a header and one row per target.")
     return [csv_name(cell.strip()) for cell in rows[0]], rows[1:]
 
 

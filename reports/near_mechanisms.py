@@ -27,8 +27,8 @@ def warn_of_near(found: Sequence[NearMechanism]) -> None:
     """Name every motion in a warning of its own."""
     for near in found:
         warnings.warn(
-            f"joints: {near.description} Give the coordinates and axes all their digits, or free "
-            "one of the joint directions that close the loop.",
+            f"joints: {near.description} Give the coordinates and axes with all their digits, or "
+            "free one of the joint directions that close the loop.",
             ModelWarning,
             stacklevel=3,
         )

@@ -46,7 +46,7 @@ def machine_figure(model: Model, case: str | None = None, mode: int | None = Non
     import plotly.graph_objects as go
 
     if case is not None and mode is not None:
-        raise ModelError("plot", "is asked for a case and for a mode.", "Give one of them.")
+        raise ModelError("plot", "is asked for both a case and a mode.", "Give one of them.")
     if case is not None:
         drawn, title = _deformed(model, case)
     elif mode is not None:
@@ -62,7 +62,10 @@ def _deformed(model: Model, name: str) -> tuple[dict[str, Any], str]:
     solution, number = solve_model(model), model.cases.index(case)
     largest, factor = exaggeration(solution, number)
     shape, moved = deformed_shape(model, solution.statics, number, factor)
-    title = f"{name}: drawn {times(factor)} times as large, at most {significant(1e6 * largest)} µm"
+    title = (
+        f"{name}: drawn {times(factor)} times its true size, at most {significant(1e6 * largest)} "
+        "µm"
+    )
     return deformed_view(model, shape, moved, case, "displacement (µm)"), title
 
 
@@ -115,7 +118,7 @@ def survey_figure(dataset: xr.Dataset, name: str | None, label: str | None) -> g
     if not 1 <= len(wide) <= 2:
         raise ModelError(
             "plot",
-            f"draws poses along one or two directions, and these go along {len(wide)}.",
+            f"draws poses along one or two directions, and these vary along {len(wide)}.",
             "Select some first: dataset.sel(z=0.0), or dataset.isel(z=0).",
         )
     chosen, word = _labelled(dataset[name], poses, label)

@@ -5,9 +5,11 @@ from __future__ import annotations
 import json
 import re
 import textwrap
+from dataclasses import replace
 from functools import cache
 from html import escape
 from importlib.resources import files
+from itertools import chain
 from typing import Any
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -15,17 +17,28 @@ from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from strutwork.reports.archive import Carried
-from strutwork.reports.content import Page
+from strutwork.reports.content import Chapter, Page, Table
 from strutwork.reports.formulas import typeset
+from strutwork.reports.long_tables import shortened
 from strutwork.reports.row_legend import one_legend
 
 HARD_SPACE = "\N{NO-BREAK SPACE}"
 
 #: Between a number and its unit, and between a direction and its coordinate.
 _UNIT = re.compile(
-    r"(?<=\d) (?=(?:%|°|[mµn]?m\b|[µm]?rad\b|deg\b|k?N\b|Hz\b|kg\b|[GM]Pa\b|[sJW]\b|times\b))"
+    r"(?<=\d) (?=(?:%|°|[mµn]?m[²³]?\b|[µm]?rad\b|deg\b|k?N²?\b|Hz\b"
+    r"|kg\b|[GM]Pa\b|[sJW]\b|times\b))"
     r"|(?<=\b[xyz]) (?=[−\d])|(?<=\br[xyz]) (?=[−\d])"
 )
+
+#: A unit that is a quotient, with the number before it, in escaped text.
+_PART = r"(?:[kµmnGM]?(?:N|m|rad|g|s|Pa|J)|min|deg|Hz)[²³]?"
+_PRODUCT = rf"{_PART}(?:·{_PART})?"
+_QUOTIENT = re.compile(
+    rf"(?:(?<![\w.])[−±+]?\d[\d.,]*(?:e[−-]?\d+)?{HARD_SPACE})?"
+    rf"(?<![\w/]){_PRODUCT}/(?:{_PRODUCT}|\({_PART}[· ]{_PART}\))(?![\w/])"
+)
+WORD_JOINER = "\N{WORD JOINER}"
 
 #: Longest line of a name in a plot, characters.
 LINE = 40
@@ -53,7 +66,7 @@ def render(page: Page, carried: Carried | None = None) -> str:
         _environment()
         .get_template("report.html")
         .render(
-            page=page,
+            page=replace(page, chapters=tuple(_short(chapter) for chapter in page.chapters)),
             carried=carried or Carried(),
             style=_asset("style.css"),
             paper=_asset("print.css") + Markup(_edges(page)),  # noqa: S704 - escaped
@@ -62,6 +75,12 @@ def render(page: Page, carried: Carried | None = None) -> str:
             plotly=Markup(_closed(get_plotlyjs())),  # noqa: S704 - the library's own text
         )
     )
+
+
+def _short(chapter: Chapter) -> Chapter:
+    """A chapter whose long tables show their first rows."""
+    blocks = (shortened(b) if isinstance(b, Table) else (b,) for b in chapter.blocks)
+    return replace(chapter, blocks=tuple(chain.from_iterable(blocks)))
 
 
 def embedded(value: Any) -> Markup:
@@ -85,6 +104,26 @@ def unbroken(text: str) -> str:
     'at x_0_mm, rz_5°: 3.2_N/µm in 12 poses'
     """
     return _UNIT.sub(HARD_SPACE, text)
+
+
+def joined(text: str) -> str:
+    """Text whose lines do not end after the slash of a unit, for what holds no markup.
+
+    >>> joined("mean (N/µm)").replace(chr(0x2060), "_")
+    'mean (N/_µm)'
+    """
+    return _QUOTIENT.sub(lambda found: found.group().replace("/", f"/{WORD_JOINER}"), text)
+
+
+def held_together(safe: str) -> str:
+    """Escaped text in which a quotient of units stays on one line, with its number.
+
+    A browser ends lines after a slash; an element, unlike a sign that joins, is not copied.
+
+    >>> held_together(unbroken("at least 3.2 N/µm")).replace(chr(0xA0), " ")
+    'at least <span class="held">3.2 N/µm</span>'
+    """
+    return _QUOTIENT.sub(lambda found: f'<span class="held">{found.group()}</span>', safe)
 
 
 def plain(text: str) -> str:
@@ -131,7 +170,8 @@ def _environment() -> Environment:
     )
     environment.filters["embedded"] = embedded
     environment.filters["one_legend"] = one_legend
-    environment.filters["unbroken"] = typeset(unbroken)
+    environment.filters["unbroken"] = typeset(unbroken, held_together)
+    environment.filters["joined"] = joined
     return environment
 
 

@@ -54,12 +54,12 @@ def require_browser() -> Path:
 
     found = Chromium.find_browser(skip_local=False)
     if not found or not Path(found).is_file():
-        what = "none is installed" if not found else f"{visible(str(found))} is no program"
+        what = "none is installed" if not found else f"{visible(str(found))} is not a program"
         raise ModelError(
             "report --pdf",
             f"needs Chrome, Chromium, Edge or Brave to print with, and {what}.",
-            "Install one, as with apt install chromium, or set BROWSER_PATH to its program; or "
-            "open the page in another browser and print it.",
+            "Install one, for example with apt install chromium, or set BROWSER_PATH to its "
+            "program; or open the page in another browser and print it.",
         )
     return Path(found)
 

@@ -47,13 +47,13 @@ def require_ours(folder: Path, names: Iterable[str], about: str = "") -> Manifes
     """
     if folder.exists() and not folder.is_dir():
         raise OutputError(
-            str(folder), "cannot be written (it is no folder).", "Choose the name of a folder."
+            str(folder), "cannot be written (it is not a folder).", "Choose the name of a folder."
         )
     found = read_manifest(folder) or Manifest({})
     if about and found.about and found.about != about:
         raise OutputError(
             str(folder),
-            f'holds the report on "{visible(found.about)}", and this one is on "{visible(about)}".',
+            f'contains the report on "{visible(found.about)}", but this is on "{visible(about)}".',
             "Choose another folder, or remove that report.",
         )
     foreign = [
@@ -64,7 +64,7 @@ def require_ours(folder: Path, names: Iterable[str], about: str = "") -> Manifes
     if foreign:
         raise OutputError(
             str(folder),
-            f"holds files that no {MANIFEST} names, and that would be replaced: "
+            f"contains files that no {MANIFEST} lists and that would be replaced: "
             f"{', '.join(foreign)}.",
             "Choose another folder, or move these files away.",
         )

@@ -41,7 +41,7 @@ def line_of_words(text: str) -> Axes:
         raise ModelError(
             "--line",
             f'"{text}" has coordinates of {sorted(counts)} poses.',
-            "Give each a range of as many poses; what stays belongs to --at.",
+            "Give each the same number of poses; fixed coordinates belong to --at.",
         )
     return axes
 
@@ -57,7 +57,9 @@ def plane_of_words(text: str, low: str | None, high: str | None, steps: int) -> 
     if "=" in text:
         if low or high:
             raise ModelError(
-                "--plane", "gives ranges, and --from or --to too.", "Give one or the other."
+                "--plane",
+                "gives ranges, and --from or --to is given too.",
+                "Give one or the other.",
             )
         axes = dict(grid_of_words([text], "--plane", steps).axes)
     else:
@@ -73,7 +75,7 @@ def plane_of_words(text: str, low: str | None, high: str | None, steps: int) -> 
             found = {d: v for (_, d), v in targets_of_words([words], part).items()}
             if set(found) != set(names):
                 raise ModelError(
-                    part, f"does not name just {text}.", "Give a value of each coordinate."
+                    part, f"does not name exactly {text}.", "Give a value for each coordinate."
                 )
             ends.append(found)
         for name in names:
@@ -82,7 +84,7 @@ def plane_of_words(text: str, low: str | None, high: str | None, steps: int) -> 
         axes = {n: np.linspace(ends[0][n], ends[1][n], steps) for n in names}
     if len(axes) != 2 or any(len(values) < 2 for values in axes.values()):
         raise ModelError(
-            "--plane", f'"{text}" is no two ranges.', "Give two coordinates, as in x,y."
+            "--plane", f'"{text}" is not two ranges.', "Give two coordinates, as in x,y."
         )
     return axes
 

@@ -49,7 +49,7 @@ def read_samples(path: Path) -> Samples:
             if match["unit"] not in _TIME:
                 raise ModelError(part, f'has times in "{match["unit"]}".', "Use s, ms or min.")
             if times is not None:
-                raise ModelError(part, "has two columns of times.", "Leave one out.")
+                raise ModelError(part, "has two columns of times.", "Remove one.")
             times = _TIME[match["unit"]] * column_numbers(rows, column, name, part)
             continue
         if match["name"].rpartition(":")[2] not in DIRECTIONS:
@@ -57,7 +57,7 @@ def read_samples(path: Path) -> Samples:
         key = coordinate(match["name"], part)
         kind = found[match["kind"]]
         if key in kind:
-            raise ModelError(part, f'gives "{name}" twice.', "Leave one out.")
+            raise ModelError(part, f'gives "{name}" twice.', "Remove one.")
         kind[key] = _factor(match, part) * column_numbers(rows, column, name, part)
     values, rates, changes = found[None], found["speed"], found["acceleration"]
     if times is None or not values:

@@ -46,7 +46,7 @@ TOOL_NAMES = ("TCP", "tcp", "tool")
 
 #: Why there is no stiffness between two ports.
 APART = (
-    "uncoupled: a load at one does not move the other but for rounding, and the stiffness between "
+    "uncoupled: a load at one moves the other only by rounding errors, and the stiffness between "
     "them is infinite."
 )
 
@@ -90,7 +90,7 @@ class Target:
             if tool is None:
                 raise ModelError(
                     f'port "{text}"',
-                    "means the tool, and the model has none.",
+                    "means the tool, but the model has none.",
                     'Add a table [tool] with tcp = "NODE", or name a node.',
                 )
             return Port.parse(f"{tool}{colon}{direction}", (tool,))
@@ -112,7 +112,7 @@ class Target:
         if self.damping is None:
             raise ModelError(
                 "damping",
-                "is missing: without it the response has no height at a resonance.",
+                "is missing: without it the response is unbounded at a resonance.",
                 "Add exactly one to the model file, as in [damping] with modal_ratio = 0.01 "
                 "(or loss_factor, or rayleigh), or give --modal-ratio or --loss-factor.",
             )
@@ -149,7 +149,7 @@ def vibration_target(
 
     if modal_ratio is not None and loss_factor is not None:
         raise ModelError(
-            "damping", "is given as a modal ratio and as a loss factor.", "Give one of them."
+            "damping", "is given both as a modal ratio and as a loss factor.", "Give one of them."
         )
     given: Damping | None = None
     if modal_ratio is not None:
@@ -261,7 +261,7 @@ def target_modes(target: Target, count: int) -> TargetModes:
     found = _some(found, slice(rigid + count))
     exist = len(found.frequencies) - rigid
     if exist < count:
-        note = f"{count} modes were asked for and {exist} exist: these are all there are."
+        note = f"{count} modes were requested, but only {exist} exist."
         found = replace(found, note=note)
     ratios = None if target.damping is None else damping_ratios(found, target.damping)
     idle = idle_motions(target.placed)
@@ -368,7 +368,7 @@ def target_response(
     check_band(*band)
     damping = target.require_damping()
     if lines < 2:
-        raise ModelError("lines", f"{lines} asked for.", "Ask for at least two.")
+        raise ModelError("lines", f"{lines} requested.", "Request at least two.")
     response = frequency_response(
         target.placed, [given], [output], np.linspace(*band, lines), damping, "all_modes"
     )

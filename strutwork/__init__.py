@@ -22,10 +22,9 @@ from strutwork.errors import (
     UnreachableError,
 )
 from strutwork.loading import load
-from strutwork.outcome import Outcome
 
 if TYPE_CHECKING:
-    from types import ModuleType
+    from strutwork.outcome import Outcome
 
 __version__ = "0.1.0"
 
@@ -64,7 +63,10 @@ _ROOMS = (
 _SHOWN = ("StrutworkError", "load", *_ROOMS)
 
 
-def __getattr__(name: str) -> ModuleType:
+def __getattr__(name: str) -> object:
+    if name == "Outcome":
+        # the one name here that needs NumPy
+        return import_module(f"{__name__}.outcome").Outcome
     if name not in _ROOMS:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return import_module(f"{__name__}.{name}")

@@ -36,7 +36,7 @@ class ModelError(StrutworkError):
 
 
 class OutputError(ModelError):
-    """A result that cannot be written: the folder, the disk or standard output refuses."""
+    """A result cannot be written to the folder, the disk or standard output."""
 
 
 class UnitError(ModelError):
@@ -44,7 +44,7 @@ class UnitError(ModelError):
 
 
 class MechanismError(StrutworkError):
-    """The structure moves freely under the load; the message names the joints that let it."""
+    """The structure moves freely under the load; the message names the unconstrained joints."""
 
 
 class InconsistentConstraintsError(StrutworkError):
@@ -76,11 +76,11 @@ class ValidityWarning(ModelWarning):
 
 
 class ProportionWarning(ModelWarning):
-    """Dimensions out of all proportion to one another: probably a length that is not in metres."""
+    """Dimensions are out of proportion: probably a length is not in metres."""
 
 
 class PoseWarning(UserWarning):
-    """Some poses of a batch have no answer; the message counts them by reason."""
+    """Some poses of a batch were not solved; the message counts them by reason."""
 
 
 class CacheWarning(UserWarning):

@@ -43,8 +43,8 @@ ABANDONED = 3600.0
 
 _SUBJECT = "compiled functions"
 _REMEDY = (
-    "The results are the same; each run compiles anew, which takes seconds to a minute. "
-    "Set NUMBA_CACHE_DIR or XDG_CACHE_HOME to a folder that takes files."
+    "The results are the same; each run compiles again, which takes seconds to a minute. Set "
+    "NUMBA_CACHE_DIR or XDG_CACHE_HOME to a writable folder."
 )
 
 
@@ -125,8 +125,8 @@ class _NoCache(caching.NullCache):
         places = ", ".join(str(folder.parent) for folder in code_folders())
         note_once(
             _SUBJECT,
-            f"compiled functions cannot be kept for later runs: nothing can be written in {places}"
-            f"{self._why}. {_REMEDY}",
+            "compiled functions cannot be stored for later runs: nothing can be written in "
+            f"{places}{self._why}. {_REMEDY}",
         )
 
 
@@ -216,8 +216,8 @@ class _CodeCache(caching.FunctionCache):
         except Exception as error:  # noqa: BLE001 - whatever a damaged or foreign file leads to
             note_once(
                 f"reading {_SUBJECT}",
-                f"a compiled function kept in {self.cache_path} cannot be used "
-                f"({reason(error)}); it is compiled anew.",
+                f"a compiled function stored in {self.cache_path} cannot be used "
+                f"({reason(error)}); it is compiled again.",
             )
             return None
 
@@ -227,7 +227,7 @@ class _CodeCache(caching.FunctionCache):
         except OSError as error:
             note_once(
                 _SUBJECT,
-                f"compiled functions cannot be kept for later runs in {self.cache_path} "
+                f"compiled functions cannot be stored for later runs in {self.cache_path} "
                 f"({reason(error)}). {_REMEDY}",
             )
             self.disable()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from types import ModuleType
 
 
 def later(
@@ -12,8 +13,8 @@ def later(
 ) -> tuple[Callable[[str], object], Callable[[], list[str]]]:
     """`__getattr__` and `__dir__` of a package that reads some of its files late.
 
-    A public name must not be the name of its file: Python puts the file itself in the place of
-    such a name once it is read.
+    A name may be that of its file, as `solve` of `solve.py`: Python would put the file in the
+    place of the name once it is read, whoever reads it, and is kept from it.
 
     Parameters
     ----------
@@ -27,7 +28,17 @@ def later(
     tuple of two callables
         Both for the package's own namespace.
     """
-    space = sys.modules[package].__dict__
+    module = sys.modules[package]
+    space = module.__dict__
+
+    class Package(ModuleType):
+        def __setattr__(self, name: str, value: object) -> None:
+            if isinstance(value, ModuleType) and files.get(name) == name:
+                value = getattr(value, name)
+            super().__setattr__(name, value)
+
+    if any(name == file for name, file in files.items()):
+        module.__class__ = Package
 
     def get(name: str) -> object:
         if name not in files:

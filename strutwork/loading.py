@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 
 
 def load(name: str | Path) -> Machine:
-    """A machine by its name or from its file.
+    """Load a machine by its name or from its file.
 
     Parameters
     ----------

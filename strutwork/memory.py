@@ -83,7 +83,7 @@ def out_of_memory(error: MemoryError) -> NumericalError:
     return NumericalError(
         "memory",
         f"ran out{why}.",
-        "Divide beams into fewer elements, mesh coarser, ask for fewer lines or samples, or give "
+        "Divide beams into fewer elements, mesh coarser, request fewer lines or samples, or give "
         "the process more memory.",
     )
 

@@ -26,7 +26,7 @@ _MEASURED = re.compile(r"\b\d+(\.\d+)?e[+-]?\d+\b")
 
 @dataclass(frozen=True)
 class Outcome:
-    """Which poses of a batch have an answer; the numbers of the others are missing (NaN).
+    """Which poses of a batch were solved; the values of the others are missing (NaN).
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ class Outcome:
         listed = "; ".join(f"{number}: {reason}" for reason, number in counts[:5])
         more = f"; {len(counts) - 5} more reasons" if len(counts) > 5 else ""
         warnings.warn(
-            f"{what}: no answer at {lost} of {self.status.size} poses, which are NaN: "
+            f"{what}: no result at {lost} of {self.status.size} poses, which are NaN: "
             f"{listed}{more}.",
             PoseWarning,
             stacklevel=stacklevel + 1,

@@ -130,7 +130,9 @@ def _in_range(number: float, value: object, dimension: Dimension, field: str) ->
     if abs(number) > largest:
         limit = f"{largest:g} {dimension.unit}".strip()
         raise UnitError(
-            field, f"{shown(value)} is beyond {limit}, the largest that counts.", _hint(dimension)
+            field,
+            f"{shown(value)} is beyond {limit}, the largest that is accepted.",
+            _hint(dimension),
         )
     return number if abs(number) >= smallest else 0.0
 
@@ -139,7 +141,7 @@ def _from_text(text: str, dimension: Dimension, field: str) -> float:
     match = _NUMBER.fullmatch(text) if len(text) <= _LONGEST else None
     if match is None:
         raise UnitError(
-            field, f"{shown(text)} is not {dimension.name}: no number.", _hint(dimension)
+            field, f"{shown(text)} is not {dimension.name}: it is not a number.", _hint(dimension)
         )
     digits, unit = match.groups()
     try:
@@ -315,7 +317,7 @@ def _from_pint(name: str) -> tuple[Decimal, Powers]:
     powers = dict.fromkeys(("meter", "kilogram", "second", "radian"), 0)
     for unit, power in one.unit_items():
         if unit not in powers or power != int(power):
-            raise ValueError(f'"{name}" is no unit of length, mass, time or angle')
+            raise ValueError(f'"{name}" is not a unit of length, mass, time or angle')
         powers[unit] = int(power)
     # decibels and degrees Celsius have no factor
     if abs(two.magnitude - 2.0 * one.magnitude) > 1e-12 * abs(two.magnitude):

@@ -70,7 +70,7 @@ class VolumetricAccuracy:
             Column(
                 "root_sum_square",
                 UNIT,
-                "root of the sum of the squares of what each source does at worst",
+                "root of the sum of the squares of the worst effects of the sources",
                 ("direction",),
             ),
             Column(
@@ -81,7 +81,10 @@ class VolumetricAccuracy:
             ),
             Column("largest_displacement", "m", "largest in any direction of space"),
             Column(
-                "contribution", "m", "what a source adds to the largest displacement", ("source",)
+                "contribution",
+                "m",
+                "contribution of a source to the largest displacement",
+                ("source",),
             ),
         )
 

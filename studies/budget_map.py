@@ -57,7 +57,7 @@ def budget_map(machine: Machine, dataset: xr.Dataset, meaning: Meaning = "blocke
         )
     kept = np.flatnonzero(dataset["status"].to_numpy() == PoseStatus.GOOD)
     if not kept.size:
-        raise ModelError("compliance budget", "no point of the map counts.", "Widen the filters.")
+        raise ModelError("compliance budget", "no point of the map is valid.", "Widen the filters.")
     stiffness = dataset[f"stiffness_{meaning}"].to_numpy()[kept, :3]
     order = np.argsort(-stiffness, axis=0, kind="stable")
     # the median pose is one of the poses: of an even number the stiffer of the middle two

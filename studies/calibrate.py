@@ -294,7 +294,7 @@ def _check(parameters: tuple[Parameter, ...], targets: tuple[Target, ...], start
         if twice:
             raise ModelError(f"{what} {twice[0]}", "is given twice.", "Give each a name.")
     if starts < 1:
-        raise ModelError("calibration", f"{starts} starts asked for.", "Ask for at least one.")
+        raise ModelError("calibration", f"{starts} starts asked for.", "Request at least one.")
 
 
 def _starts(parameters: tuple[Parameter, ...], count: int, seed: int) -> Array:

@@ -176,7 +176,7 @@ class Problem:
         if missing:
             raise ModelError(
                 f"target {missing[0]}",
-                f"is not among what the model gives: {', '.join(given)}.",
+                f"is not among the results of the model: {', '.join(given)}.",
                 "Name it as the model does.",
             )
         result = np.array([given[t.name] for t in self.targets], dtype=float)

@@ -103,7 +103,7 @@ def hemisphere(machine: Machine, radius: float = 4e-3, lattice: int = 10) -> Che
 
 
 def area_weights(normal: Array) -> Array:
-    """Area of the unit hemisphere that belongs to each normal, (n,), adding to 2π.
+    """Area of the unit hemisphere that belongs to each normal, (n,), with the sum 2π.
 
     The cells of the spherical Voronoi diagram of the normals and their mirror images below
     the equator. Points of a lattice projected up crowd at the pole and are sparse at the

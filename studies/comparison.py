@@ -30,7 +30,7 @@ HALF, POINTS = 0.01, 5
 #: The task in words.
 TASK = (
     f"a cube of {2e3 * HALF:g} mm about home, {POINTS} points along each of the machine's "
-    "translations, the tool turned as at home where the machine can hold it so"
+    "translations, with the tool oriented as at home where the machine can do so"
 )
 
 AXES = DIRECTIONS[:3]
@@ -127,9 +127,7 @@ def common_task(model: Model) -> TaskGrid:
         if np.linalg.matrix_rank(space.tool[0, several], tol=MOVES) == len(several):
             moves = several
     if not moves:
-        raise ModelError(
-            "tool", "moves along no axis at home.", "Ask it over a workspace of its own."
-        )
+        raise ModelError("tool", "moves along no axis at home.", "Give it a workspace of its own.")
     home = model.motion.task_of(model.motion.home_pose)
     steps = np.linspace(-HALF, HALF, POINTS)
     return TaskGrid({DIRECTIONS[k]: home[k] + steps for k in moves})

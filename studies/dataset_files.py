@@ -41,7 +41,7 @@ def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:
 
 
 def read_netcdf(path: Path) -> xr.Dataset:
-    """Read a dataset back, all of it.
+    """Read a complete dataset.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def read_netcdf(path: Path) -> xr.Dataset:
 
 
 def write_csv(path: Path, dataset: xr.Dataset) -> Path:
-    """Write what a dataset has along its poses, one row per pose, units in the header.
+    """Write the variables of a dataset along its poses, one row per pose, units in the header.
 
     Flags stand in words; numbers that are missing are empty. Compliance matrices are left out: they
     are in the NetCDF file.

@@ -80,8 +80,8 @@ def parameters(machine: Machine) -> dict[str, Any]:
     if not is_dataclass(machine) or isinstance(machine, type):
         raise ModelError(
             f"machine {type(machine).__name__}",
-            "does not say its parameters.",
-            "Make its class a dataclass: a study records what it was made of.",
+            "does not state its parameters.",
+            "Make its class a dataclass: a study records its inputs.",
         )
     return {f.name: plain(getattr(machine, f.name), f.name) for f in fields(machine)}
 

@@ -182,7 +182,7 @@ def dynamic_stiffness(
         "static_stiffness": "static stiffness with the other directions free, 1/H_ii(0)",
         "lower_bound": "2 zeta sqrt(1 - zeta^2) times the static stiffness",
         "upper_bound": "2 zeta times the least modal stiffness of the modes in the band",
-        "certified": "whether the proof that nothing in the band is lower was finished",
+        "certified": "whether the proof that nothing in the band is lower was completed",
         "grid_minimum": f"least 1/|H_ii| on a frequency grid of {grid_step:g} Hz",
     }
     units = {"natural_frequency": "Hz", "minimum_frequency": "Hz", "certified": "1"}

@@ -52,7 +52,7 @@ _VARIABLES = {
 
 @dataclass(frozen=True)
 class Vibration:
-    """How a machine's vibration is looked at.
+    """Options for the vibration of a machine.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class Vibration:
     def __post_init__(self) -> None:
         check_band(*self.band)
         if self.count < 1:
-            raise ModelError("modes", f"{self.count} asked for.", "Ask for at least one.")
+            raise ModelError("modes", f"{self.count} asked for.", "Request at least one.")
 
 
 def dynamic_map(
@@ -176,7 +176,7 @@ def dynamic_map(
     ):
         fill(arrays, chunk, part, len(points))
     details = {
-        "roll_criterion": "largest blocked Kxx, (C^-1)_xx, of the candidates that count",
+        "roll_criterion": "largest blocked Kxx, (C^-1)_xx, of the valid candidates",
         "candidates": len(points) * len(turns),
         "points_kept": int(np.count_nonzero(arrays["status"] == PoseStatus.GOOD)),
         "damping": str(vibration.damping),

@@ -85,7 +85,7 @@ class Threads:
 
 
 def default_executor(workers: int | None = None) -> Executor:
-    """Threads: as many as given, else one for each processor that this process may use.
+    """Threads: the given number, or one for each processor that this process may use.
 
     Parameters
     ----------

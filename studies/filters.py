@@ -23,7 +23,7 @@ class RedundantMachine(Protocol):
 
 
 class PoseStatus(IntEnum):
-    """What became of a pose; a higher number got further before it was dropped."""
+    """Outcome of a pose; a higher number was excluded at a later stage."""
 
     GOOD = 0
     UNREACHABLE = 1
@@ -44,7 +44,7 @@ REASONS = tuple(status for status in PoseStatus if status is not PoseStatus.GOOD
 
 @dataclass(frozen=True, kw_only=True)
 class Filters:
-    """What makes a pose count.
+    """Conditions for a pose to count.
 
     Parameters
     ----------

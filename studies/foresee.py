@@ -82,7 +82,7 @@ class Foreseen:
         raise ModelError(
             part,
             f"has {self.poses:,} poses, which would take about {_duration(self.seconds)} and "
-            f"{self.memory / 1e9:.2g} GB; {', '.join(bounds)} are the most.",
+            f"{self.memory / 1e9:.2g} GB; at most {', '.join(bounds)} are allowed.",
             remedy,
         )
 

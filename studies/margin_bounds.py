@@ -152,6 +152,6 @@ def _check_home(bound: Bound, model: Model) -> None:
         if slack[0] < 0.0:
             raise ModelError(
                 "workspace",
-                f"has the bound {words}, which home does not keep.",
-                "Ask for less, or choose another home.",
+                f"has the bound {words}, which home does not meet.",
+                "Require less, or choose another home.",
             )

@@ -31,7 +31,7 @@ def plane_map(
     folder: Path | None = None,
     executor: Executor | None = None,
 ) -> xr.Dataset:
-    """Stiffness at every place along x with every tilt.
+    """Stiffness at every position along x with every tilt.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def on_plane(found: xr.Dataset, values: Array) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class Fall:
-    """How much the stiffness along one direction changes over a `plane_map`.
+    """Variation of the stiffness along one direction over a `plane_map`.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ class Fall:
 
 
 def stiffness_falls(found: xr.Dataset, directions: tuple[str, ...] = ("x", "y", "z")) -> list[Fall]:
-    """How much 1/C_ii changes over a map, direction by direction.
+    """Variation of 1/C_ii over a map, direction by direction.
 
     Parameters
     ----------
@@ -152,9 +152,7 @@ def stiffness_falls(found: xr.Dataset, directions: tuple[str, ...] = ("x", "y", 
         near = (away[0][:, None] <= 0.25 + 1e-9) & (away[1] <= 0.25 + 1e-9)
         middle = np.where(near, values, np.nan)
         if not np.isfinite(middle).any():
-            raise ModelError(
-                "stiffness map", "has no pose in its middle that counts.", "Move the map."
-            )
+            raise ModelError("stiffness map", "has no valid pose in its middle.", "Move the map.")
         i, j = np.unravel_index(int(np.nanargmin(values)), values.shape)
         falls.append(
             Fall(

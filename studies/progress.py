@@ -22,7 +22,7 @@ INTERVAL = 15.0
 
 
 class Progress(Protocol):
-    """Called with how many units are done, and of how many."""
+    """Called with the number of units done and their total."""
 
     def __call__(self, done: int, total: int, /) -> None:
         """Take note; called from one thread, `done` never falls."""
@@ -97,7 +97,7 @@ class Remaining:
 
 @dataclass
 class Lines:
-    """A line now and then, none at all for short work.
+    """Occasional lines of progress, none for short work.
 
     Parameters
     ----------

@@ -103,7 +103,7 @@ def reversal_study(
     """
     names = surface.parameters
     if feed is not None and feed not in names:
-        raise ModelError("feed", f'"{feed}" is none of {names[0]} and {names[1]}.', "Name one.")
+        raise ModelError("feed", f'"{feed}" is neither {names[0]} nor {names[1]}.', "Name one.")
 
     def tell(done: int) -> None:
         if progress is not None:
@@ -116,7 +116,8 @@ def reversal_study(
     except UnreachableError as error:
         centre = np.array([[(axis[0] + axis[-1]) / 2 for axis in axes]])
         why = (
-            field.placements(centre)[0].reason(0) or "the tool's motion does not settle the drives'"
+            field.placements(centre)[0].reason(0)
+            or "the tool's motion does not determine that of the drives"
         )
         raise UnreachableError(
             error.part, f"{error.problem.rstrip('.')}; in its middle: {why}.", error.remedy

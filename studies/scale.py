@@ -74,7 +74,7 @@ def power_law(factors: ArrayLike, values: ArrayLike) -> PowerLaw:
     some = np.asarray(values, dtype=float)
     if not np.all((some > 0) & (some < np.inf)):
         raise NumericalError(
-            "power law", "a value is not positive and finite.", "Leave such values out."
+            "power law", "a value is not positive and finite.", "Remove such values."
         )
     x, y = np.log(sizes), np.log(some)
     across = (x - x.mean()).reshape(-1, *[1] * (some.ndim - 1))
@@ -286,7 +286,7 @@ def scale_study(
         dtype=float,
     )
     if frequencies.shape[-1] < count or not np.all(np.isfinite(frequencies)):
-        raise ModelError("scale", f"has fewer than {count} modes.", "Ask for fewer frequencies.")
+        raise ModelError("scale", f"has fewer than {count} modes.", "Request fewer frequencies.")
     return ScaleStudy(tuple(laws), sizes, np.array(stiffness), frequencies, joint_share(placed))
 
 

@@ -19,7 +19,7 @@ Array = NDArray[Any]
 
 @dataclass(frozen=True)
 class JointScaling:
-    """How joints and springs change with the size L of a machine.
+    """Scaling of joints and springs with the size L of a machine.
 
     Parameters
     ----------

@@ -23,7 +23,7 @@ QUANTILES = (0.05, 0.25, 0.5, 0.75, 0.95)
 
 @dataclass(frozen=True)
 class PoseValue:
-    """A value and where it is.
+    """A value and its pose.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ class PoseValue:
 
 @dataclass(frozen=True)
 class Statistics:
-    """Numbers that sum up a sample.
+    """Statistics of a sample.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Statistics:
 def statistics(
     values: ArrayLike, weights: ArrayLike | None = None, sample: bool = False
 ) -> Statistics:
-    """Sum up a sample.
+    """Statistics of a sample.
 
     Parameters
     ----------
@@ -100,12 +100,12 @@ def statistics(
     x = np.asarray(values, dtype=float)
     if x.ndim != 1 or not x.size or np.any(np.isnan(x) | np.isneginf(x)):
         raise ModelError(
-            "statistics", "of no values, or of values that are no number.", "Leave out the rest."
+            "statistics", "of no values, or of values that are not numbers.", "Remove the rest."
         )
     stiff = bool(np.any(np.isinf(x)))
     if weights is None:
         if sample and x.size < 2:
-            raise ModelError("statistics", "a sample of one.", "Take the population's variance.")
+            raise ModelError("statistics", "a sample of one.", "Use the population's variance.")
         variance = np.inf if stiff else float(x.var(ddof=1 if sample else 0))
         # between a finite value and an infinite one nothing can be interpolated
         quantiles = np.quantile(x, QUANTILES, method="inverted_cdf" if stiff else "linear")
@@ -115,7 +115,7 @@ def statistics(
         if w.shape != x.shape or not np.all(w >= 0) or not 0 < w.sum() < np.inf or sample:
             raise ModelError(
                 "statistics",
-                "the weights are not one a value, negative, all zero, or go with a sample.",
+                "the weights are not one per value, negative, all zero, or go with a sample.",
                 "Give finite weights that are not negative, and the population's variance.",
             )
         # what weighs nothing takes no part, however stiff
@@ -153,7 +153,7 @@ class AxisSummary:
 
 @dataclass(frozen=True)
 class Summary:
-    """A stiffness map summed up.
+    """Summary of a stiffness map.
 
     Parameters
     ----------
@@ -212,7 +212,7 @@ def summary(
     weights: Weights = "points",
     sample: bool = False,
 ) -> Summary:
-    """Sum up the points of a map that count.
+    """Summarise the points of a map that count.
 
     Parameters
     ----------

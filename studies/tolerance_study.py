@@ -41,7 +41,7 @@ Objective = Literal["uniform", "cost"]
 
 @dataclass(frozen=True, kw_only=True)
 class StudyOptions:
-    """What is computed beside the worst case.
+    """What is computed in addition to the worst case.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def tolerance_study(
     if options.objective is not None and not known:
         raise ModelError(
             "force limits",
-            "are none, and an allocation has to keep some.",
+            "are not given, and an allocation needs some.",
             "Add [[force_limits]], or give --limit.",
         )
     responses = in_a_row(tolerance_responses(placed, tolerances, quantities))

@@ -64,7 +64,9 @@ def trajectory_notes(
         if any(value and (j.name, d) in moves for d, value in j.damping.items())
     ]
     if left_out:
-        notes.append(f"left out, as bodies are rigid and joints free of loss: {_listed(left_out)}")
+        notes.append(
+            f"left out, since bodies are rigid and joints have no losses: {_listed(left_out)}"
+        )
     if dynamics.bodies.idle:
         notes.append(_idle_note(followed))
     if followed.imbalance > BALANCED:
@@ -85,9 +87,9 @@ def _idle_note(followed: Followed) -> str:
     idle = _listed(followed.dynamics.bodies.idle)
     largest = np.abs(followed.spins).max(initial=0.0)
     scale = followed.dynamics.motion.length * np.abs(followed.forces).max(initial=0.0)
-    text = f"not turning about their lines, as nothing turns them: {idle}"
+    text = f"not rotating about their lines, since nothing drives them: {idle}"
     if largest > QUIET * scale:
-        text += f"; {largest:.3g} N·m would start to turn one of them"
+        text += f"; {largest:.3g} N·m would start to rotate one of them"
     return text
 
 

@@ -56,7 +56,7 @@ def flags(dim: str, status: NDArray[np.int8]) -> xr.Variable:
         dim,
         status,
         {
-            "long_name": "what became of the pose",
+            "long_name": "status of the pose",
             "flag_values": np.array([int(s) for s in PoseStatus], dtype=np.int8),
             "flag_meanings": " ".join(s.word for s in PoseStatus),
         },

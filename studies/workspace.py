@@ -281,7 +281,7 @@ def foresee(margin: MachineMargin, axes: tuple[Array, ...]) -> Foreseen:
     found = Foreseen(count, _time(margin, axes) * count, memory)
     found.require(
         "workspace",
-        "Take fewer points along a direction, or fewer tilts, rolls or spare values.",
+        "Use fewer points along a direction, or fewer tilts, rolls or spare values.",
         LONGEST,
         LARGEST,
     )

@@ -130,8 +130,11 @@ def interference_of(model: Model, radius: float | None) -> Interference:
     if model.shapes and model.closed_form is not None:
         raise ModelError(
             "interference",
-            "of meshes needs bodies whose turns are known; the machine's own formulas tell none.",
-            "Take the same model without its `closed_form`.",
+            (
+                "of meshes needs the rotations of the bodies, which the machine's own formulas "
+                "do not give."
+            ),
+            "Use the same model without its `closed_form`.",
         )
     owner, index = linkage.body_of_node, linkage.node_index
     shaped = {int(owner[index[shape.node]]) for shape in model.shapes}
@@ -233,7 +236,7 @@ class MachineMargin:
         if wrong:
             raise ModelError(
                 "workspace",
-                f"turns the tool in {', '.join(wrong)}, which it cannot hold.",
+                f"rotates the tool in {', '.join(wrong)}, which it cannot hold.",
                 "The tool holds " + ", ".join(self.held) + "; choose another azimuth or roll.",
             )
 
@@ -331,7 +334,7 @@ class MachineMargin:
         found = float(self._reciprocal(self.model.placement))
         if not found > 0.0:
             raise ModelError(
-                "conditioning", "is nothing at home, which is singular.", "Choose another home."
+                "conditioning", "is zero at home, which is singular.", "Choose another home."
             )
         return found
 

@@ -146,7 +146,7 @@ def ring(machine: ThreeLegs, radius: float = RADIUS, rolls: int = ROLLS) -> Ring
         raise NumericalError(
             f"{type(machine).__name__}",
             "does not cross one singular tilt at each roll between the pole and 90°.",
-            "Ask for another radius of the hemisphere or another height of its pole.",
+            "Choose another radius of the hemisphere or another height of its pole.",
         )
     first = change.argmax(axis=0)
     low, high = grid[first], grid[first + 1]

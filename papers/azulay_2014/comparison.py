@@ -118,7 +118,7 @@ def variant(name: str, model: Model) -> ThreeLegs:
     if not isinstance(machine, ThreeLegs) or model not in MODELS:
         raise ModelError(
             f"{name}, {model}",
-            "is no machine of the paper with one of the joint models.",
+            "is not a machine of the paper with one of the joint models.",
             "Machines: " + ", ".join(machines()) + "; models: " + ", ".join(MODELS) + ".",
         )
     return with_model(machine, model)

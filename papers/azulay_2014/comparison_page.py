@@ -29,7 +29,8 @@ from strutwork.papers.azulay_2014.machine_study import (
 )
 from strutwork.papers.azulay_2014.statements import statements
 from strutwork.papers.azulay_2014.tilt_study import tilt_study
-from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import count_text, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter
 from strutwork.studies.description import parameters, plain
@@ -67,8 +68,8 @@ def comparison_chapters(progress: Teller | None = None) -> tuple[str, str, tuple
 def _statements(study: Comparison) -> Chapter:
     """Every result of the document, with its file."""
     said = statements(study)
-    chapter = statements_chapter("statements", "Every statement", said)
     file = statements_file(AZULAY_2014.key, said)
+    chapter = statements_chapter("statements", "Every statement", said, file.name)
     return replace(chapter, blocks=(count_text(said), *chapter.blocks), files=(file,))
 
 

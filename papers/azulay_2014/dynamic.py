@@ -161,19 +161,19 @@ def _note(which: DynamicSet, entry: PublishedValue, computed: float, structural:
             "which the number depends"
         )
     elif not 1 / FACTOR <= computed / entry.value <= FACTOR:
-        notes.append("farther than a factor of two from the print even so: the fit misses it")
+        notes.append("still farther than a factor of two from the printed value: the fit misses it")
     axis = entry.quantity[1]
     if axis in "xy":
         x, y = (TABLE_5.value(entry.row, f"K{a * 2} minimum") for a in "xy")
         split = 100.0 * (max(x, y) / min(x, y)) ** 0.5 - 100.0
         notes.append(
-            f"three equal legs have Kxx = Kyy, the print has {x:g} and {y:g}: nothing can meet "
+            f"three equal legs have Kxx = Kyy, the paper prints {x:g} and {y:g}: nothing can meet "
             f"both better than {split:.0f} %"
         )
     if (entry.row, axis) == ("alizade-3prps", "z"):
         notes.append(
             f"with the 1 % read as a loss factor, not a damping ratio, it is {structural:.3g}, as "
-            "the print suggests"
+            "the printed value suggests"
             if which == "calibrated"
             else f"with the 1 % read as a loss factor it is {structural:.3g}"
         )

@@ -47,15 +47,15 @@ def note_of(entry: PublishedValue, model: str) -> str:
     notes = [_MODEL[model]]
     if _other_length(entry.row):
         notes.append(
-            "pole height fitted at 216 mm and carried over; the check points and the drives "
-            "were chosen with this table in view"
+            "pole height fitted at 216 mm and carried over; the check points and the drives were "
+            "chosen to match this table"
         )
     else:
         notes.append(f"fitted to the means of Table 4: {_FITTED[machine]}")
     if entry.quantity.endswith("variance"):
         notes.append(
             "nothing was fitted to a variance: it follows from what was fitted to the means, and "
-            "the variances together do not come out"
+            "the variances together are not reproduced"
         )
     if machine == _PROPOSED and not _other_length(entry.row) and entry.quantity == "Kzz mean":
         notes.append(
@@ -63,7 +63,7 @@ def note_of(entry: PublishedValue, model: str) -> str:
             "than 2.4 %"
         )
     if (machine, model, entry.quantity) == ("glozman-3prrs", "spherical", "Kzz mean"):
-        notes.append("the pole was fitted to this machine's place among the four by Kzz")
+        notes.append("the pole was fitted to this machine's rank among the four by Kzz")
     if entry.note:
         notes.append(entry.note)
     return "; ".join(notes)

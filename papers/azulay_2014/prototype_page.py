@@ -34,10 +34,9 @@ from strutwork.studies.progress import Teller, silent
 NAME = "prototype-3ppprs"
 
 UNPRINTED = (
-    "The paper prints no numbers of this machine, so none stand beside the computed values. Only "
-    "the guide's "
-    "radius, the links' steel and tube and the motors' stiffness have a source; masses, heights "
-    "and travels are assumed."
+    "The paper prints no numbers of this machine, so none are shown beside the computed values. "
+    "Only the guide's radius, the links' steel and tube and the motors' stiffness have a source; "
+    "masses, heights and travels are assumed."
 )
 
 
@@ -115,10 +114,10 @@ def prototype_chapters(
             assumptions=(
                 "Damping: 1 % of critical in every mode, viscous, assumed.",
                 (
-                    "Roots of the links clamped in the radial tables but for their hinges; locked "
-                    "guides rigid, linear drives 3 N/µm each along their motion."
+                    "Roots of the links clamped in the radial tables except for their hinges; "
+                    "locked guides rigid, linear drives 3 N/µm each along their motion."
                 ),
-                "Platform and stages rigid; spherical and revolute joints turn freely.",
+                "Platform and stages are rigid; spherical and revolute joints rotate freely.",
             ),
         ),
         measurement_chapter(machine),

@@ -98,8 +98,8 @@ TABLE_5 = PublishedTable(
         *rows_of("Kyy minimum", _STIFFNESS, _MACHINES, 0.161, 0.041, 0.071, 0.021),
         *rows_of("Kzz minimum", _STIFFNESS, _MACHINES, 0.066, 0.567, 2.08, 0.005),
     ),
-    "Three equal legs at 120° force Kxx = Kyy at home; the table's differ. Joint compliance is not "
-    "in it; damping 1 %.",
+    "Three equal legs at 120° force Kxx = Kyy at home; the table's differ. It does not include "
+    "joint compliance; damping 1 %.",
 )
 
 #: The paper's tables by their key.

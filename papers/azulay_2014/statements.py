@@ -101,14 +101,13 @@ def _tilts(study: TiltStudy) -> tuple[Statement, ...]:
         found.append(
             Statement(
                 "section 3.1, Table 3",
-                f"{name}: with gaps on the way; before the singular ring",
+                f"{name}: with gaps on the path; before the singular ring",
                 "deg",
                 "not distinguished",
                 f"{degrees(ours.reached):.1f}; {degrees(ours.before_the_ring):.1f}",
                 "not reproducible",
-                "the paper asks of each point alone whether it is reached, and names neither; the "
-                "first counts any roll however the machine came there, the second is what six "
-                "drives do",
+                "the paper checks each point alone and states neither; the first counts any roll "
+                "whatever the path, the second is what six drives reach",
                 f"{TESTS}/test_statements.py::test_tilts_are_nested",
             )
         )
@@ -169,8 +168,8 @@ def _types(study: TiltStudy) -> tuple[Statement, ...]:
                 "not shown",
                 f"{axis}; {end}",
                 "calibrated",
-                "the first is the tilt whose tangent is R_p over the radius of the sphere, at one "
-                "roll; whether it and the second are reached depends on the pole, which is assumed",
+                "the first is the tilt whose tangent is R_p over the radius of the sphere, at "
+                "one roll; whether both are reached depends on the pole, which is assumed",
                 f"{test}::test_type_1_on_the_axis",
             )
         )
@@ -211,7 +210,7 @@ def _orders(study: Comparison) -> tuple[Statement, ...]:
             "yes",
             "yes" if all(means[first, a] > means[second, a] for a in axes) else "no",
             "calibrated",
-            "means with true spherical joints; dimensions behind them were fitted to Table 4",
+            "means with true spherical joints; their dimensions were fitted to Table 4",
             f"{TESTS}/test_static.py::test_machines_rank_as_in_table_4",
         )
         for first, second, axes in said
@@ -252,8 +251,8 @@ def _significance() -> tuple[Statement, ...]:
                     "yes",
                     f"{'yes' if z > CRITICAL else 'no'}, statistic {z:.1f} from the printed table",
                     "predicted" if z > CRITICAL else "not reproducible",
-                    "computed from the printed means and variances with 317 points each; points of "
-                    "a grid are no independent samples, so the level means little"
+                    "computed from the printed means and variances with 317 points each; points "
+                    "of a grid are not independent samples, so the level means little"
                     if z > CRITICAL
                     else "by Table 4 itself the proposed machine is not the stiffer one along z",
                     f"{TESTS}/test_statements.py::test_significance",
@@ -265,7 +264,7 @@ def _significance() -> tuple[Statement, ...]:
 def _without_numbers() -> tuple[Statement, ...]:
     """Results that are drawn only."""
     test = f"{TESTS}/test_statements.py::test_every_result_is_there"
-    drawn = "curves without numbers in the text; data and dimensions behind them are not printed"
+    drawn = "curves without numbers in the text; their data and dimensions are not printed"
     return tuple(
         Statement(place, what, "", "a figure", nan, "not reproducible", drawn, test)
         for place, what in (

@@ -23,7 +23,7 @@ def theory() -> tuple[Statement, ...]:
         ),
         (
             "eqs 14 to 18",
-            "the machine as three chains and a platform, parted at the balls",
+            "the machine as three chains and a platform, separated at the ball joints",
             "a formula",
             "the chains' formulas give the same drive forces as the constraint rows",
             "predicted",
@@ -36,7 +36,7 @@ def theory() -> tuple[Statement, ...]:
             "Z_i⁻¹ q̇_i",
             "Z_i is 3 x 6 and has none; V_pc is meant",
             "not reproducible",
-            "as printed; the corrected formula holds",
+            "as printed; the corrected formula is right",
             f"{RIGID}::test_rates_of_a_chain_do_not_tell_the_twist",
         ),
         (
@@ -63,7 +63,7 @@ def theory() -> tuple[Statement, ...]:
             "multiplied by V_pc",
             "must be multiplied by Q̇",
             "not reproducible",
-            "as printed; the corrected formula holds",
+            "as printed; the corrected formula is right",
             f"{RIGID}::test_bias_in_the_drives_space_takes_their_rates",
         ),
     )

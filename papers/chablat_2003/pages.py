@@ -19,7 +19,13 @@ from strutwork.papers.chablat_2003.squares import (
 from strutwork.papers.chablat_2003.statements import statements
 from strutwork.papers.chablat_2003.third_leg import SIDE, range_map
 from strutwork.papers.published_rows import file_name
-from strutwork.papers.statements import NONE, count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import (
+    NONE,
+    count_text,
+    statements_file,
+    statements_name,
+)
 from strutwork.papers.tables import rows_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter, Column, Figure, Table, Text
@@ -47,7 +53,10 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
     """Title, subtitle and chapters of the document's own page."""
     said = statements()
     table = statements_chapter(
-        "statements", "Every printed result beside the computed values", said
+        "statements",
+        "Every printed result beside the computed values",
+        said,
+        statements_name(CHABLAT_2003.key),
     )
     rows = square_rows()
     beside = Chapter(
@@ -90,16 +99,16 @@ def amplification_chapter() -> Chapter:
         "How fast it moves its tool",
         (
             Text(
-                "The larger of the largest amplification of the drives' velocities and of the "
-                "least one's inverse, from the rows of the joints. It is 1 at S, where the legs "
-                "stand at right angles, and at most 3 within the document's bounds of 1/3 and 3. "
-                "The largest squares about S under these bounds touch them in their corners. The "
-                "document has those at 45° and along the rails; the more the sides turn to the "
-                "rails, the larger."
+                "The map shows the larger of the largest amplification of the drives' velocities "
+                "and the inverse of the least one, from the constraint rows of the joints. It is "
+                "1 at S, where the legs are at right angles, and at most 3 within the document's "
+                "bounds of 1/3 and 3. The largest squares about S within these bounds touch them "
+                "in their corners. The document has those at 45° and along the rails; the "
+                "squares grow as their sides turn towards the rails."
             ),
             Figure(
                 "amplification-map",
-                "Velocity amplification over the plane of the tool; blank: out of the bounds. "
+                "Velocity amplification over the plane of the tool; blank: outside the bounds. "
                 "Outlined are the largest squares about S, by the angle of their sides to the "
                 "rails.",
                 heat(
@@ -164,13 +173,13 @@ def turning_chapter() -> Chapter:
     file = "turning-range.csv"
     return Chapter(
         "turning",
-        "How far the third leg turns the tool",
+        "How far the third leg rotates the tool",
         (
             Text(
                 f"Range of β about home that is allowed at every place of a square {SIDE:.3f} m "
-                "wide, the printed one along the rails, where leg and rail, and leg and arm, keep "
-                "the document's angles (sine and cosine 0.2). The ridge lies at L₂ = 1.8 L₁; "
-                "blank: the leg does not keep the bounds at β = 0."
+                "wide, the printed one along the rails, where leg and rail, and leg and arm, "
+                "respect the document's angles (sine and cosine 0.2). The ridge lies at L₂ = 1.8 "
+                "L₁; blank: the leg exceeds the bounds at β = 0."
             ),
             Figure(
                 "turning-map",

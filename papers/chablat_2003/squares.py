@@ -114,10 +114,9 @@ def square_corners(angle: float) -> Array:
 def square_rows() -> tuple[PublishedRow, ...]:
     """The two areas beside the computed values."""
     note = (
-        "printed about half of the computed ones, to 1 and 2 %; their ratio is 1.435, computed "
-        "1.425. "
-        "No reading of the bounds, of the legs' length or of the shape gives the half, and nothing "
-        "is rescaled"
+        "the printed values are about half of the computed ones, to 1 and 2 %; their ratio is "
+        "1.435, computed 1.425. No interpretation of the bounds, of the legs' length or of the "
+        "shape gives the half, and nothing is rescaled"
     )
     found = (square_area(45.0), square_area(0.0))
     return tuple(

@@ -64,13 +64,13 @@ def condition_chapter(study: ActuationStudy) -> Chapter:
                 )
             ),
             Text(
-                "The place along the rails does not count, so that a square of "
-                f"{1e3 * study.machine.workspace_side:.0f} mm stands for the cube. In its middle "
+                "The position along the rails does not matter, so a square of "
+                f"{1e3 * study.machine.workspace_side:.0f} mm represents the cube. In its middle "
                 "the Delta is isotropic at ΔR = √(2/3) L, with all singular values of its "
                 "Jacobian √(1/3): isotropic is not one to one. Over the square the least of the "
                 "largest condition numbers lies far below that ΔR, and it is flat: for rods of "
-                f"{1e3 * best.rod:.0f} mm any ΔR of {1e3 * best.low:.0f} to "
-                f"{1e3 * best.high:.0f} mm is within 1 %. Longer rods are better."
+                f"{1e3 * best.rod:.0f} mm any ΔR of {1e3 * best.low:.0f} to {1e3 * best.high:.0f} "
+                "mm is within 1 %. Longer rods are better."
             ),
             Figure(
                 "delta-map",
@@ -168,17 +168,17 @@ def rods_chapter(study: ActuationStudy) -> Chapter:
         "Why are the rods of a parallelogram far apart?",
         (
             Text(
-                "The spacing d of the rods moves nothing: it is not in the Jacobian. It counts "
-                "where the two rods of a parallelogram differ in length by δ, which turns the "
-                f"platform by about δ/d: {middle:.4f} δ/d in the middle of the workspace, "
-                f"{factors.min():.4f} to {factors.max():.4f} over it. The joints' rows alone say "
-                "so, since nothing is held twice. The document makes d as large as it can, for "
-                "this reason."
+                "The spacing d of the rods does not affect the motion: it is not in the "
+                "Jacobian. It matters where the two rods of a parallelogram differ in length by "
+                f"δ, which rotates the platform by about δ/d: {middle:.4f} δ/d in the middle of "
+                f"the workspace, {factors.min():.4f} to {factors.max():.4f} over it. This follows "
+                "from the constraint rows alone, since nothing is constrained twice. The "
+                "document makes d as large as possible for this reason."
             ),
             Figure(
                 "delta-spacing",
-                f"Largest rotation of the platform over the workspace by six rods that are each "
-                f"wrong by up to {1e6 * ERROR:g} µm.",
+                "Largest rotation of the platform over the workspace by six rods that each have "
+                f"an error of up to {1e6 * ERROR:g} µm.",
                 curves(
                     [1e3 * r[0] for r in rows],
                     [Curve("rotation", [1e6 * r[1] for r in rows], PALETTE[0])],
@@ -198,7 +198,7 @@ def rods_chapter(study: ActuationStudy) -> Chapter:
                 RODS,
             ),
             Table(
-                f"At worst, by six rods each wrong by up to {1e6 * ERROR:g} µm",
+                f"Worst case of six rods, each with an error of up to {1e6 * ERROR:g} µm",
                 (
                     *numbers("spacing d", unit="mm"),
                     *numbers("rotation", unit="µrad"),
@@ -215,7 +215,7 @@ def rods_chapter(study: ActuationStudy) -> Chapter:
         (
             csv_file(
                 RODS,
-                "worst rotation and displacement by wrong rods, SI",
+                "worst rotation and displacement by errors of the rods, SI",
                 ["spacing_m", "rotation_rad", "centre_m", f"ahead_{1e3 * AHEAD:g}_mm_m"],
                 rows,
             ),

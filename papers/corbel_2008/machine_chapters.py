@@ -60,7 +60,7 @@ def text_rows() -> tuple[PublishedRow, ...]:
             "predicted",
             (
                 "least of the largest condition numbers; the document calls its choice a "
-                "compromise with the size, and within 1 % of the least it is free"
+                "compromise with the size, and any value within 1 % of the least is possible"
             ),
         ),
         (1e3 * legs.shortest, "calibrated", fitted),
@@ -109,9 +109,9 @@ def drawings_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:
         "The two machines",
         (
             Text(
-                "The Delta moves the tool in three directions and lets it not turn; the platform "
-                "stands behind it, drives nothing and measures where the tool is, turned or not. "
-                "How far the two stand apart is not legible, so that each is modelled for itself."
+                "The Delta moves the tool in three directions without rotation; the platform is "
+                "behind it, drives nothing and measures the tool's position and orientation. The "
+                "distance between the two is not legible, so each is modelled separately."
             ),
             Row(tuple(figures), 420),
         ),
@@ -127,15 +127,16 @@ def published_chapter() -> Chapter:
         "Beside the published numbers",
         (
             Text(
-                "Most printed numbers are dimensions, which a model can only take. Results are "
-                "the ΔR that follows from the length of the rods and the ends of the legs' range."
+                "Most printed numbers are dimensions, which a model takes as they are. Results "
+                "are the ΔR that follows from the length of the rods and the ends of the legs' "
+                "range."
             ),
             *(rows_table(t.title, rows, file_name(t.key)) for t, rows in groups),
             Text(TABLE_2.note),
             Note(
-                "The copy that was read lacks its first lines and most figures. Title, authors and "
-                "year are attributed to it by its abstract and have not been checked against the "
-                "print."
+                "The copy that was read lacks its first lines and most figures. Title, authors "
+                "and year are attributed to it by its abstract and have not been checked against "
+                "the publication."
             ),
         ),
         tuple(rows_file(file_name(t.key), t.title, rows) for t, rows in groups),
@@ -178,14 +179,14 @@ def assumptions_chapter(names: Sequence[str] = (DELTA, PLATFORM)) -> Chapter:
                     f"steel, {platform.cylinder.name} mm and {platform.rod.name} mm, universal "
                     "joint at the base"
                 ),
-                "assumed; the document has a ball there as well, whose spin measures nothing",
+                "assumed; the document has a ball joint there as well, whose spin is not measured",
             ),
             (
                 "platform: lengths of the legs",
                 "measured",
                 (
-                    "they stand where another machine has drives: forces of drives and stiffness "
-                    "are those of legs that are clamped, while the device itself follows freely"
+                    "they take the place of another machine's drives: drive forces and stiffness "
+                    "are those of clamped legs, while the device itself follows freely"
                 ),
             ),
             ("platform: mass of the plate", f"{platform.plate_mass:g} kg", _OURS),

@@ -27,7 +27,7 @@ def resolution_chapter(study: MeasuringStudy) -> Chapter:
     low, high = heights(machine)
     return Chapter(
         "resolution",
-        "How finely does the platform see the tool?",
+        "How accurately does the platform measure the tool?",
         (
             Facts(
                 (
@@ -43,16 +43,17 @@ def resolution_chapter(study: MeasuringStudy) -> Chapter:
                         "Widest base",
                         f"{1e3 * study.widest:.0f}",
                         "mm",
-                        f"{study.at_widest:.2f} times ε, the legs' range used up",
+                        f"{study.at_widest:.2f} times ε, with the legs' range fully used",
                     ),
                 )
             ),
             Text(
-                "Each of six encoders may be wrong by ±ε. The worst error of a tool point over all "
-                "signs and over the workspace, divided by ε, is the document's criterion. It is "
-                "found at vertices: the error is linear in the encoders' errors, and linear in the "
-                "tool point, and the length of a vector is convex, so that nothing inside is "
-                "worse. Half of the 64 signs do, since the others are their negatives."
+                "Each of six encoders may have an error of ±ε. The worst error of a tool point "
+                "over all signs and over the workspace, divided by ε, is the document's "
+                "criterion. It is found at vertices: the error is linear in the encoders' "
+                "errors, and linear in the tool point, and the length of a vector is convex, so "
+                "nothing inside is worse. Half of the 64 combinations of signs suffice, since "
+                "the others are their negatives."
             ),
             Note(
                 "The document's box of tool points, the resolution that it prints and the height "
@@ -107,9 +108,9 @@ def resolution_chapter(study: MeasuringStudy) -> Chapter:
                 420,
             ),
             Text(
-                "Each geometry of the maps stands as low as its legs allow, with tool points in "
-                "the box. As the document says, small angles and large radii are better. Neither "
-                "has a best value but where parts collide or the legs' range ends: with its other "
+                "Each geometry of the maps is as low as its legs allow, with tool points in the "
+                "box. As the document says, small angles and large radii are better. Neither has "
+                "an optimum before parts collide or the legs' range ends: with its other "
                 f"dimensions as printed the base could be {1e3 * study.widest:.0f} mm in radius."
             ),
         ),

@@ -17,7 +17,8 @@ from strutwork.papers.corbel_2008.measuring import MeasuringStudy, study_measuri
 from strutwork.papers.corbel_2008.measuring_chapters import resolution_chapter
 from strutwork.papers.corbel_2008.published import DELTA
 from strutwork.papers.corbel_2008.statements import statements
-from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import count_text, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter
 from strutwork.studies.description import parameters
@@ -70,6 +71,6 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
 def _statements(actuation: ActuationStudy, measuring: MeasuringStudy) -> Chapter:
     """Every result of the document, with its file."""
     said = statements(actuation, measuring)
-    chapter = statements_chapter("statements", "Every statement", said)
     file = statements_file(CORBEL_2008.key, said)
+    chapter = statements_chapter("statements", "Every statement", said, file.name)
     return replace(chapter, blocks=(count_text(said), *chapter.blocks), files=(file,))

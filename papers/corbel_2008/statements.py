@@ -49,14 +49,14 @@ def _delta(study: ActuationStudy) -> tuple[Statement, ...]:
             place="section II-A",
             what="freedoms of the Delta",
             published="three translations, the orientation is constant",
-            computed="mobility 3, no rotation, nothing held twice",
+            computed="mobility 3, no rotation, nothing constrained twice",
             test=_UNIT + "test_the_delta_moves_without_turning_and_nothing_is_held_twice",
         ),
         said(
             place="section II-A",
-            what="errors of manufacture turn the platform, the tool's arm enlarges that",
+            what="manufacturing errors rotate the platform, and the tool's arm enlarges the effect",
             published="not possible to guarantee that no parasitic rotation occurs",
-            computed=f"a difference δ of two rods turns it by {factors.min():.3f} to "
+            computed=f"a difference δ of two rods rotates it by {factors.min():.3f} to "
             f"{factors.max():.3f} δ/d",
             test=_ACTUATION + "test_a_difference_of_two_rods_turns_the_platform",
         ),
@@ -79,7 +79,7 @@ def _delta(study: ActuationStudy) -> tuple[Statement, ...]:
         said(
             place="section III-A",
             what="isotropy of the Jacobian is sought",
-            published="not said where it is reached",
+            published="not stated where it is reached",
             computed="in the middle of the workspace at ΔR = √(2/3) L, with σ = 1/√3",
             test=_ACTUATION + "test_isotropy_in_the_middle",
         ),
@@ -90,7 +90,7 @@ def _delta(study: ActuationStudy) -> tuple[Statement, ...]:
             computed=f"{study.corner:.4f} at L = 800, ΔR = 480 mm; {best[0].worst:.4f} at best for "
             f"L = 700 mm, {best[-1].worst:.4f} for 1000 mm",
             status="not reproducible",
-            reason="the numbers of the figure are lost; the computed ones stand in the map",
+            reason="the numbers of the figure are lost; the map shows the computed ones",
             test=_ACTUATION + "test_largest_condition_number_at_the_printed_dimensions",
         ),
         said(
@@ -104,7 +104,7 @@ def _delta(study: ActuationStudy) -> tuple[Statement, ...]:
             place="section III-B",
             what="spacing d of the rods",
             published="as big as possible to decrease the orientation error",
-            computed="the rotation falls as 1/d, the Jacobian does not know d",
+            computed="the rotation falls as 1/d, the Jacobian does not contain d",
             test=_ACTUATION + "test_rotation_falls_with_the_spacing",
         ),
     )
@@ -160,7 +160,7 @@ def _platform(study: MeasuringStudy) -> tuple[Statement, ...]:
             published="the digits are lost",
             computed=NAN,
             status="not reproducible",
-            reason="the digits are lost; each machine is modelled for itself",
+            reason="the digits are lost; each machine is modelled separately",
             test=lost,
         ),
         *(
@@ -177,13 +177,13 @@ def _platform(study: MeasuringStudy) -> tuple[Statement, ...]:
                 (
                     "angle α_TP",
                     "small is better",
-                    "small is better; in the box of tools all below 25° are alike",
+                    "small is better; in the box of tools all below 25° are equivalent",
                 ),
                 ("radius r_b", "big is better", "big is better"),
                 (
                     "radius r_TP",
                     "big is better",
-                    "big is better; at the plate's centre it hardly counts",
+                    "big is better; at the plate's centre it hardly matters",
                 ),
             )
         ),
@@ -191,10 +191,11 @@ def _platform(study: MeasuringStudy) -> tuple[Statement, ...]:
             place="section IV-C, Table II",
             what="the optimum of the four dimensions",
             published="Table II",
-            computed=f"no end inside: with the others as printed r_b could be "
-            f"{1e3 * study.widest:.0f} mm, amplification {study.at_widest:.2f} for {study.box:.2f}",
+            computed="no optimum inside: with the others as printed r_b could be "
+            f"{1e3 * study.widest:.0f} mm, amplification {study.at_widest:.2f} for "
+            f"{study.box:.2f}",
             status="not reproducible",
-            reason="what keeps the parts from colliding is not printed, and it decides",
+            reason="the deciding condition, that the parts do not collide, is not printed",
             test=_MEASURING + "test_the_leg_range_alone_would_allow_a_wider_base",
         ),
         said(

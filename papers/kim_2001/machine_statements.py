@@ -17,7 +17,7 @@ def radii() -> tuple[Statement, ...]:
     lying_first, lying_second, _ = one_link_thin(HORIZONTAL)
     order = f"{OURS}::test_the_printed_order_of_sensitivity_does_not_come_out"
     drawn = (
-        "drawn without legible numbers; the computed one stands in the chapters on radii and "
+        "drawn without legible numbers; the computed one is shown in the chapters on radii and "
         "on workspace"
     )
     return (
@@ -38,7 +38,7 @@ def radii() -> tuple[Statement, ...]:
             "yes",
             f"with a link of 15 mm: first {first:.2f}, others {second:.2f} of as built",
             "not reproducible",
-            "the other way about by the calibrated dimensions",
+            "the opposite with the calibrated dimensions",
             order,
         ),
         Statement(
@@ -48,7 +48,7 @@ def radii() -> tuple[Statement, ...]:
             "yes",
             f"with a link of 15 mm: first {lying_first:.2f}, others {lying_second:.2f} of as built",
             "not reproducible",
-            "the other way about by the calibrated dimensions",
+            "the opposite with the calibrated dimensions",
             order,
         ),
         *(
@@ -65,8 +65,10 @@ def radii() -> tuple[Statement, ...]:
 
 def machines() -> tuple[Statement, ...]:
     """What sections VI and VII give of the machines built."""
-    joints = "joints, drives and bearings yield in it, and nothing about those is printed"
-    rated = "a rating of drives and spindles; nothing is printed of which it would follow"
+    joints = (
+        "it includes the compliance of joints, drives and bearings, about which nothing is printed"
+    )
+    rated = "a rating of drives and spindles; nothing is printed from which it would follow"
     return (
         *(
             Statement(

@@ -13,7 +13,8 @@ from strutwork.papers.kim_2001.chapters.published import measured_chapter, publi
 from strutwork.papers.kim_2001.chapters.radii import radius_chapter
 from strutwork.papers.kim_2001.comparison import table_2_rows
 from strutwork.papers.kim_2001.statements import statements
-from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import count_text, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter
 from strutwork.studies.description import parameters, plain
@@ -56,6 +57,6 @@ def paper_chapters(_progress: Teller | None = None) -> Contents:
 def _statements() -> Chapter:
     """Every result of the document, with its file."""
     said = statements()
-    chapter = statements_chapter("statements", "Every statement", said)
     file = statements_file(KIM_2001.key, said)
+    chapter = statements_chapter("statements", "Every statement", said, file.name)
     return replace(chapter, blocks=(count_text(said), *chapter.blocks), files=(file,))

@@ -90,8 +90,8 @@ MEASURED = PublishedTable(
         *rows_of("horizontal, along the spindle", "N/um", (PROTOTYPE, MACHINE), 1.5, 1.1),
         *rows_of("horizontal, radial", "N/um", (PROTOTYPE, MACHINE), 3.0, 5.8),
     ),
-    "Sections VI and VII. Joints, drives and bearings yield in them, and nothing about those is "
-    "printed: they stand here as data, with no computed number beside them.",
+    "Sections VI and VII. They include the compliance of joints, drives and bearings, about "
+    "which nothing is printed: they are given here as data, without a computed number.",
 )
 
 #: The paper's tables by their key.

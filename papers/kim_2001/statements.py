@@ -74,7 +74,7 @@ def _kinematics() -> tuple[Statement, ...]:
             "eq. 1",
             "carriage on the far side of the guide, θ + π, is another solution",
             "",
-            "kept off by interference of the links",
+            "prevented by interference of the links",
             "out of reach: L is less than R_b + R_p",
             "calibrated",
             FITTED,
@@ -131,8 +131,8 @@ def _singular() -> tuple[Statement, ...]:
             "approximately 30",
             f"{barriers()[1]:.1f}",
             "not reproducible",
-            "a link that lies so is singular whatever the dimensions; here it is that of leg "
-            "1 at the second singular tilt, and at the first no link lies in the plate",
+            "such a link is singular whatever the dimensions; here it is that of leg 1 at the "
+            "second singular tilt, and at the first no link lies in the plate",
             f"{HERE}::test_a_link_in_the_plate",
         ),
         Statement(
@@ -152,8 +152,8 @@ def _singular() -> tuple[Statement, ...]:
             "yes",
             "the first up to 113°, the second up to 29°",
             "not reproducible",
-            "by the calibrated dimensions; beyond 113° the balls of ±55° do not let it tilt "
-            "to 90°, so that the first is on every way and the second is not",
+            "by the calibrated dimensions; beyond 113° the balls of ±55° do not allow a tilt of "
+            "90°, so the first lies on every path and the second does not",
             f"{HERE}::test_where_the_barriers_end",
         ),
         Statement(
@@ -173,7 +173,10 @@ def _singular() -> tuple[Statement, ...]:
             "not printed",
             f"{by_platform:.3f} by R_p, {by_guide:.3f} by R_b",
             "calibrated",
-            "G adds metres to radians: a number needs a length, which the document does not state",
+            (
+                "G adds metres to radians, so a number needs a length, which the document does "
+                "not state"
+            ),
             f"{OURS}::test_both_extra_drives_leave_none",
         ),
         Statement(
@@ -210,8 +213,8 @@ def _alone(drives: str) -> str:
 def _workspace() -> tuple[Statement, ...]:
     upright, lying = (2e3 * positioning_radius(tilt, "midway") for tilt in (0.0, 90.0))
     why = (
-        "axes of the balls' sockets and strokes of the columns are not printed; with balls of ±55° "
-        "counted from half way between both tilts and no stroke"
+        "axes of the balls' sockets and strokes of the columns are not printed; with balls of "
+        "±55° counted from halfway between both tilts and no stroke"
     )
     return (
         Statement(
@@ -267,7 +270,7 @@ def _castigliano() -> tuple[Statement, ...]:
             "yes",
             f"largest compliance at tilt 0 is {eight:.2f} µm/N with eight, {six:.2f} with six",
             "not reproducible",
-            "with held drives the two more carry load whatever control intends",
+            "with held drives the two additional ones carry load whatever the control intends",
             f"{OURS}::test_eight_drives_are_another_structure",
         ),
         Statement(
@@ -305,9 +308,8 @@ def _directions() -> tuple[Statement, ...]:
                 if close
                 else "not perpendicular to the printed largest: a sign is lost"
                 if lost
-                else "units and stiffnesses of the drives are not printed; assumed are six, "
-                "each as "
-                "stiff along its path",
+                else "units and stiffnesses of the drives are not printed; six of equal "
+                "stiffness along their paths are assumed",
                 f"{OURS}::test_table_2" if structural else f"{HERE}::test_joint_ellipsoids",
             )
         )
@@ -339,9 +341,8 @@ def _joint() -> tuple[Statement, ...]:
                 value.value / first,
                 float(ours[int(tilt)][AXES.index(axis)]),
                 "not reproducible",
-                "units and stiffnesses of the drives are not printed; assumed are six, each as "
-                "stiff "
-                "along its path",
+                "units and stiffnesses of the drives are not printed; six of equal stiffness "
+                "along their paths are assumed",
                 f"{HERE}::test_joint_ellipsoids",
             )
         )

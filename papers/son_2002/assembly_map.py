@@ -114,7 +114,7 @@ def assembly_map(
     placement = machine.place(machine.poses(grid[0].ravel(), 0.0, grid[1].ravel()))
     good = np.flatnonzero(placement.reachable)
     if not good.size:
-        raise ModelError("assembly map", "no pose can be taken.", "Choose other x and tilts.")
+        raise ModelError("assembly map", "no pose can be reached.", "Choose other x and tilts.")
     quantities = bearing_quantities(machine)
     found = np.full((grid[0].size, len(quantities)), np.nan)
     for start in range(0, good.size, CHUNK):

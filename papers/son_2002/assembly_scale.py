@@ -172,7 +172,7 @@ def assembly_scale(
         raise ModelError(
             "widths of the struts",
             f"are {len(across)} for {len(along)} lengths, or not positive.",
-            "Give one positive width a length, or their ratio.",
+            "Give one positive width per length, or their ratio.",
         )
     base = assembly or StrutAssembly.case("I")
     forces = _forces(base, along, across, tilt)

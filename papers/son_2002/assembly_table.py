@@ -189,8 +189,8 @@ def _worth(case: str, which: Set) -> tuple[Status, str]:
     Calibrated throughout: layout and stiffness ratios were chosen with all cases in view.
     """
     note = (
-        f"reconstructed structure, figures 40 and 42 of the thesis are not at hand; {SETS[which]}"
+        f"reconstructed structure, figures 40 and 42 of the thesis are not available; {SETS[which]}"
     )
     if which == "case I" and case != "I":
-        note += "; layout and stiffness ratios were chosen with this case in view too"
+        note += "; layout and stiffness ratios were chosen to match this case too"
     return "calibrated", note

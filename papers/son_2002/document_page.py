@@ -6,7 +6,8 @@ from itertools import groupby
 
 from strutwork.machines.literature import SON_2002
 from strutwork.papers.son_2002.statements import statements
-from strutwork.papers.statements import count_text, statements_chapter, statements_file
+from strutwork.papers.statement_tables import statements_chapter
+from strutwork.papers.statements import count_text, statements_file
 from strutwork.reports.chapters.closing import closing_chapter
 from strutwork.reports.content import Chapter, Text
 from strutwork.studies.progress import Teller
@@ -17,12 +18,12 @@ _PARTS = (
     ("manipulability", "How well do drives move a hexapod?", ("section 2.2",)),
     (
         "scale",
-        "What does size do?",
+        "What is the effect of size?",
         ("eqs 14, 15", "eq. 24", "Fig. 8", "Fig. 9", "eq. 22", "eq. 23"),
     ),
     (
         "reversals",
-        "Where do drives turn back?",
+        "Where do drives reverse?",
         ("eq. 34", "section 4", "section 4.4.4", "section 4.4.5"),
     ),
     (
@@ -41,7 +42,7 @@ _PARTS = (
         ("section 9.1.1", "Table 5", "section 9.1.3", "Table 6", "eq. 65", "section 9.2.1"),
     ),
     ("modes", "How does it vibrate?", ("eq. 66", "sections 6.2, 9.2.2", "Fig. 61")),
-    ("bridge", "What of the moving bridge?", ("chapter 10",)),
+    ("bridge", "What about the moving bridge?", ("chapter 10",)),
 )
 
 
@@ -58,9 +59,10 @@ def document_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[C
         (
             count_text(said),
             Text(
-                "The machines' own reports, “strutwork report mit-ss1” and likewise hexel-hexapod, "
-                "serial-five-axis and moving-bridge, say how each number is found; here stands "
-                "every result of the thesis in its order, with the test that holds it."
+                "The machines' own reports, “strutwork report mit-ss1” and likewise "
+                "hexel-hexapod, serial-five-axis and moving-bridge, explain how each number is "
+                "computed; this page lists every result of the thesis in its order, with the "
+                "test that checks it."
             ),
         ),
         (file,),
@@ -75,11 +77,11 @@ def document_chapters(progress: Teller | None = None) -> tuple[str, str, tuple[C
     }
     chapters = [
         summary,
-        *(statements_chapter(key, title, by_part[key]) for key, title, _ in _PARTS),
+        *(statements_chapter(key, title, by_part[key], file.name) for key, title, _ in _PARTS),
     ]
     chapters.append(closing_chapter(SON_2002.key, {}, {}, chapters))
     return (
-        "A hybrid five-axis machine: what its thesis prints, beside the computed values",
+        "A hybrid five-axis machine: results of its thesis beside the computed values",
         SON_2002.citation,
         tuple(chapters),
     )

@@ -48,8 +48,8 @@ ENDS = ("least", "most")
 STEPS = 20
 
 DRAWING = (
-    "Drag to turn, scroll to zoom; names show under the pointer. Lengths are in mm; the legs' "
-    "diameters, joint symbols and the table are not to scale. Black arrows show the driven "
+    "Drag to rotate, scroll to zoom; names appear under the pointer. Lengths are in mm; the "
+    "legs' diameters, joint symbols and the table are not to scale. Black arrows show the driven "
     "motions."
 )
 
@@ -130,8 +130,8 @@ def _summary(study: HexapodStudy) -> Chapter:
             "Position condition number",
             f"{float(condition.min()):.2f} to {float(condition.max()):.2f}",
             "",
-            f"published {published[0]:.2f} to {published[1]:.2f}; calibrated: "
-            "the drawing is missing, and its reading was chosen by these",
+            f"published {published[0]:.2f} to {published[1]:.2f}; calibrated: the drawing is "
+            "missing, and its interpretation was chosen by these",
         ),
         *(
             Fact(
@@ -146,13 +146,13 @@ def _summary(study: HexapodStudy) -> Chapter:
     text = (
         "Six telescopic legs, each, from the fixed platform down, a universal joint, a driven "
         "prismatic joint and a ball, hold the moving platform; two balls share each of its three "
-        "joint centres. The thesis compares its own machine with this one (sections 2.2 and 6.2). "
-        f"Computed at y = 0, {significant(1e3 * LEVEL)} mm over the work table."
+        "joint centres. The thesis compares its own machine with this one (sections 2.2 and "
+        f"6.2). Values are computed at y = 0, {significant(1e3 * LEVEL)} mm over the work table."
     )
     note = (
-        "The thesis prints the dimensions but neither the stiffness of a leg nor, in the text at "
-        "hand, the drawing of Appendix A. Stiffness is proportional to the leg's, which is "
-        "assumed: read its shape, not its size."
+        "The thesis prints the dimensions but neither the stiffness of a leg nor, in the available "
+        "text, the drawing of Appendix A. Stiffness is proportional to the leg's, which is "
+        "assumed: its variation is meaningful, not its size."
     )
     return Chapter("summary", "Summary", (Text(text), Facts(facts), Note(note)))
 
@@ -176,7 +176,7 @@ def _drawing(study: HexapodStudy) -> Chapter:
     text = (
         f"Mobility {found.mobility} with the legs driven and {found.mobility_locked} with them "
         f"held; {found.redundant} redundant constraints. Unlike the planar machine's pins, its "
-        "joints fit whatever the errors of its parts: those move the tool but lock no force in. "
+        "joints fit whatever the errors of its parts, which move the tool but lock in no force. "
         f"Over x = ±{1e3 * REACH:g} mm and a = ±{degrees(TILT):g}° the legs are from "
         f"{fixed(1e3 * float(lengths.min()), 0)} to {fixed(1e3 * float(lengths.max()), 0)} mm "
         "long."
@@ -249,7 +249,7 @@ def _assumptions(study: HexapodStudy) -> Chapter:
     thesis, ours = "Appendix A", "assumed"
     rows = [
         ["Sides of the fixed hexagon, in turn", f"{mm(m.long_side)}, {mm(m.short_side)}", thesis],
-        ["Equal angles of the hexagon", "120°", "as read here: the drawing is missing"],
+        ["Equal angles of the hexagon", "120°", "as interpreted here: the drawing is missing"],
         ["Fixed platform over the work table", mm(m.base_height), thesis],
         [
             "Joint centres beside and above the tool tip",
@@ -259,9 +259,9 @@ def _assumptions(study: HexapodStudy) -> Chapter:
         [
             "Two legs to a joint centre (“6 x 3 type”)",
             "facing the short sides",
-            "as read here: facing the long sides the condition number is 2.31 to 2.59",
+            "as interpreted here: facing the long sides the condition number is 2.31 to 2.59",
         ],
-        ["A long side along x", "", "as read here"],
+        ["A long side along x", "", "as interpreted here"],
         ["Height of the tool tip", mm(LEVEL), "sections 2.2 and 6.2"],
         [
             "Reach of figures 3 to 5",

@@ -84,7 +84,11 @@ def mit_ss1_chapters(
         machine_chapter(study),
         table_2_chapter(study),
         Chapter("scale", "Assembly forces against size", *_gathered(scale_blocks(study))),
-        Chapter("designs", "Where the rails lie: three designs", *_gathered(design_blocks(study))),
+        Chapter(
+            "designs",
+            "Where the rails are mounted: three designs",
+            *_gathered(design_blocks(study)),
+        ),
         size_chapter(study.moving_size, study.whole_size),
         assumptions_chapter(study),
     ]
@@ -117,11 +121,11 @@ def machine_chapter(study: MitSS1Study) -> Chapter:
     """The machine's own tolerances: forces in its twelve bearings."""
     own, key = study.own, "assembly"
     introduction = Text(
-        "Every pin turns in two bearings, so three parallel pins at the blocks and three at "
+        "Every pin rotates in two bearings, so three parallel pins at the blocks and three at "
         "the housing are constrained more than once. Where the pins are not parallel or the "
         "rails not level, the bearings and struts deform until the parts fit; the forces this "
-        "takes stay in the machine. They are linear in the misfits, and the worst case is "
-        "the largest over everything that the tolerances allow at once."
+        "takes stay in the machine. They are linear in the misfits, and the worst case is the "
+        "largest over everything that the tolerances allow at once."
     )
     gathered = _gathered(
         ([introduction, headline(own)], [study_file(own, key)]),
@@ -158,8 +162,8 @@ def _misfit(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         "misfit-machine",
         f"The misfits at which the {label(own.quantities[top])} is largest, "
         f"{shown(float(own.largest[top]), 'N')} kN, at {pose_label(own, pose)}. Misfits and "
-        f"displacements drawn {times(shape.factor)} times as large as they are; arrows "
-        "are the forces on the strut at the block's pins and on the housing at its own.",
+        f"displacements are drawn {times(shape.factor)} times their true size; arrows show the "
+        "forces on the strut at the block's pins and on the housing at its own.",
         machine_misfit_view(study.machine, shape),
         "Three-dimensional drawing: the machine as designed, the axes of its pins as made, and "
         "struts and housing strained between them, with the bearing forces as arrows.",
@@ -203,7 +207,7 @@ def _settings(study: MitSS1Study) -> dict[str, Any]:
         "sampling": METHODS.get(found.method, found.method) if found else "none",
         "static rating, kN": f"{STATIC_RATING / 1e3:g}",
         "struts": study.machine.struts,
-        "drives and guides": "rigid, but for the ball screw mode",
+        "drives and guides": "rigid, except for the ball screw mode",
         "damping of the responses": "1 % of critical in every mode, assumed",
         "solver of the granite": study.whole.whole.granite.solver,
     }

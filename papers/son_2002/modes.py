@@ -269,7 +269,10 @@ def _note(row: str, quantity: str, ours: Mapping[str, Mapping[str, float]]) -> s
     if row.startswith("rigid body"):
         note = "stiffnesses of the mounts calibrated to 22.6, 39.3 and 62.0 Hz"
         if row == "rigid body 1":
-            note += "; beside the second computed mode, along y, the shapes being in pictures only"
+            note += (
+                "; compared with the second computed mode, along y, since the shapes are only in "
+                "pictures"
+            )
         return note
     if row.startswith("granite"):
         note = (
@@ -278,8 +281,8 @@ def _note(row: str, quantity: str, ours: Mapping[str, Mapping[str, float]]) -> s
         )
         if row == TWISTING:
             note += (
-                "; the twist parts into two modes with the strut assembly, the one that holds more "
-                "of it is shown"
+                "; the twist splits into two modes with the strut assembly, of which the one "
+                "with the larger part is shown"
             )
         return note
     if row == SCREW:
@@ -290,7 +293,7 @@ def _note(row: str, quantity: str, ours: Mapping[str, Mapping[str, float]]) -> s
     if quantity == "numerical":
         return (
             "bearings and masses calibrated to 111.2 and 182.3 Hz, y stiffness 35 N/µm, x "
-            "stiffness 150 N/µm and 118.3 kg; tilt read as one about y"
+            "stiffness 150 N/µm and 118.3 kg; tilt interpreted as one about y"
         )
     return (
         "one factor on the far bearings, of the preloading side, calibrated to 79.2 and 154.12 Hz"

@@ -147,11 +147,11 @@ def workspace_statements() -> tuple[Statement, ...]:
             "tilts at which collisions use up the workspace",
             "deg",
             "about +80 and −60",
-            f"at x = 0 struts reach from {least:.1f} to {most:.1f}, and from {singular:.1f} on "
-            "beyond the actuator singularity".replace("-", "−"),
+            f"at x = 0 the struts reach from {least:.1f} to {most:.1f}, and from {singular:.1f} "
+            "on beyond the actuator singularity".replace("-", "−"),
             "not reproducible",
-            "shapes of struts, end-effector and stops are not printed; what the joints alone allow "
-            "ends elsewhere",
+            "shapes of struts, end-effector and stops are not printed; the limits by the joints "
+            "alone are elsewhere",
             f"{HERE}::test_tilts_in_the_middle",
         ),
         Statement(
@@ -208,7 +208,7 @@ def straightness_statement() -> Statement:
         f"within ±{1e6 * worst:.1f} at worst; standard deviation {1e6 * spread:.1f}",
         "predicted",
         "pins within 15 µm over their width, as inspected (section 8.3), rails within 4 µm; play "
-        "and eccentric bearings, which the thesis suspects, are not in it",
+        "and eccentric bearings, which the thesis suspects, are not included",
         f"{HERE}::test_straightness",
     )
 
@@ -222,6 +222,6 @@ def screw_statement() -> Statement:
         1.4,
         float(np.sqrt(2.0)),
         "predicted",
-        "the root of twice the stiffness, where nothing else gives; arithmetic",
+        "the root of twice the stiffness, where nothing else is compliant; arithmetic",
         f"{HERE}::test_a_second_pair_of_bearings",
     )

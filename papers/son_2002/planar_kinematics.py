@@ -58,7 +58,9 @@ def planar_kinematics(
     placement = machine.place(machine.poses(grid[0], 0.0, grid[1]))
     good = placement.reachable
     if not np.any(good):
-        raise ModelError("planar kinematics", "no pose can be taken.", "Choose other x and tilts.")
+        raise ModelError(
+            "planar kinematics", "no pose can be reached.", "Choose other x and tilts."
+        )
     inverse = jacobians(machine.linkage, placement[good]).inverse
     matrix = np.zeros((len(inverse), 4, 3))
     matrix[:, :3, [0, 2]] = inverse[:, :, [0, 2]]

@@ -94,7 +94,7 @@ def planar_compliance(
     if formula not in FORMULAS or (formula == "thesis" and screw_stiffness is not None):
         raise ModelError(
             "planar stiffness",
-            f'cannot take the formula "{formula}" here.',
+            f'cannot use the formula "{formula}" here.',
             'Choose "corrected", or "thesis" without a drive stiffness.',
         )
     rows, u = strut_rows(machine, x, b)

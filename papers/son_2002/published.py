@@ -31,7 +31,7 @@ DIMENSIONS = PublishedTable(
             ("p", 0.095),
         )
     ),
-    "Appendix B. w1 counts to negative x; the scan has lost its sign in eq. 40.",
+    "Appendix B. w1 is counted towards negative x; the scan has lost its sign in eq. 40.",
 )
 
 #: Cases of Table 2: length and width of the three equal struts, m.
@@ -62,8 +62,8 @@ TABLE_2 = PublishedTable(
         *_forces("III", "Fr", 29.4, 10.6, 29.5, 9.8, 27.3, 9.2),
         *_forces("III", "Fa", 5.7, 5.7, 5.6, 5.6, 5.5, 5.5),
     ),
-    "Section 6.6, page 85. Three equal struts, parallelism of the axes 300 µm/m. The structure is "
-    "in figures 40 and 42, of which only the text is at hand.",
+    "Section 6.6, page 85. Three equal struts, parallelism of the axes 300 µm/m. The structure "
+    "is in figures 40 and 42, of which only the text is available.",
 )
 
 

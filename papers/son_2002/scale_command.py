@@ -35,7 +35,7 @@ def run(
     if not RATIOS[0] <= ratio <= RATIOS[1]:
         raise ModelError(
             "--width-ratio",
-            f"{ratio:g} is no width of a strut over its length.",
+            f"{ratio:g} is not a width of a strut over its length.",
             f"Give a number from {RATIOS[0]:g} to {RATIOS[1]:g}; the default is 0.2.",
         )
     found = assembly_scale(_lengths(band, count), ratio, tilt=quantity(bare(tilt), ANGLE, "--tilt"))
@@ -78,7 +78,7 @@ def _lengths(band: tuple[float, float], count: int) -> list[float]:
     if not (SIZES[0] <= low < high <= SIZES[1]):
         raise ModelError(
             "lengths of the struts",
-            f"from {low:g} to {high:g} m are none.",
+            f"from {low:g} to {high:g} m are not valid.",
             f"Give --from of at least {SIZES[0]:g} and --to above it, up to {SIZES[1]:g}, in m.",
         )
     # 0.7 and not 0.7000000000000001 in the tables
@@ -115,7 +115,7 @@ def _print(out: Console, machine: str, found: AssemblyScale) -> None:
 
 def _print_size(out: Console, machine: str, found: ScaleStudy, *, granite: bool) -> None:
     """Exponents of stiffness and frequency, and of the deflection at constant removal rate."""
-    where = "on its granite" if granite else "on rails that stand still"
+    where = "on its granite" if granite else "on held rails"
     low, high = found.factors[0], found.factors[-1]
     out.print(
         f"{machine} {where}, {low:g} to {high:g} times as large, joints by three laws; fitted "

@@ -19,13 +19,13 @@ OPEN = (
         "bridge carries all three rails."
     ),
     (
-        "Not printed: dimensions, mass and stiffness of the bridge, its drive and its way. They "
-        "are rigid here, so that statics and modes are those of the planar machine on rails that "
-        "stand still; a bridge would add its own give."
+        "Dimensions, mass and stiffness of the bridge, its drive and its guideway are not "
+        "printed. They are rigid here, so statics and modes are those of the planar machine on "
+        "fixed rails; a bridge would add its own compliance."
     ),
     (
-        f"The bridge's mass of {MovingBridge.bridge_mass:g} kg is assumed; it counts in the "
-        "force of the drive along y alone."
+        f"The bridge's mass of {MovingBridge.bridge_mass:g} kg is assumed; it affects only the "
+        "force of the drive along y."
     ),
 )
 
@@ -56,12 +56,12 @@ def bridge_chapter() -> Chapter:
     """What chapter 10 says, and what it leaves open."""
     return Chapter(
         "bridge",
-        "What does the text carry?",
+        "What does the text support?",
         (
             Text(
-                "Chapter 10 lets the planar machine of the MIT-SS-1 hang from a moving bridge "
-                "over work that stands still: four axes, x, z and b of the planar machine and y of "
-                "the bridge, along a way of almost unlimited length."
+                "In chapter 10 the planar machine of the MIT-SS-1 hangs from a moving bridge "
+                "over a fixed workpiece: four axes, x, z and b of the planar machine and y of "
+                "the bridge, along a guideway of almost unlimited length."
             ),
             Points(OPEN),
         ),

@@ -70,7 +70,7 @@ def serial_statements() -> tuple[Statement, ...]:
                 printed,
                 float(np.degrees(head.tilt[head.least.argmin()])),
                 "predicted",
-                f"the tool lies along axis {first}: the joints alone say so",
+                f"the tool lies along axis {first}, by the joints alone",
                 f"{SERIAL}::test_where_it_is_singular",
             ),
             Statement(
@@ -164,13 +164,13 @@ def _reached() -> tuple[Statement, ...]:
         ),
         Statement(
             "section 4.4.4",
-            "flat surface, hexapod: plate in which horizontal lines turn no leg back",
+            "flat surface, hexapod: plate in which horizontal lines reverse no leg",
             "",
             "011100",
             f"{code}, for |x| < {1e3 * half:.0f} mm",
             "predicted",
-            "three neighbouring legs against the other three, as printed; with which leg the "
-            "count begins stands in a missing figure",
+            "three neighbouring legs against the other three, as printed; the leg with which the "
+            "count begins is in a missing figure",
             f"{HERE}::test_plate_in_the_middle_of_the_hexapod",
         ),
     )
@@ -194,9 +194,9 @@ def bridge_statements() -> tuple[Statement, ...]:
             "stiffness and modes of the bridge, its travel",
             "",
             "“almost unlimited length”",
-            "a rigid bridge on a rigid way without end",
+            "a rigid bridge on a rigid guideway of unlimited length",
             "not reproducible",
-            "no dimension, mass or stiffness of the bridge, its drive and its way is printed",
+            "no dimension, mass or stiffness of the bridge, its drive and its guideway is printed",
             f"{BRIDGE}::test_statics_are_those_of_the_planar_machine",
         ),
     )

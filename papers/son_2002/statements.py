@@ -94,13 +94,15 @@ def _figure_9(machine: str) -> tuple[Statement, ...]:
         lowest = float(study.frequency_law(law).exponent[0])
         # along which axis they differ the figure does not say: the one farthest from 1
         exponents = (float(stiffness[np.abs(stiffness - 1.0).argmax()]), lowest)
-        why = "the figure carries no numbers and no dimensions; drawn here is the template “{}”, {}"
+        why = (
+            "the figure carries no numbers and no dimensions; the template “{}” is computed "
+            "here, {}"
+        )
         said = (
             "exact"
             if law == 0
-            else "whose joints give "
-            f"{100 * float(study.joint_share[:3].max()):.0f} % of the deflection, so that the "
-            "0.8 shows; section 3.3 takes it for 1"
+            else f"whose joints give {100 * float(study.joint_share[:3].max()):.0f} % of the "
+            "deflection, so the 0.8 is visible; section 3.3 takes it as 1"
         )
         for what, published, ours in zip(
             ("static stiffness", "lowest frequency"),
@@ -141,7 +143,7 @@ def _reversals() -> tuple[Statement, ...]:
             float(np.degrees(np.arctan2(2.0, -3.0))),
             float(high),
             "predicted",
-            "the condition α + 2β ≥ 0 that is printed too bounds nothing",
+            "the condition α + 2β ≥ 0 that is also printed bounds nothing",
             cones_test,
         ),
         *flat_statements(),
@@ -176,7 +178,7 @@ def _planar() -> tuple[Statement, ...]:
             "number rises sharply",
             f"the volume is {falls} of that in the middle there; the condition number is "
             f"{condition[0, 0]:.2f} and {condition[-1, -1]:.2f}, in the middle "
-            f"{condition[middle]:.2f}: it rises at the first alone",
+            f"{condition[middle]:.2f}: it rises only at the first",
             "predicted",
             "the figures carry no legible numbers",
             f"{test}::test_the_ellipsoid_shrinks_at_the_two_corners",
@@ -199,7 +201,7 @@ def _planar() -> tuple[Statement, ...]:
             2.1,
             nan,
             "not reproducible",
-            "the travels along y and z are not printed; with 100 mm along x the ratio asks for "
+            "the travels along y and z are not printed; with 100 mm along x the ratio requires "
             f"{area:.2f} m² of them",
             f"{TESTS}/test_statements.py::test_volume_ratio",
         ),

@@ -33,7 +33,7 @@ def mit_ss1() -> TolerancedMachine:
         bearing_quantities(machine),
         (
             "The stiffness of the bearings is calibrated, see `MitSS1`.",
-            "The tolerances of housing and rails are assumed or read from the thesis's text.",
+            "The tolerances of housing and rails are assumed or taken from the thesis's text.",
             "The static rating of the bearings is an assumption: the thesis prints none.",
         ),
     )

@@ -26,7 +26,7 @@ def missing(subject: Subject) -> str:
         return "it has no tool: add [tool] with tcp"
     answer = subject.accuracy_answer
     if not answer.tolerances and not answer.errors:
-        return "no errors are known: add [[tolerances]], or a resolution to [[drives]]"
+        return "no errors are given: add [[tolerances]], or a resolution to [[drives]]"
     return ""
 
 
@@ -41,12 +41,12 @@ def write(subject: Subject) -> Chapter:
         unit = "µrad" if direction.startswith("r") else "µm"
         values = (found.worst, found.root_sum_square, found.deviation)
         rows.append([direction, unit, *(significant(1e6 * float(v[i])) for v in values)])
-    how = "through what gives way" if bool(found.elastic) else "without force"
+    how = "through elastic deformation" if bool(found.elastic) else "without force"
     blocks: list[Block] = [
         Text(
             f"{len(answer.tolerances)} tolerances and {len(answer.errors)} drive errors of half a "
             f"resolution to either side; the tool follows them {how}. At home it is displaced by "
-            f"{significant(1e6 * most)} µm at worst, in any direction of space."
+            f"{significant(1e6 * most)} µm in the worst case, in any direction."
         ),
         Table(
             "Displacement of the tool at home, to either side",
@@ -115,8 +115,8 @@ def _map(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     blocks: list[Block] = [
         Note(
             f"Over {grid_text(subject.grid)} the tool is displaced by {significant(worst.value)} "
-            f"µm at most, at {worst.where}: the volumetric accuracy of the machine as far as these "
-            "errors go."
+            f"µm at most, at {worst.where}: the volumetric accuracy of the machine as far as "
+            "these errors determine it."
         ),
         _causes(names, parts, f"at {worst.where}"),
         Row(tuple(figures), 330),

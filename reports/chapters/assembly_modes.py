@@ -9,17 +9,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
-from strutwork.reports.content import Block, Chapter, Column, Fact, Facts, Figure, Row, Table, Text
+from strutwork.reports.content import (
+    Block,
+    Chapter,
+    Column,
+    Details,
+    Fact,
+    Facts,
+    Figure,
+    Row,
+    Table,
+    Text,
+)
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.theme import PALETTE, layout
-from strutwork.reports.numbers import significant
+from strutwork.reports.long_tables import LONGEST
+from strutwork.reports.numbers import MINUS, significant
 from strutwork.reports.subject import Subject
 from strutwork.studies.machine_modes import MachineModes
 
 Array = NDArray[Any]
 
 KEY = "assembly-modes"
-TITLE = "In which other ways can it be put together?"
+TITLE = "In which other ways can it be assembled?"
 
 #: Modes that are drawn.
 DRAWN = 16
@@ -30,7 +42,7 @@ def missing(subject: Subject) -> str:
     if subject.model.tool is None:
         return "it has no tool: add [tool] with tcp"
     if not subject.model.structure.linkage.driven:
-        return "it has no drives: name driven directions of joints"
+        return "it has no drives: name the driven directions of its joints"
     return subject.unassembled
 
 
@@ -40,10 +52,12 @@ def write(subject: Subject) -> Chapter:
     task = subject.model.motion.task_of(modes.tool)
     blocks: list[Block] = [Text(_text(modes)), Facts(tuple(_facts(modes)))]
     if len(modes) > 1:
-        blocks += [_figures(modes), _table(task)]
+        table = _table(task)
+        more = Details(f"The {len(modes)} places of the tool in numbers", (table,))
+        blocks += [_figures(modes, task), table if len(modes) <= LONGEST else more]
     file = csv_file(
         "assembly-modes.csv",
-        "place of the tool, m, and its rotation vector from home, rad, in every assembly mode",
+        "position of the tool, m, and its rotation vector from home, rad, in every assembly mode",
         ["mode", *(f"{d}_{'rad' if d.startswith('r') else 'm'}" for d in DIRECTIONS)],
         [[k + 1, *row] for k, row in enumerate(task.tolist())],
     )
@@ -53,29 +67,30 @@ def write(subject: Subject) -> Chapter:
 def _text(modes: MachineModes) -> str:
     if len(modes) > 1:
         text = (
-            "With its drives held at home the joints allow these poses of the tool; the first is "
-            "the machine's own. Without taking it apart, it comes from one to another only through "
-            "a singularity (type 2). "
+            "With its drives held at home, the joints allow these poses of the tool; the first "
+            "is the machine's own. Unless it is taken apart, the machine passes from one to "
+            "another only through a singularity (type 2). "
         )
     else:
         text = (
-            "With its drives held at home "
-            f"{'the joints allow' if modes.every else 'there was found'} no other pose of the tool "
-            "than the machine's own. "
+            "With its drives held at home, "
+            f"{'the joints allow' if modes.every else 'the search found'} no pose of the tool "
+            "other than the machine's own. "
         )
     if modes.every:
         text += (
-            "The platform's three balls each run on a circle then, and an elimination finds all "
-            f"{modes.ways} ways to put them at their distances; those with real angles are poses."
+            "Each of the platform's three ball joints then moves on a circle, and an elimination "
+            f"finds all {modes.ways} ways to place them at their distances; those with real "
+            "angles are poses."
         )
     else:
         text += (
-            f"Looked for from {modes.starts} starts, of which {modes.ways} closed: there may be "
-            "others."
+            f"The search began at {modes.starts} starting points, of which {modes.ways} "
+            "converged; there may be other modes."
         )
     if modes.moves:
-        text += " Bodies can move on where the drives are held: a way stands for a family."
-    return text + " Whether links or bodies would collide is not looked at."
+        text += " Bodies can still move with the drives held: one mode then represents a family."
+    return text + " Collisions between links or bodies are not checked."
 
 
 def _facts(modes: MachineModes) -> list[Fact]:
@@ -84,7 +99,7 @@ def _facts(modes: MachineModes) -> list[Fact]:
             "Assembly modes",
             f"{len(modes)}",
             "",
-            "all there are" if modes.every else "found; there may be others",
+            "all there are" if modes.every else "by search; there may be others",
         )
     ]
     if np.isfinite(modes.apart):
@@ -93,7 +108,7 @@ def _facts(modes: MachineModes) -> list[Fact]:
                 "Nearest other mode",
                 significant(degrees(modes.apart)),
                 "deg",
-                "largest turn of a leg about its hinge from home to there",
+                "largest rotation of a leg about its hinge from home",
             )
         )
     return facts
@@ -110,18 +125,27 @@ def _table(task: Array) -> Table:
         *(Column(d, "deg" if d.startswith("r") else "mm") for d in DIRECTIONS),
     )
     return Table(
-        "The tool in every mode: its place, and its rotation vector from home",
+        "Position of the tool in every mode, and its rotation vector from home",
         columns,
         rows,
         "assembly-modes.csv",
     )
 
 
+def _place(row: Array) -> str:
+    """Place of the tool and its turn, what is not zero, in whole mm and degrees."""
+    turned = [f"{d} {round(degrees(v)) + 0}°" for d, v in zip(DIRECTIONS[3:], row[3:], strict=True)]
+    placed = [f"{d} {round(1e3 * v) + 0}" for d, v in zip(DIRECTIONS[:3], row[:3], strict=True)]
+    words = ", ".join(w for w in turned if not w.endswith(" 0°"))
+    text = ", ".join(placed) + " mm" + (f"; {words}" if words else "")
+    return text.replace("-", MINUS)
+
+
 #: A view that tells the three axes apart: right, up.
 _VIEW = np.array([[0.77, 0.64, 0.0], [-0.26, 0.31, 0.91]])
 
 
-def _figures(modes: MachineModes) -> Row:
+def _figures(modes: MachineModes, task: Array) -> Row:
     every = 1e3 * np.concatenate([line for lines in modes.lines for line in lines]) @ _VIEW.T
     middle = 0.5 * (every.max(axis=0) + every.min(axis=0))
     half = 0.55 * float(np.ptp(every, axis=0).max())
@@ -129,13 +153,13 @@ def _figures(modes: MachineModes) -> Row:
         tuple(
             Figure(
                 f"assembly-mode-{k + 1}",
-                f"Mode {k + 1}{', the machine as it is' if k == 0 else ''}.",
+                f"Mode {k + 1}{', the machine as it is' if k == 0 else ''}: {_place(row)}.",
                 _sketch(lines, modes.tool.position[k], middle, half, k == 0),
-                f"Lines of the bodies in assembly mode {k + 1}, seen from aside.",
+                f"Lines of the bodies in assembly mode {k + 1}, seen obliquely.",
                 "assembly-modes.csv",
                 210,
             )
-            for k, lines in enumerate(modes.lines[:DRAWN])
+            for k, (lines, row) in enumerate(zip(modes.lines[:DRAWN], task, strict=False))
         ),
         width=200,
     )

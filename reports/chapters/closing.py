@@ -55,7 +55,7 @@ def closing_chapter(
         (
             Text(f"Made on {_today()} {_command(target)}with {_versions(made_with)}."),
             *((Text(_settings(rows)),) if rows else ()),
-            Text("Files beside this page; they hold every plotted number, unrounded."),
+            Text("Files beside this page; they contain every plotted number, unrounded."),
             Links(tuple((f.name, f.what) for f in files)),
         ),
         (file,),

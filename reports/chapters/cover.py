@@ -84,11 +84,11 @@ def cover_blocks(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, .
     blocks.append(
         Figure(
             "cover-softest",
-            f"The machine at {found.where}, softest along {found.axis}. In red "
-            f"{found.part.label}, which give{found.part.ending} way most. Drag to turn, scroll to "
+            f"The machine at {found.where}, where it is softest, along {found.axis}. Red: "
+            f"{found.part.label}, which deform{found.part.ending} most. Drag to rotate, scroll to "
             "zoom.",
             marked_view(found.model, found.part.members),
-            "Three-dimensional drawing of the machine with the part that gives way most in red.",
+            "Three-dimensional drawing of the machine with the part that deforms most in red.",
             name,
             height=430,
         )
@@ -158,7 +158,12 @@ def _stiffness(
     numbers = listed([significant(k / 1e6) for _, k in moves])
     axes = listed([axis for axis, _ in moves])
     said = [
-        Answer("At home the tool is ", f"{numbers} N/µm", f" stiff along {axes}, {FREE}.", "tool")
+        Answer(
+            "At home the stiffness of the tool is ",
+            f"{numbers} N/µm",
+            f" along {axes}, {FREE}.",
+            "tool",
+        )
     ]
     if worst:
         numbers = listed([significant(e.value) for _, e in worst])
@@ -167,7 +172,9 @@ def _stiffness(
         where = places[0] if len(set(places)) == 1 else listed(places, ";")
         after = f" along {along}, at {where}."
         key = workspace_stiffness.KEY
-        said.append(Answer("At worst in its workspace it is ", f"{numbers} N/µm", after, key))
+        said.append(
+            Answer("In its workspace the stiffness falls to ", f"{numbers} N/µm", after, key)
+        )
     if found is not None:
         amount = found.part.share
         # of its compliance the part keeps 1/1.1
@@ -175,9 +182,12 @@ def _stiffness(
         there = "At home" if found.where == HOME else "Where it is softest,"
         said.append(
             Answer(
-                f"{there} {found.part.label} give{found.part.ending} way most: ",
+                (
+                    f"{there} {found.part.label} deform{found.part.ending} most and "
+                    f"cause{found.part.ending} "
+                ),
                 share(amount),
-                f" of the displacement along {found.axis}. Stiffened by {100 * STIFFER:.0f} % "
+                f" of the displacement along {found.axis}. Stiffened by {100 * STIFFER:.0f} %, "
                 f"{found.part.pronoun} the tool about {share(gain)} stiffer.",
                 "budget",
             )
@@ -209,8 +219,8 @@ def _vibration(subject: Subject) -> tuple[Answer, ...]:
             worst = [least(found, values[..., k]) for k in range(3)]
             k = int(np.argmin([w.value for w in worst]))
             after += (
-                f"; in the workspace {significant(worst[k].value)} N/µm along {'xyz'[k]}, at "
-                f"{worst[k].where}"
+                f"; in the workspace it falls to {significant(worst[k].value)} N/µm along "
+                f"{'xyz'[k]}, at {worst[k].where}"
             )
         number = f"{significant(1e-6 * value)} N/µm"
         said.append(
@@ -235,7 +245,7 @@ def _locked(subject: Subject) -> Answer:
         return Answer(
             "Manufacturing errors lock in ",
             "no force",
-            ": no constraint is redundant, they move the tool only.",
+            ": no constraint is redundant, so they only move the tool.",
             "tolerances",
         )
     used = study.utilisation
@@ -246,11 +256,11 @@ def _locked(subject: Subject) -> Answer:
             return Answer("Manufacturing errors lock in ", "moments only", ".", "tolerances")
         top = max(forces, key=lambda i: float(study.largest[i]))
     quantity = study.quantities[top]
-    after = f": {quantity.name}, at worst, for which no limit is given."
+    after = f": {quantity.name} in the worst case; no limit is given."
     if used[top] > 0:
         limit = f"{significant(float(study.limit[top]))} {quantity.unit}"
         beyond = "more than" if used[top] > 1 else f"{share(float(used[top]))} of"
-        after = f": {quantity.name}, at worst, {beyond} its limit of {limit}."
+        after = f": {quantity.name} in the worst case, {beyond} its limit of {limit}."
     number = f"{significant(float(study.largest[top]))} {quantity.unit}"
     return Answer(
         "Manufacturing errors lock in up to ", number, after, "tolerances", bool(used[top] > 1)
@@ -266,7 +276,7 @@ def _displaced(subject: Subject) -> Answer | None:
         return None
     top = max(moves, key=lambda i: float(study.largest[i]))
     number = f"{significant(1e6 * float(study.largest[top]))} µm"
-    after = f" along {study.quantities[top].directions[0]} at home, at worst"
+    after = f" along {study.quantities[top].directions[0]} at home"
     if not workspace_assembly.missing(subject):
         found = subject.assembly_survey
         names = [str(q) for q in found["quantity"].to_numpy()]
@@ -274,8 +284,10 @@ def _displaced(subject: Subject) -> Answer | None:
         values = 1e6 * found["worst_case"].to_numpy()[..., some].max(axis=-1)
         if np.isfinite(values).any():
             most = largest(found, values)
-            after += f", and by up to {significant(most.value)} µm, at {most.where}"
-    return Answer("They displace the tool by up to ", number, f"{after}.", accuracy.KEY)
+            after += f" and by up to {significant(most.value)} µm in the workspace, at {most.where}"
+    return Answer(
+        "Manufacturing errors displace the tool by up to ", number, f"{after}.", accuracy.KEY
+    )
 
 
 def _reach(subject: Subject) -> tuple[Answer, ...]:
@@ -291,10 +303,10 @@ def _reach(subject: Subject) -> tuple[Answer, ...]:
             many = (
                 f"{count(len(inner), 'curve')} of singular poses" if inner else "no singular pose"
             )
-            verb = "crosses" if len(inner) < 2 else "cross"
+            verb = ("crosses" if len(inner) == 1 else "cross") if inner else "lies in"
             after += f"; {many} {verb} the plane of its first two directions"
     key = workspace_stiffness.KEY if workspace_size.missing(subject) else workspace_size.KEY
-    return (Answer("It takes ", f"{kept} of {asked}", f"{after}.", key),)
+    return (Answer("The machine reaches ", f"{kept} of {asked}", f"{after}.", key),)
 
 
 def answers_by_chapter(blocks: tuple[Block, ...]) -> dict[str, str]:

@@ -18,7 +18,7 @@ from strutwork.studies.standard_motion import ACCELERATION, StandardMotion
 from strutwork.studies.trajectory import TrajectoryStudy
 
 KEY = "dynamics"
-TITLE = "What does moving ask of its drives?"
+TITLE = "What does motion demand of its drives?"
 
 #: Share of the largest force that is rounding.
 ROUNDING = 1e-9
@@ -32,9 +32,9 @@ def missing(subject: Subject) -> str:
     if subject.model.tool is None:
         return "it has no tool: add [tool] with tcp"
     if subject.model.workspace is None:
-        return "the file names no poses to look at: add [workspace] with ranges of the tool"
+        return "the file gives no poses: add [workspace] with ranges of the tool"
     if not subject.model.structure.linkage.driven:
-        return "it has no drives: name driven directions of joints"
+        return "it has no drives: name the driven directions of its joints"
     return subject.undynamic
 
 
@@ -45,7 +45,7 @@ def write(subject: Subject) -> Chapter:
     labels = [f"{joint}:{d}" for joint, d in drives]
     blocks: list[Block] = [
         Text(
-            "All bodies are rigid here and joints free of loss; elastic directions are held. "
+            "All bodies are rigid here and joints have no losses; elastic directions are locked. "
             "Masses are those of the model at home."
         ),
         Facts(tuple(_facts(found))),
@@ -63,7 +63,7 @@ def write(subject: Subject) -> Chapter:
 def _facts(found: StandardMotion) -> list[Fact]:
     facts = [
         Fact(
-            f"Mass felt along {label}",
+            f"Effective mass along {label}",
             significant(float(free)),
             "kg",
             "at home, the other coordinates free to follow",
@@ -99,7 +99,7 @@ def _masses(found: StandardMotion) -> Table:
         Column("others free"),
         Column("unit", "", False),
     )
-    return Table("Mass or moment of inertia that the tool feels at home", columns, rows)
+    return Table("Effective mass or moment of inertia at the tool, at home", columns, rows)
 
 
 def _unit(label: str) -> str:
@@ -128,18 +128,17 @@ def _standing(found: StandardMotion, labels: list[str]) -> Table:
         Column("unit", "", False),
     )
     lost = int(np.isnan(found.standing).any(axis=1).sum())
-    caption = f"Force of each drive at rest against weight, over {grid_text(found.grid)}"
+    caption = f"Force of each drive at rest under the weight, over {grid_text(found.grid)}"
     if lost:
-        caption += f"; {lost} of them cannot be taken"
+        caption += f"; {lost} of them cannot be reached"
     return Table(caption, columns, rows, "dynamics-standing.csv")
 
 
 def _circle_text(found: StandardMotion) -> Text:
     return Text(
-        f"The tool goes once round a circle of {significant(1e3 * found.radius)} mm radius about "
-        f"home in {' and '.join(found.plane)}, from rest to rest in "
-        f"{significant(found.duration)} s, with {ACCELERATION:g} m/s² at its fastest. "
-        "A path of your own: strutwork trajectory."
+        f"The tool moves once round a circle of {significant(1e3 * found.radius)} mm radius about "
+        f"home in {' and '.join(found.plane)}, from rest to rest in {significant(found.duration)} "
+        f"s, with at most {ACCELERATION:g} m/s². For a path of your own, use strutwork trajectory."
     )
 
 
@@ -176,7 +175,7 @@ def _demands(study: TrajectoryStudy) -> Table:
     beyond = [d.label for d in study.demands if _exceeds(d)]
     words = f"; beyond their limits: {', '.join(beyond)}" if beyond else ""
     return Table(
-        f"Largest values of each drive on the circle, with its limit where one is known{words}. "
+        f"Largest values of each drive on the circle, with its limit where one is given{words}. "
         f"Work and energy agree within {study.followed.imbalance:.0e}",
         columns,
         rows,

@@ -20,7 +20,7 @@ from strutwork.reports.survey_words import least
 Array = NDArray[Any]
 
 KEY = "ellipsoids"
-TITLE = "Which way does it yield most?"
+TITLE = "In which direction is it most compliant?"
 FILE = "ellipsoids.csv"
 
 #: A principal axis below this share of the largest is rounding of a tool that cannot move so.
@@ -97,14 +97,14 @@ def write(subject: Subject) -> Chapter:
     )
     blocks: list[Block] = [
         Text(
-            "A unit force in every direction moves the tool to the surface of the first ellipsoid, "
-            "a unit moment turns it by the second; the other directions are free to follow, drives "
-            "held. Thin is stiff. "
+            "A unit force in any direction moves the tool to the surface of the first ellipsoid, "
+            "and a unit moment rotates it to that of the second; the other directions are free "
+            "to follow and the drives are held. A short axis is a stiff direction. "
             + (
-                "The second pose is that of the workspace's grid at which a displacement along x, "
-                "y or z is softest."
+                "The second pose is the one of the workspace's grid at which the stiffness along "
+                "x, y or z is least."
                 if len(places) > 1
-                else f"At home alone: {subject.unmoved or 'it is no softer elsewhere'}."
+                else f"Shown at home only: {subject.unmoved or 'no other pose is softer'}."
             )
         ),
         Row(tuple(figures), 380),
@@ -147,7 +147,7 @@ def _directions(sizes: Array, axes: Array) -> list[str]:
         if size <= 0
         else "any"
         if equal == 3
-        else "any across the other"
+        else "any normal to the other"
         if equal == 2
         else ", ".join(fixed(float(v) + 0.0, 3) for v in np.round(axis, 3))
         for size, equal, axis in zip(sizes, count, axes, strict=True)

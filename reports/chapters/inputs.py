@@ -59,12 +59,12 @@ def write(subject: Subject) -> Chapter:
     files = (*(echo.file for echo in found), nodes)
     blocks: list[Block] = [
         Text(
-            "The model as it was read; the numbers of every chapter come from these. Rows that "
-            "differ by their numbers alone stand as one; the files have each by itself."
+            "This is the model as it was read; every chapter is computed from it. Rows whose "
+            "names differ only in their numbers are shown as one; the files list each separately."
         ),
         *(echo.table for echo in found),
-        Text(f"{_other(model)} The places of all nodes are in {nodes.name}."),
-        Text("What the model does not say was assumed:"),
+        Text(f"{_other(model)} The positions of all nodes are in {nodes.name}."),
+        Text("The model does not state the following, which was assumed:"),
         Points(assumed(model)),
         Text(_identity(subject, found)),
     ]
@@ -92,7 +92,7 @@ def _other(model: Model) -> str:
     if model.tool is not None:
         words.append(f"The tool centre point is the node {model.tool}.")
     if model.task:
-        words.append(f"Its task moves the tool in {', '.join(model.task)}.")
+        words.append(f"The task directions of the tool are {', '.join(model.task)}.")
     if model.workspace is not None:
         words.append(f"The workspace has {grid_text(model.workspace)}.")
     for coupling in model.structure.linkage.couplings:
@@ -109,12 +109,12 @@ def _nodes(model: Model) -> DataFile:
     names = model.structure.linkage.nodes
     own = set(model.nodes)
     rows = [
-        [name, *(float(v) for v in place), "given" if name in own else "made for a part"]
+        [name, *(float(v) for v in place), "given" if name in own else "created for a part"]
         for name, place in zip(names, places, strict=True)
     ]
     return csv_file(
         "inputs-nodes.csv",
-        "places of all nodes at home, m",
+        "positions of all nodes at home, m",
         ("node", "x", "y", "z", "origin"),
         rows,
     )

@@ -43,7 +43,7 @@ def summary_chapter(model: Model, check: ModelCheck, solution: ModelSolution | N
         count(len(model.cases), "load case"),
     ]
     present = [part for part in parts if not part.startswith("0 ")]
-    where = "in one configuration" if model.workspace is None else "as it stands at home"
+    where = "in one configuration" if model.workspace is None else "at home"
     text = f"A structure of {listed(present)}, {where}."
     facts = [
         Fact("Degrees of freedom", str(check.degrees_of_freedom), "", "of the flexible structure"),
@@ -104,8 +104,8 @@ def structure_chapter(model: Model) -> Chapter:
     }
     figure = Figure(
         "structure-drawing",
-        "The structure as the file describes it, in mm. Drag to turn, scroll to zoom; names show "
-        "under the pointer. Joint symbols are not to scale.",
+        "The structure as the file describes it, in mm. Drag to rotate, scroll to zoom; names "
+        "appear under the pointer. Joint symbols are not to scale.",
         model_view(model),
         f"Three-dimensional drawing of the structure with {count(len(linkage.joints), 'joint')} "
         "marked by type.",
@@ -138,12 +138,12 @@ def check_chapter(check: ModelCheck) -> Chapter:
             [str(i), listed([g.label for g in grouped(dict.fromkeys(s.joints, ()))], ";")]
             for i, s in enumerate(found.self_stress[:SHOWN], 1)
         ]
-        columns = (Column("state", "", False), Column("joints that take part", "", False))
+        columns = (Column("state", "", False), Column("joints involved", "", False))
         blocks += [
             Text(
                 f"There {'is' if len(found.self_stress) == 1 else 'are'} {many} of self-stress: "
                 "redundant constraints let manufacturing errors lock forces into these joints; "
-                "without them there would be none."
+                "without redundancy there would be none."
             ),
             Details(
                 "The joints of the states of self-stress",
@@ -161,10 +161,10 @@ def _counted(check: ModelCheck) -> str:
     verb = "constraint is" if found.redundant < 2 else "constraints are"
     return (
         f"Its mobility is {found.mobility} with the drives free and {found.mobility_locked} with "
-        f"them held; {many} {verb} redundant with the drives held. Grübler's count, which knows no "
-        f"geometry, says {gruebler} with the drives free. The flexible structure has "
-        f"{check.degrees_of_freedom} degrees of freedom. Every beam, solid, body and elastic joint "
-        "counts as rigid for the mobility, springs to ground as absent; the rank of the "
+        f"them held; {many} {verb} redundant with the drives held. Grübler's count, which ignores "
+        f"the geometry, gives {gruebler} with the drives free. The flexible structure has "
+        f"{check.degrees_of_freedom} degrees of freedom. For the mobility, every beam, solid, "
+        "body and elastic joint counts as rigid and springs to ground as absent; the rank of the "
         "constraints decides, not a count."
     )
 

@@ -59,7 +59,7 @@ def loads_chapter(solution: ModelSolution) -> Chapter:
         ),
         csv_file(
             "deformed-shapes.csv",
-            "the drawn shapes: true position and displacement, m; lines are parted by empty rows",
+            "the drawn shapes: true position and displacement, m; empty rows separate the lines",
             ("case", "x_m", "y_m", "z_m", "displacement_m", "drawn_factor"),
             shapes,
         ),
@@ -81,9 +81,9 @@ def forces_chapter(solution: ModelSolution) -> Chapter:
     answers = solution.to_dict()
     blocks: list[Block] = [
         Text(
-            "The largest force and moment on each kind of part, over its load cases; parts whose "
-            "names differ by their numbers alone are one kind. Every force in its directions "
-            "stands below, by load case."
+            "The largest force and moment on each kind of part, over all load cases; parts whose "
+            "names differ only in their numbers are one kind. The components of every force are "
+            "listed below by load case."
         )
     ]
     rows: list[list[Any]] = []
@@ -135,9 +135,9 @@ def _largest(
         Column("parts", "", False),
         Column("kind", "", False),
         Column("largest force", "N"),
-        Column("where, in which case", "", False),
+        Column("where, load case", "", False),
         Column("largest moment", "N·m"),
-        Column("where, in which case", "", False),
+        Column("where, load case", "", False),
     )
     return [Table("Largest forces and moments", heads, lines, "forces.csv")] if lines else []
 
@@ -158,7 +158,7 @@ def _six(
     heads = (Column(what, "", False), *(Column(title, unit) for title, unit in columns))
     blocks: list[Table | Text] = [Table(title, heads, rows, data)]
     if len(values) > SHOWN:
-        blocks.append(Text(f"The first {SHOWN} of {len(values)} are shown; {data} has all."))
+        blocks.append(Text(f"The first {SHOWN} of {len(values)} are shown; {data} contains all."))
     return blocks
 
 
@@ -167,7 +167,7 @@ def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Fi
     case = model.cases[number]
     largest, factor = exaggeration(solution, number)
     if not factor:
-        return Note(f"Nothing moves in case “{case.name}”.")
+        return Note(f"No node moves in case “{case.name}”.")
     shape, moved = deformed_shape(model, statics, number, factor)
     if not len(shape):
         return None
@@ -176,14 +176,14 @@ def _deformed(solution: ModelSolution, number: int, rows: list[list[Any]]) -> Fi
         [case.name, *(float(v) for v in point), float(m), factor]
         for point, m in zip(still, moved, strict=True)
     ]
-    forces = ", red the forces" if any(any(w[:3]) for _, w in case.wrenches) else ""
-    edges = ", of solids along their edges" if model.solids else ""
+    forces = ", forces are red" if any(any(w[:3]) for _, w in case.wrenches) else ""
+    edges = " and those of solids along their edges" if model.solids else ""
     return Figure(
         f"deformed-{number + 1}",
-        f"Case “{case.name}”: displacements drawn {times(factor)} times as large as they are. The "
-        f"largest of a node is {significant(1e6 * largest, 4)} µm. Colour gives the true "
-        f"displacement, between nodes as the beams' ends bend them{edges}; grey is the structure "
-        f"at rest{forces}.",
+        f"Case “{case.name}”: displacements are drawn {times(factor)} times their true size. The "
+        f"largest of a node is {significant(1e6 * largest, 4)} µm. Colour shows the true "
+        f"displacements, between nodes as the beams' ends bend them{edges}; the structure at rest "
+        f"is grey{forces}.",
         deformed_view(model, shape, moved, case, "displacement (µm)"),
         f"Three-dimensional drawing of the deformed structure in case {case.name}.",
         "deformed-shapes.csv",

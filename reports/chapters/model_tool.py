@@ -39,10 +39,10 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         rows.append([direction, unit, *values])
     blocks: list[Block] = [
         Text(
-            f"At the tool centre point {solution.model.tool}, in global axes, with the drives "
-            "held. Stiffness along an axis means a force over the displacement along it while the "
-            "five other directions are free to follow; beside it stands the stiffness with them "
-            "blocked, which is never less."
+            f"These values are for the tool centre point {solution.model.tool}, in global axes, "
+            "with the drives held. Stiffness along an axis is the force divided by the "
+            "displacement along it while the five other directions are free to follow; the "
+            "stiffness with them blocked, which is never less, is shown beside it."
         ),
         Table(
             "Stiffness along each axis",
@@ -54,8 +54,8 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
     if not np.all(np.isfinite([free, blocked])):
         blocks.append(
             Note(
-                "Infinite: rigid joints leave the tool no such motion, alone or with the others "
-                "following."
+                "Infinite: rigid joints prevent this motion of the tool, alone or with the "
+                "others following."
             )
         )
     matrices = [_matrix("Compliance matrix, m/N, 1/N and rad/(N·m)", compliance)]

@@ -6,13 +6,14 @@ from math import degrees
 
 import numpy as np
 
-from strutwork.reports.content import Block, Chapter, Column, Note, Table, Text
-from strutwork.reports.numbers import significant
+from strutwork.reports.content import Block, Chapter, Note, Text
+from strutwork.reports.joint_ranges import JointRange, range_blocks, range_file
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import grid_text
 
 KEY = "motion"
 TITLE = "How far do its joints move?"
+FILE = "joint-ranges.csv"
 
 #: A support whose free direction moves by less, mm or deg, is left out.
 STILL = 1e-6
@@ -32,56 +33,43 @@ def write(subject: Subject) -> Chapter:
     driven = set(model.structure.linkage.driven)
     limits = {(limit.joint, limit.coordinate): limit for limit in model.limits}
     held = set(model.supports.values())
-    rows = []
+    ranges = []
     for k, (joint, direction) in enumerate(names):
         turns = direction.startswith("r")
-        factor, unit = (degrees(1.0), "deg") if turns else (1e3, "mm")
+        factor = degrees(1.0) if turns else 1e3
         span = factor * values[:, k]
-        if joint in held and np.nanmax(span) - np.nanmin(span) <= STILL:
+        low, high = float(np.nanmin(span)), float(np.nanmax(span))
+        if joint in held and high - low <= STILL:
             # a support that leaves a direction free is no joint that a reader looks for
             continue
         limit = limits.get((joint, direction))
-        rows.append(
-            [
-                f"{joint}:{direction}",
-                "drive" if (joint, direction) in driven else "passive",
-                unit,
-                *(
-                    significant(round(float(v), 6), 4)
-                    for v in (factor * home[k], np.nanmin(span), np.nanmax(span))
-                ),
-                "none" if limit is None else _span(factor * limit.low, factor * limit.high),
-            ]
+        ranges.append(
+            JointRange(
+                joint,
+                direction,
+                (joint, direction) in driven,
+                factor * float(home[k]),
+                low,
+                high,
+                None if limit is None else (factor * limit.low, factor * limit.high),
+            )
         )
-    rows.sort(key=lambda row: row[1])
-    columns = (
-        Column("joint coordinate", "", False),
-        Column("", "", False),
-        Column("unit", "", False),
-        Column("home"),
-        Column("least"),
-        Column("largest"),
-        Column("limits", "", False),
-    )
     blocks: list[Block] = [
         Text(
-            f"Over the reachable ones of {grid_text(subject.grid)}, by the joints alone: no "
-            "formula of the machine is needed. Turns are counted on along the way from home; a "
-            "spherical joint's three are the components of its rotation vector."
+            f"The ranges cover the reachable ones of {grid_text(subject.grid)}. They follow from "
+            "the joints alone, without a formula of the machine. Rotations are counted "
+            "continuously from home; the three of a spherical joint are the components of its "
+            "rotation vector."
         ),
-        Table("Joint coordinates", columns, rows, "stiffness-survey.nc"),
+        *range_blocks(ranges, FILE),
     ]
     free = found.attrs["poses"] - found.attrs["poses_kept"]
     if free:
         blocks.append(
             Note(
-                f"{free} of {found.attrs['poses']} poses do not count; the chapter on stiffness "
-                "over the workspace says why. Those outside a joint's limits alone are in the "
-                "ranges above."
+                f"{free} of {found.attrs['poses']} poses are excluded; the chapter on stiffness "
+                "over the workspace says why. Those that are only outside a joint's limits are "
+                "in the ranges above."
             )
         )
-    return Chapter(KEY, TITLE, tuple(blocks))
-
-
-def _span(low: float, high: float) -> str:
-    return f"{significant(low, 4)} to {significant(high, 4)}"
+    return Chapter(KEY, TITLE, tuple(blocks), (range_file(ranges, FILE),))

@@ -124,7 +124,7 @@ def tool_blocks(study: ToleranceStudy, key: str) -> list[Block]:
         )
     return [
         Table(
-            f"{study.title}: worst displacement of the tool by the misfits{beside}",
+            f"{study.title}: worst displacement of the tool that the misfits cause{beside}",
             (
                 Column("tool", "", False),
                 Column("worst case"),

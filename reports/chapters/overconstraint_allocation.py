@@ -56,8 +56,8 @@ def allocation_blocks(
         most = float(np.max(allocation.utilisation))
         gap = "" if allocation.gap is None else f" Gap {allocation.gap:.1g}."
         points.append(
-            f"{words}: {allocation.method}; {allocation.optimality}.{gap} Largest share of a limit "
-            f"{100 * most:.2f} %; what stops it: {_active(allocation)}."
+            f"{words}: {allocation.method}; {allocation.optimality}.{gap} Largest share of a "
+            f"limit {100 * most:.2f} %; limited by {_active(allocation)}."
         )
     bars = [
         Bars(words, allocation.scale, PALETTE[i], ("", "/")[i % 2])
@@ -67,13 +67,16 @@ def allocation_blocks(
     blocks: list[Block] = [
         Figure(
             f"allocation-{key}",
-            "Allocated over given size of each tolerance; above one it may be loosened.",
-            grouped(names, bars, "allocated over given size"),
-            "Bars of the allocated over the given size of each tolerance.",
+            (
+                "Ratio of the allocated to the given size of each tolerance; above one, the "
+                "tolerance may be loosened."
+            ),
+            grouped(names, bars, "allocated / given size"),
+            "Bars of the ratio of the allocated to the given size of each tolerance.",
             file,
             400,
         ),
-        Table(f"Largest tolerances that keep {limits}", columns, rows, file),
+        Table(f"Largest tolerances that meet {limits}", columns, rows, file),
         Points(tuple(points)),
     ]
     heads = ["tolerance", "given"]
@@ -98,4 +101,4 @@ def _times(scale: float) -> str:
 def _active(allocation: Allocation) -> str:
     names = list(dict.fromkeys(allocation.active))
     more = f" and {len(names) - 3} more" if len(names) > 3 else ""
-    return ", ".join(names[:3]) + more if names else "no limit, only the tolerances' own bounds"
+    return ", ".join(names[:3]) + more if names else "the tolerances' own bounds only"

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.reports.alike import grouped, word
+from strutwork.reports.alike import label as names
 from strutwork.reports.chapters.overconstraint import (
     UNITS,
     governing,
@@ -25,6 +26,7 @@ from strutwork.reports.figures.charts import stacked_shares
 from strutwork.reports.figures.curves import histogram
 from strutwork.reports.figures.force_bars import ForceBars, force_bars
 from strutwork.reports.figures.theme import PALETTE
+from strutwork.reports.long_tables import LONGEST
 from strutwork.reports.numbers import significant
 from strutwork.reports.part_groups import REST, told_apart
 from strutwork.studies.tolerance_result import ToleranceStudy
@@ -153,13 +155,12 @@ def _force_table(study: ToleranceStudy, key: str) -> Table:
         columns.append(Column("worst pose", "", False))
     top = governing(study)
     top_unit = "N" if top is None else study.quantities[top].unit
-    rows: list[list[str | Cell]] = []
+    rows: list[tuple[int, str, list[str | Cell]]] = []
     for i in loaded(study):
         q = study.quantities[i]
         text = shown(float(study.largest[i]), q.unit)
         row: list[str | Cell] = [
-            q.joint or "",
-            q.kind.removesuffix(" force") + (", governs" if i == top else ""),
+            q.kind.removesuffix(" force"),
             *([UNITS[q.unit][0]] if mixed else []),
             text,
         ]
@@ -179,13 +180,34 @@ def _force_table(study: ToleranceStudy, key: str) -> Table:
         row.append(main_cause(study, i))
         if poses:
             row.append(pose(study, int(study.worst_pose[i])))
-        rows.append(row)
+        rows.append((i, q.joint or "", row))
     caption = f"{study.title}: forces that the tolerances can lock in"
     if limited and not each:
         caption += f", limit {shown(common.pop(), top_unit)} {UNITS[top_unit][0]} each"
     if found is not None and poses:
         caption += f"; quantiles at {pose(study, study.governing)}"
-    return Table(caption, columns, rows, f"{key}-forces.csv")
+    return Table(caption, columns, _same(rows, study, top), f"{key}-forces.csv")
+
+
+def _same(
+    rows: Sequence[tuple[int, str, list[str | Cell]]], study: ToleranceStudy, top: int | None
+) -> list[list[str | Cell]]:
+    """Rows of joints that say the same as one; the largest first where they are many."""
+    found: dict[tuple[str, ...], list[tuple[int, str, list[str | Cell]]]] = {}
+    for row in rows:
+        key = tuple(c.text if isinstance(c, Cell) else c for c in row[2])
+        found.setdefault(key, []).append(row)
+    groups = list(found.values())
+    if len(groups) > LONGEST:
+        groups.sort(key=lambda some: -float(study.largest[some[0][0]]))
+    return [
+        [
+            names([joint for _, joint, _ in some]),
+            f"{some[0][2][0]}{', governs' if any(i == top for i, *_ in some) else ''}",
+            *some[0][2][1:],
+        ]
+        for some in groups
+    ]
 
 
 def _force_file(study: ToleranceStudy, key: str) -> DataFile:
@@ -270,9 +292,9 @@ def spread_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Da
     where = f" at {pose(study, study.governing)}" if len(study.poses) > 1 else ""
     text = (
         f"{found.samples:,} assemblies{where}, {METHODS.get(found.method, found.method)}; each "
-        f"tolerance falls {' or '.join(_FALLS[d] for d in distributions)}. The largest "
-        f"{label(study.quantities[i])} sampled is {reach:.1f} % of the exact worst case; no sample "
-        f"may exceed it. Quantiles stand in the data file with their confidence intervals "
+        f"deviation lies {' or '.join(_FALLS[d] for d in distributions)}. The largest sampled "
+        f"{label(study.quantities[i])} is {reach:.1f} % of the exact worst case, which no sample "
+        "can exceed. The data file gives the quantiles with their confidence intervals "
         f"({found.confidence})."
     )
     blocks: list[Block] = [Text(text), Row(tuple(figures), 380)]
@@ -292,9 +314,12 @@ METHODS = {"monte_carlo": "Monte Carlo", "quasi_monte_carlo": "quasi-Monte Carlo
 _HISTOGRAM = ("quantity", "from_N", "to_N", "samples")
 
 _FALLS = {
-    "surface": "anywhere on its zone's surface",
+    "surface": "anywhere on the surface of its zone",
     "uniform": "anywhere in its zone",
-    "normal": "normally, its limit at three standard deviations",
+    "normal": (
+        "about the middle of its zone, normally distributed with its limit at three standard "
+        "deviations"
+    ),
 }
 
 
@@ -320,7 +345,7 @@ def cause_blocks(study: ToleranceStudy, key: str) -> tuple[list[Block], list[Dat
     file = f"{key}-shares.csv"
     figure = Figure(
         f"shares-{key}",
-        f"{study.title}: what each tolerance adds to each worst-case force.",
+        f"{study.title}: contribution of each tolerance to each worst-case force.",
         stacked_shares(categories, chart, "share"),
         "Stacked bars: share of each tolerance in the worst case of each force.",
         file,

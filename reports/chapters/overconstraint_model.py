@@ -83,9 +83,9 @@ def tolerance_chapter(model: Model, found: ModelTolerances) -> Chapter:
     study = found.study
     blocks: list[Block] = [
         Text(
-            "Forces that manufacturing errors within these tolerances lock into the structure "
-            "when it is assembled, without any load. The worst case is exact; no assembly within "
-            "the tolerances exceeds it."
+            "Manufacturing errors within these tolerances lock forces into the structure when it "
+            "is assembled, without any load. The worst case is exact; no assembly within the "
+            "tolerances exceeds it."
         ),
         headline(study),
         tolerance_table(study.tolerances, "Tolerances"),
@@ -133,9 +133,9 @@ def _misfit(model: Model, study: ToleranceStudy) -> tuple[list[Block], list[Data
     figure = Figure(
         f"{KEY}-misfit",
         f"The structure assembled with the misfits at which the {label(study.quantities[top])} is "
-        f"largest, {shown(float(study.largest[top]), 'N')} kN; displacements drawn "
-        f"{times(factor)} times as large as they are, arrows are the forces on the second "
-        "side of each joint.",
+        f"largest, {shown(float(study.largest[top]), 'N')} kN; displacements are drawn "
+        f"{times(factor)} times their true size, and arrows are the forces on the second side of "
+        "each joint.",
         view,
         "Three-dimensional drawing of the structure, strained by the worst misfits, with the joint "
         "forces as arrows.",

@@ -13,6 +13,7 @@ from strutwork.reports.axis_words import direction_words
 from strutwork.reports.content import Block, Chapter, Column, Details, Figure, Table, Text
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.charts import stacked_shares
+from strutwork.reports.long_tables import shortened
 from strutwork.reports.numbers import count, share, significant
 from strutwork.reports.part_groups import PartGroup, part_groups, split, titles, told_apart
 
@@ -34,9 +35,9 @@ def budget_chapter(model: Model) -> Chapter:
     frames = _frames(model)
     blocks: list[Block] = [
         Text(
-            "A force at the tool does work on the parts in proportion to their strain energy; the "
-            "shares of one force add to 100 %. Other directions are free to follow. Parts whose "
-            "names differ by their numbers alone are one group."
+            "A force at the tool does work on the parts in proportion to their strain energy; "
+            "the shares of one force add up to 100 %. Other directions are free to follow. Parts "
+            "whose names differ only in their numbers form one group."
         ),
         Figure(
             "budget-bars",
@@ -50,7 +51,8 @@ def budget_chapter(model: Model) -> Chapter:
             FILE,
             height=330,
         ),
-        _table(named, budgets),
+        # the sum stays below the largest shares
+        *shortened(_table(named, budgets), kept=1),
         *(
             _details(title, group, by_part, frames)
             for title, group in named.items()
@@ -71,7 +73,7 @@ def budget_chapter(model: Model) -> Chapter:
 
 def _table(named: dict[str, PartGroup], budgets: list[ComplianceBudget]) -> Table:
     deflections = [
-        "all of it, µm/N",
+        "total, µm/N",
         *(significant(1e6 * float(b.deflection), 3) for b in budgets),
     ]
     rows = [

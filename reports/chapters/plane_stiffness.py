@@ -82,12 +82,12 @@ def falls_table(falls: Mapping[str, Sequence[Fall]], data: str) -> Table:
     columns = (
         Column("", "", False),
         Column("centre of the map", "N/µm"),
-        Column("largest over smallest, middle"),
-        Column("largest over smallest, whole map"),
+        Column("largest / smallest, middle"),
+        Column("largest / smallest, entire map"),
         Column("softest at x, tilt", "", False),
     )
     return Table(
-        "How much 1/C_ii changes; the middle is half of the map's range to either side",
+        "Variation of 1/C_ii; the middle is half of the map's range to either side",
         columns,
         rows,
         data,

@@ -19,7 +19,7 @@ from strutwork.studies.reversal_study import ReversalStudy
 Array = NDArray[Any]
 
 KEY = "reversals"
-TITLE = "Where do its drives turn back?"
+TITLE = "Where do its drives reverse?"
 
 #: Points and drives that the page names.
 SHOWN = 12
@@ -32,9 +32,9 @@ def missing(subject: Subject) -> str:
     if subject.model.tool is None:
         return "it has no tool: add [tool] with tcp"
     if not subject.model.structure.linkage.driven:
-        return "it has no drives: name driven directions of joints"
+        return "it has no drives: name the driven directions of its joints"
     if subject.model.workspace is None:
-        return "the file names no poses to look at: add [workspace] with ranges of the tool"
+        return "the file gives no poses: add [workspace] with ranges of the tool"
     if subject.reversal_plane is None:
         return "its workspace has no plane: name two directions with several points"
     return subject.unreversed
@@ -50,13 +50,14 @@ def write(subject: Subject) -> Chapter:
     drives = found.field.drives
     still = [drives[k] for k in range(len(drives)) if k not in found.moving]
     text = (
-        "A drive that turns back goes through its friction and its play and leaves a mark on the "
-        f"work. The tool goes over {' and '.join(names)} and keeps its other directions as at "
-        "home. At a strong point a drive turns back whichever way the tool goes; at a weak one on "
-        "some ways. Strong less weak ones must be the turns of the gradient along the border."
+        "A drive that reverses passes through its friction and backlash and leaves a mark on the "
+        f"workpiece. The tool moves over {' and '.join(names)} and keeps its other directions as "
+        "at home. At a strong point a drive reverses whichever way the tool moves; at a weak one "
+        "it does so on some paths only. The strong points minus the weak ones must equal the "
+        "turns of the gradient along the border."
     )
     if still:
-        text += f" Drives that stand still: {', '.join(still)}."
+        text += f" Drives that do not move: {', '.join(still)}."
     blocks: list[Block] = [
         Text(text),
         Facts(tuple(_facts(study, names))),
@@ -95,7 +96,7 @@ def _facts(study: ReversalStudy, names: tuple[str, ...]) -> list[Fact]:
                 "Reached without a reversal",
                 share(study.reach),
                 "",
-                "of the points in reach, from the one in the middle",
+                "of the reachable points, from the middle one",
             )
         )
     return facts
@@ -129,7 +130,7 @@ def _table(study: ReversalStudy, names: tuple[str, ...]) -> Table:
         Column("points at", "", False),
         Column("agrees with the border", "", False),
     )
-    return Table("Where each drive turns back", columns, rows, "reversals.csv")
+    return Table("Where each drive reverses", columns, rows, "reversals.csv")
 
 
 def _figure(study: ReversalStudy, names: tuple[str, ...]) -> Figure:
@@ -159,7 +160,7 @@ def _figure(study: ReversalStudy, names: tuple[str, ...]) -> Figure:
         # drives of a symmetric machine turn back on the same line
         dash = ("solid", "dash", "dot")[number % 3]
         for points in lines:
-            line(f"{drive} turns back", points, PALETTE[number % len(PALETTE)], dash=dash)
+            line(f"{drive} reverses", points, PALETTE[number % len(PALETTE)], dash=dash)
     path = study.longest
     if path is not None:
         line("longest clear path", np.array([path.start, path.end]), "#1b2430", dash="dash")
@@ -192,12 +193,12 @@ def _figure(study: ReversalStudy, names: tuple[str, ...]) -> Figure:
         ),
     }
     caption = (
-        f"Lines on which a feed along {names[0]} makes a drive turn back, points at which a drive "
-        "turns back whichever way the tool goes, and the longest straight path along it on which "
-        "none does."
+        f"Lines on which a feed along {names[0]} makes a drive reverse, points at which a drive "
+        "reverses whichever way the tool moves, and the longest straight path along it without a "
+        "reversal."
     )
     if not study.lines or not any(study.lines.values()):
-        caption += f" No drive turns back when the tool is fed along {names[0]}."
+        caption += f" No drive reverses when the tool is fed along {names[0]}."
     return Figure(
         "reversal-plane",
         caption,
@@ -224,7 +225,7 @@ def _files(study: ReversalStudy, names: tuple[str, ...]) -> list[DataFile]:
     return [
         csv_file(
             "reversals.csv",
-            "points and lines at which drives turn back",
+            "points and lines at which drives reverse",
             ["drive", "what", "line", *heads],
             rows,
         )

@@ -39,7 +39,7 @@ def missing(subject: Subject) -> str:
     if subject.model.tool is None:
         return "it has no tool: add [tool] with tcp"
     if not subject.model.structure.linkage.driven:
-        return "it has no drives: name driven directions of joints"
+        return "it has no drives: name the driven directions of its joints"
     return subject.unsingular
 
 
@@ -48,15 +48,16 @@ def write(subject: Subject) -> Chapter:
     here, plane = subject.singular_distance, subject.singular_plane
     distance = here.distance
     rows = [
-        ["the tool moves although the drives are held (type 2)", _one(distance.parallel)],
-        ["drives move while the tool stands (type 1)", _one(distance.serial)],
-        ["the joints alone lose a condition", _one(distance.passive)],
+        ["the tool can move although the drives are held (type 2)", _one(distance.parallel)],
+        ["drives can move while the tool stands still (type 1)", _one(distance.serial)],
+        ["the joints alone lose a constraint", _one(distance.passive)],
     ]
     columns = (Column("singularity", "", False), Column("distance at home"))
     blocks: list[Block] = [
         Text(
-            f"Least singular values of the rows, {significant(1e3 * distance.length)} mm counting "
-            "as much as one radian; zero where the machine is singular."
+            "Least singular values of the constraint rows, with "
+            f"{significant(1e3 * distance.length)} mm counting as one radian; zero where the "
+            "machine is singular."
         ),
         Table("Distance from singularities at home", columns, rows),
     ]
@@ -102,7 +103,7 @@ def _found(plane: SingularPlane) -> list[Block]:
         for p in plane.points[:SHOWN]
     ]
     if not rows:
-        return [Text("No singular pose lies inside the part of this plane that is reached.")]
+        return [Text("No singular pose lies inside the reachable part of this plane.")]
     columns = (
         Column("kind", "", False),
         Column("what it means", "", False),
@@ -147,13 +148,13 @@ def _figure(plane: SingularPlane, others: tuple[str, ...]) -> Figure:
     caption = (
         f"Distance from the nearest singularity over {' and '.join(plane.names)}, the other "
         f"directions at home; {reached} of {plane.reach.size} poses are reached. Each point of a "
-        "curve is refined to rounding."
+        "curve is refined to rounding error."
     )
     if not plane.changes:
         caption += " It is the same everywhere on this plane."
     if others:
         caption += (
-            f" The workspace also goes along {' and '.join(others)}: strutwork singularities "
+            f" The workspace also extends along {' and '.join(others)}: strutwork singularities "
             "--plane shows other planes."
         )
     return Figure(

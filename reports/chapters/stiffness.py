@@ -18,9 +18,9 @@ from strutwork.studies import QUANTILES, PoseStatus, PoseValue, Summary, write_c
 AXES = ("x", "y", "z")
 
 VIEW = (
-    "Seen from above, one cell for each check point: the middle of a disc is the pole, its rim the "
-    "equator of the hemisphere, where the platform stands upright. Each disc has its own scale; "
-    "▽ marks the worst point, ▲ the best."
+    "The hemisphere is seen from above, with one cell for each check point: the middle of a disc "
+    "is the pole, and its rim is the equator, where the platform stands upright. Each disc has "
+    "its own scale; ▽ marks the worst point, ▲ the best."
 )
 
 
@@ -43,10 +43,10 @@ def map_figure(
         f"K{axis * 2} {value:.3f} N/µm<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f}, "
         f"z {1e3 * p[2]:.1f} mm<br>tilt {tilt(n):.0f}°, roll {r:.0f}°"
         if np.isfinite(value)
-        else f"K{axis * 2} infinite: the tool cannot move so<br>x {1e3 * p[0]:.1f}, "
-        f"y {1e3 * p[1]:.1f} mm"
+        else f"K{axis * 2} infinite: the tool cannot move this way<br>x {1e3 * p[0]:.1f}, y "
+        f"{1e3 * p[1]:.1f} mm"
         if np.isinf(value)
-        else f"no pose counts<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f} mm"
+        else f"no valid pose<br>x {1e3 * p[0]:.1f}, y {1e3 * p[1]:.1f} mm"
         for value, p, n, r in zip(values, position, normal, roll, strict=True)
     ]
     shown = values[np.isfinite(values)]
@@ -67,7 +67,9 @@ def map_files(dataset: xr.Dataset, name: str, what: str) -> tuple[DataFile, Data
     """A map as NetCDF and as CSV."""
     return (
         DataFile(f"{name}.nc", f"{what}: everything, NetCDF", lambda p: write_netcdf(p, dataset)),
-        DataFile(f"{name}.csv", f"{what}: one line a check point", lambda p: write_csv(p, dataset)),
+        DataFile(
+            f"{name}.csv", f"{what}: one line per check point", lambda p: write_csv(p, dataset)
+        ),
     )
 
 
@@ -152,14 +154,14 @@ def dropped_table(maps: Mapping[str, xr.Dataset], first: str) -> Table:
             rows.append([label, f"dropped: {reason}", *of_total(int(number), total)])
         lost = dataset.sizes["point"] - int(dataset.attrs["points_kept"])
         if lost:
-            rows.append([label, f"{count(lost, 'check point')} without any candidate left", "", ""])
+            rows.append([label, f"{count(lost, 'check point')} without a valid candidate", "", ""])
     columns = (
         Column(first, "", False),
         Column("", "", False),
         Column("candidates"),
         Column("share"),
     )
-    return Table("Candidate poses, by what became of them", columns, rows, "report.json")
+    return Table("Candidate poses, kept and dropped", columns, rows, "report.json")
 
 
 def of_total(number: int, total: int) -> list[str]:

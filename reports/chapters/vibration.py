@@ -69,17 +69,18 @@ def vibration_chapter(
 
 
 GRID_TEXT = (
-    "The minimum of 1/|H| over the band is that of the continuous curve, not of drawn points, and "
-    f"proved where the table says so. A harmonic sweep in steps of {GRID_STEP:g} Hz would have "
-    "shown the number in its column: never less, and the farther off the narrower the resonance."
+    "The minimum of 1/|H| over the band is that of the continuous curve, not of drawn points, "
+    f"and is proved where the table says so. A harmonic sweep in steps of {GRID_STEP:g} Hz would "
+    "have shown the value in its column: it is never less, and the narrower the resonance, the "
+    "larger its error."
 )
 
 
 #: How the moving picture is to be read.
 SWING_TEXT = (
-    "The shapes are exaggerated: each mode's largest motion is drawn as the length that the "
-    "caption states, and every mode at the same slow pace. Modes of one frequency may be mixed at "
-    "will; the shapes shown are one choice."
+    "The shapes are exaggerated: each mode's largest motion is drawn with the length that the "
+    "caption states, and every mode moves at the same slow pace. Modes of equal frequency may be "
+    "combined at will; the shapes shown are one choice."
 )
 
 
@@ -104,7 +105,7 @@ def modes_table(study: VibrationStudy, caption: str = "") -> Table:
             Column("frequency", "Hz"),
             Column("equivalent damping ratio"),
             Column("what moves most", "", False),
-            Column("what bends: largest shares of the strain energy", "", False),
+            Column("what deforms: largest shares of the strain energy", "", False),
         ),
         rows,
         f"{study.key}-modes.csv",
@@ -325,7 +326,10 @@ def _shape_file(study: VibrationStudy) -> DataFile:
     ]
     return csv_file(
         f"{study.key}-mode-shapes.csv",
-        f"{study.title}: the drawn lines and their exaggerated motion; empty rows part lines",
+        (
+            f"{study.title}: the drawn lines and their exaggerated motion; empty rows separate "
+            "the lines"
+        ),
         ["mode", "x_m", "y_m", "z_m", "motion_x_m", "motion_y_m", "motion_z_m"],
         rows,
     )

@@ -13,7 +13,7 @@ from strutwork.reports.survey_words import grid_text, largest
 from strutwork.studies.survey_files import write_survey
 
 KEY = "workspace-assembly"
-TITLE = "Where do manufacturing errors lock in most?"
+TITLE = "Where do manufacturing errors lock in the largest forces?"
 STEM = "assembly-survey"
 
 #: Quantities that the table shows and that are drawn.
@@ -43,8 +43,8 @@ def write(subject: Subject) -> Chapter:
     tool = [i for i, n in enumerate(names) if n.startswith("tool ")]
     blocks: list[Block] = [
         Text(
-            f"Over {grid_text(subject.grid)}: at each pose the exact worst case that the "
-            "tolerances allow, without any load."
+            "The tables show the exact worst case that the tolerances allow at each of "
+            f"{grid_text(subject.grid)}, without any load."
         )
     ]
     figures = []
@@ -69,7 +69,7 @@ def write(subject: Subject) -> Chapter:
             Column("", "", False),
             Column("worst", unit),
             Column("at", "", False),
-            Column("least of all poses", unit),
+            Column("least over all poses", unit),
         )
         blocks.append(
             Table(f"{title}, worst case over the workspace", columns, rows, f"{STEM}.csv")

@@ -53,7 +53,7 @@ def write(subject: Subject) -> Chapter:
             str(len(found.regions.sizes)),
             "",
             f"{count(found.regions.holes, 'hole')}; home is "
-            + (f"in number {found.home_component}" if found.home_component else "in none"),
+            + (f"in piece {found.home_component}" if found.home_component else "in none"),
         ),
     ]
     near = found.nearest
@@ -61,7 +61,7 @@ def write(subject: Subject) -> Chapter:
         place = dict(zip(directions, near.place.tolist(), strict=True))
         facts.append(
             Fact(
-                "Ends nearest to home",
+                "Limit nearest to home",
                 significant(1e3 * near.distance),
                 "mm",
                 f"away, at {pose_text(place)}: {_minus(near.reason)}",
@@ -72,10 +72,10 @@ def write(subject: Subject) -> Chapter:
     apart = f" and without a collision of beams and shapes ({meshes})" if shapes else ""
     blocks: list[Block] = [
         Text(
-            f"All poses over {', '.join(directions)} that the machine reaches within its joint "
-            f"ranges{apart}, the other directions at home, looked for in {SPREAD:g} times the "
-            "ranges that this report looks over. Borders are refined between the poses of a grid; "
-            "the error is that from a grid half as fine."
+            f"The workspace consists of all poses over {', '.join(directions)} that the machine "
+            f"reaches within its joint ranges{apart}, with the other directions at home. The "
+            f"search covers {SPREAD:g} times the ranges of this report. Borders are refined "
+            "between the poses of a grid; the error is the difference from a grid half as fine."
         ),
         Facts(tuple(facts)),
     ]
@@ -87,16 +87,16 @@ def write(subject: Subject) -> Chapter:
     if figure is not None:
         blocks.append(figure)
     rows = [[_minus(words), share(part)] for words, part in found.shares.items()]
-    columns = (Column("what ends the workspace", "", False), Column("share of the border"))
+    columns = (Column("what limits the workspace", "", False), Column("share of the border"))
     if rows:
-        blocks.append(Table("What it ends at", columns, rows[:SHOWN], f"{STEM}-border.csv"))
+        blocks.append(Table("What limits it", columns, rows[:SHOWN], f"{STEM}-border.csv"))
     files: tuple[DataFile, ...] = (
         netcdf_file(
             f"{STEM}.nc", "margins of poses over the grid, NetCDF", _dataset(found, inside)
         ),
         csv_file(
             f"{STEM}-border.csv",
-            "what ends the workspace, shares of its border",
+            "what limits the workspace, shares of its border",
             ["what", "share"],
             [[words, part] for words, part in found.shares.items()],
         ),
@@ -121,10 +121,10 @@ def _box_words(found: Workspace, inside: LargestShape) -> str:
     critical = dict(zip(directions, inside.critical.tolist(), strict=True))
     what = "box" if len(directions) == 3 else "rectangle"
     return (
-        f"The largest {what} about home inside, in the proportions of what is looked over, is "
+        f"The largest {what} about home inside it, in the proportions of the ranges searched, is "
         f"{sides} mm along {', '.join(directions)}; it touches the border at "
         f"{pose_text(critical)}: {_minus(inside.reason)}. {inside.confirmed} poses that fill it "
-        "were found good."
+        "were checked and are good."
     )
 
 
@@ -149,9 +149,9 @@ def _figure(found: Workspace, inside: LargestShape | None, slacks: str) -> Figur
             traces.append(mesh([block], "largest box about home", BOX_COLOUR))
         return Figure(
             "workspace-border",
-            "The border of the workspace of the tool centre point, in mm"
+            "Border of the workspace of the tool centre point, in mm"
             + (", and the largest box about home in it. " if inside is not None else ". ")
-            + "Drag to turn, scroll to zoom.",
+            + "Drag to rotate, scroll to zoom.",
             scene(traces),
             "Three-dimensional surface of the workspace.",
             f"{STEM}.nc",
@@ -169,7 +169,7 @@ def _figure(found: Workspace, inside: LargestShape | None, slacks: str) -> Figur
         x,
         y,
         np.where(values >= 0, values, np.nan),
-        (titles[0], titles[1], "margin, 1 and more is far"),
+        (titles[0], titles[1], "margin (1 or more is far)"),
     )
     if inside is not None:
         corners = inside.centre + 0.5 * inside.sides * OUTLINE
@@ -186,8 +186,8 @@ def _figure(found: Workspace, inside: LargestShape | None, slacks: str) -> Figur
         )
     return Figure(
         "workspace-margin",
-        f"Margin of the poses: the least slack of {slacks}, 0 at the border. "
-        "Blank: out of the workspace."
+        f"Margin of the poses: the least slack of {slacks}, 0 at the border. Blank: outside the "
+        "workspace."
         + (" Line: the largest rectangle about home inside." if inside is not None else ""),
         spec,
         f"Map of the margin over {' and '.join(directions)}.",

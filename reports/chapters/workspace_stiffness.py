@@ -67,12 +67,13 @@ def write(subject: Subject) -> Chapter:
         Column("least"),
         Column("largest"),
         Column("least at", "", False),
-        Column("what gives way there, share of the deflection", "", False),
+        Column("what deforms most there, share of the deflection", "", False),
     )
     blocks: list[Block] = [
         Text(
-            f"Over {grid_text(subject.grid)}; other directions free to follow, drives held. At "
-            "each pose the machine is placed by its own joints, and every part follows its body."
+            f"The survey covers {grid_text(subject.grid)}, with the other directions free to "
+            "follow and the drives held. At each pose the joints place the machine, and every "
+            "part follows its body."
         ),
         Table("Static stiffness of the tool over the workspace", columns, rows, f"{STEM}.csv"),
         Row(tuple(figures), 330),
@@ -81,9 +82,9 @@ def write(subject: Subject) -> Chapter:
     if dropped:
         total = int(found.attrs["poses"])
         lost = [[reason, str(n), share(n / total)] for reason, n in dropped.items()]
-        heads = (Column("poses that do not count", "", False), Column("poses"), Column("share"))
-        blocks.append(Table("Poses that the machine cannot take", heads, lost, f"{STEM}.csv"))
-        blocks.append(Note("Such poses are blank in the maps and count in no extreme."))
+        heads = (Column("poses excluded", "", False), Column("poses"), Column("share"))
+        blocks.append(Table("Poses that the machine cannot reach", heads, lost, f"{STEM}.csv"))
+        blocks.append(Note("Such poses are blank in the maps and excluded from the extremes."))
     files = (
         netcdf_file(f"{STEM}.nc", "stiffness over the workspace, NetCDF", found),
         DataFile(

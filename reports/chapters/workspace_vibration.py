@@ -53,12 +53,12 @@ def write(subject: Subject) -> Chapter:
         Column("largest"),
     )
     preload = subject.model.preload
-    under = f' It vibrates under its preload "{preload}", whose forces are those at each pose.'
+    under = f' It vibrates under its preload "{preload}", with the forces at each pose.'
     blocks: list[Block] = [
         Text(
-            f"Over {grid_text(subject.grid)}. The least dynamic stiffness is the exact minimum of "
-            f"1/|H| at the tool from {significant(low)} to {significant(high)} Hz, damping "
-            f"{subject.damping}.{under if preload else ''}"
+            f"The survey covers {grid_text(subject.grid)}. The least dynamic stiffness is the "
+            f"exact minimum of 1/|H| at the tool from {significant(low)} to {significant(high)} "
+            f"Hz, damping {subject.damping}.{under if preload else ''}"
         ),
         Table("Vibration over the workspace", columns, rows, f"{STEM}.csv"),
         Row(tuple(figures), 330),

@@ -72,7 +72,9 @@ def run(
     if over:
         if any(at):
             raise ModelError(
-                "accuracy", "is given a pose and a grid.", "Give --over, or --pose and --joint."
+                "accuracy",
+                "is given both a pose and a grid.",
+                "Give --over, or --pose and --joint.",
             )
         _over(target, over, options, out, workers=workers, json=json)
         return
@@ -130,7 +132,7 @@ def _answer(model: Model, options: Options) -> VolumetricAccuracy:
     if not tolerances and not errors:
         raise ModelError(
             "accuracy",
-            f"finds no error in {model.title or 'the model'}.",
+            f"finds no source of error in {model.title or 'the model'}.",
             "Give --drive-error 5um or --play JOINT:DIR=VALUE, or add [[tolerances]] or "
             "[[drives]] with a resolution to the file.",
         )
@@ -147,8 +149,8 @@ def _size(text: str) -> tuple[str, float]:
         except UnitError as error:
             raise ModelError(
                 "--drive-error",
-                f'"{text}" is no length and no angle.',
-                "Write it as in 5um or 10urad.",
+                f'"{text}" is neither a length nor an angle.',
+                "Write it as 5um or 10urad.",
             ) from error
 
 
@@ -189,7 +191,7 @@ def _print(result: dict[str, Any]) -> None:
     out.print(visible(result["model"] or result["target"]), markup=False, style="bold")
     out.print(
         f"{len(result['sources'])} sources of error; the tool follows them "
-        + ("through what gives way" if result["by"] == "stiffness" else "without force"),
+        + ("through elastic deformation" if result["by"] == "stiffness" else "without force"),
         markup=False,
     )
     rows = [
@@ -201,7 +203,7 @@ def _print(result: dict[str, Any]) -> None:
     most = result["largest"]
     x, y, z = (f"{1e6 * v:.4g}" for v in most["displacement"])
     out.print(
-        f"Farthest in any direction: {1e6 * most['length']:.4g} µm, to ({x}, {y}, {z}) µm",
+        f"Largest in any direction: {1e6 * most['length']:.4g} µm, towards ({x}, {y}, {z}) µm",
         markup=False,
     )
     _print_sources(most["contributions"])
@@ -212,14 +214,14 @@ def _print_sources(contributions: dict[str, float]) -> None:
     total = sum(contributions.values())
     found = top_sources(list(contributions), np.array(list(contributions.values())))
     rows = [(n, 1e6 * v, f"{100 * v / total:.1f} %" if total else "") for n, v in found]
-    console().print(table("Largest contributors to it", ["source", "µm", "share"], rows))
+    console().print(table("Its largest contributors", ["source", "µm", "share"], rows))
 
 
 def _tail(result: dict[str, Any]) -> None:
     out = console()
     if result["drives_without_error"]:
         out.print(
-            "No error is known of " + visible(", ".join(result["drives_without_error"])),
+            "No error is given for " + visible(", ".join(result["drives_without_error"])),
             markup=False,
             soft_wrap=True,
         )
@@ -289,7 +291,7 @@ def _print_over(result: dict[str, Any], grid: str) -> None:
     out.print(table("Largest displacement over the poses", heads, rows, names=2))
     most = result["largest"]
     out.print(
-        f"Farthest in any direction: {1e6 * most['length']:.4g} µm, at {most['words']}",
+        f"Largest in any direction: {1e6 * most['length']:.4g} µm, at {most['words']}",
         markup=False,
     )
     _print_sources(most["contributions"])

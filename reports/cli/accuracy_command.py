@@ -19,7 +19,7 @@ def accuracy(
         typer.Option(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
-            help="Over poses of the tool, as in --over x=-100mm..100mm:5,y=-100mm..100mm:5.",
+            help="Poses of the tool, as in --over x=-100mm..100mm:5,y=-100mm..100mm:5.",
         ),
     ] = None,
     drive_error: Annotated[
@@ -28,8 +28,8 @@ def accuracy(
             "--drive-error",
             callback=typed,
             metavar="VALUE",
-            help="Of all drives to either side, a length for those that slide, an angle for those "
-            "that turn; half of the file's resolutions by default. Repeatable.",
+            help="Error of all drives to either side: a length for linear drives, an angle for "
+            "rotary ones; half of the file's resolutions by default. Repeatable.",
         ),
     ] = None,
     play: Annotated[
@@ -40,17 +40,19 @@ def accuracy(
             help="Play of a joint from stop to stop, as in --play hinge:x=10um. Repeatable.",
         ),
     ] = None,
-    tolerances: Annotated[bool, typer.Option(help="Whether the file's tolerances count.")] = True,
+    tolerances: Annotated[bool, typer.Option(help="Include the tolerances of the file.")] = True,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write the result there: CSV, NetCDF."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write the result to this folder: CSV, NetCDF."
+        ),
     ] = None,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Threads; one a processor by default.")
+        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find how far tolerances, drive errors and play may carry the tool."""
+    """Find how far tolerances, drive errors and play can displace the tool."""
     from strutwork.reports.cli import accuracy as work
 
     options = work.Options(tuple(drive_error or ()), tuple(play or ()), tolerances)

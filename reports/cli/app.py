@@ -13,7 +13,6 @@ import typer
 
 from strutwork import __version__
 from strutwork.names import visible
-from strutwork.reports.cli.accuracy_command import accuracy
 from strutwork.reports.cli.choices import (
     JointAt,
     Json,
@@ -25,26 +24,51 @@ from strutwork.reports.cli.choices import (
     Target,
 )
 from strutwork.reports.cli.ending import CHECKED, OUT_OF_RANGE, guarded
-from strutwork.reports.cli.manner import speaking
-from strutwork.reports.cli.map_command import map_command
-from strutwork.reports.cli.move_command import move
-from strutwork.reports.cli.new_command import new
-from strutwork.reports.cli.report_command import report
-from strutwork.reports.cli.reversals_command import reversals
-from strutwork.reports.cli.schema_command import schema
-from strutwork.reports.cli.singularities_command import singularities
 from strutwork.reports.cli.streams import show_every_character
-from strutwork.reports.cli.trajectory_command import trajectory
 from strutwork.reports.cli.usage import Commands, typed
 from strutwork.reports.cli.watch import watched
-from strutwork.reports.cli.workspace_command import workspace
+
+_HERE = "strutwork.reports.cli"
+
+#: Where each command stands, in the order in which help lists them.
+COMMANDS = {
+    "machines": f"{_HERE}.app:machines",
+    "check": f"{_HERE}.app:check",
+    "solve": f"{_HERE}.app:solve",
+    "map": f"{_HERE}.map_command:map_command",
+    "modes": f"{_HERE}.app:modes",
+    "frf": f"{_HERE}.app:frf",
+    "compare": f"{_HERE}.app:compare",
+    "tolerance": f"{_HERE}.app:tolerance",
+    "scale": f"{_HERE}.app:scale",
+    "accuracy": f"{_HERE}.accuracy_command:accuracy",
+    "move": f"{_HERE}.move_command:move",
+    "workspace": f"{_HERE}.workspace_command:workspace",
+    "new": f"{_HERE}.new_command:new",
+    "reversals": f"{_HERE}.reversals_command:reversals",
+    "schema": f"{_HERE}.schema_command:schema",
+    "singularities": f"{_HERE}.singularities_command:singularities",
+    "trajectory": f"{_HERE}.trajectory_command:trajectory",
+    "report": f"{_HERE}.report_command:report",
+}
+
+#: Those that print no tables, and take neither --csv nor --verbose.
+SILENT = ("new", "report", "schema")
+
+
+class Program(Commands):
+    """The program, whose commands are made when they are called or listed."""
+
+    places = COMMANDS
+    silent = SILENT
+
 
 app = typer.Typer(
     name="strutwork",
-    cls=Commands,
+    cls=Program,
     help="Stiffness, mobility and joint forces of parallel and hybrid machines.",
-    epilog="Exit status: 0 done, 1 the model is wrong or cannot be solved, 2 wrong usage, "
-    "3 a result cannot be written, 130 interrupted, 141 nobody reads the output any more.",
+    epilog="Exit status: 0 success, 1 the model is wrong or cannot be solved, 2 wrong usage, 3 a "
+    "result cannot be written, 130 interrupted, 141 the reader of the output has gone.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -90,8 +114,6 @@ def program(
     """Stiffness, mobility and joint forces of parallel and hybrid machines."""
 
 
-@app.command()
-@speaking
 def machines(json: Json = False) -> None:
     """List the machines of the literature, with their papers."""
     from strutwork.reports.cli import machines as work
@@ -99,8 +121,6 @@ def machines(json: Json = False) -> None:
     work.run(json)
 
 
-@app.command()
-@speaking
 def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
     """Count freedoms and redundant constraints of a machine, and name them."""
     from strutwork.reports.cli import check as work
@@ -109,8 +129,6 @@ def check(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
     work.run(subject(target, pose, joint), json)
 
 
-@app.command()
-@speaking
 def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json = False) -> None:
     """Solve the load cases of a machine, and the stiffness at its tool."""
     from strutwork.reports.cli import solve as work
@@ -119,11 +137,6 @@ def solve(target: Target, pose: Pose = None, joint: JointAt = None, json: Json =
     work.run(subject(target, pose, joint), json)
 
 
-app.command("map")(speaking(map_command))
-
-
-@app.command()
-@speaking
 def modes(
     target: Target,
     count: Annotated[
@@ -132,14 +145,16 @@ def modes(
             "--count",
             "-n",
             min=1,
-            help="Elastic modes; rigid-body modes come first and in addition.",
+            help="Number of elastic modes; rigid-body modes come first, in addition.",
         ),
     ] = 10,
     pose: Pose = None,
     joint: JointAt = None,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write them there as a universal file."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write them to this folder as a universal file."
+        ),
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
@@ -162,8 +177,6 @@ def modes(
     )
 
 
-@app.command()
-@speaking
 def frf(
     target: Target,
     given: Annotated[
@@ -174,23 +187,31 @@ def frf(
     ],
     low: Annotated[
         float | None,
-        typer.Option("--from", help="Start of the band, Hz; without a band, one that covers."),
+        typer.Option(
+            "--from",
+            help="Start of the band, Hz; by default, the band is chosen to cover the response.",
+        ),
     ] = None,
     high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
     output: Annotated[
         str | None,
         typer.Option(
-            "--output", callback=typed, metavar="NODE:DIR", help="What moves; the input by default."
+            "--output",
+            callback=typed,
+            metavar="NODE:DIR",
+            help="Where the motion is computed; the input by default.",
         ),
     ] = None,
     pose: Pose = None,
     joint: JointAt = None,
     lines: Annotated[
-        int, typer.Option(min=2, max=1_000_000, help="Frequency lines, evenly spaced.")
+        int, typer.Option(min=2, max=1_000_000, help="Number of frequency lines, evenly spaced.")
     ] = 1000,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write it there as UFF-58 and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write it to this folder as UFF-58 and CSV."
+        ),
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
@@ -218,23 +239,22 @@ def frf(
     )
 
 
-@app.command()
-@speaking
 def compare(
     computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
     measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
     window: Annotated[
-        float, typer.Option(help="Pairs differ by at most this share of the frequency.")
+        float, typer.Option(help="Largest difference of a pair, as a share of the frequency.")
     ] = 0.3,
     least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = 0.5,
     doublet: Annotated[
-        float, typer.Option(help="Neighbours within this share are one span.")
+        float,
+        typer.Option(help="Neighbouring modes within this share of the frequency are one span."),
     ] = 0.01,
     unit: Annotated[
         list[str] | None,
         typer.Option(
             metavar="LABEL=UNIT",
-            help='Unit of an axis label that is not known, as in --unit "EU=mm/s^2". Repeatable.',
+            help='Unit of an unknown axis label, as in --unit "EU=mm/s^2". Repeatable.',
         ),
     ] = None,
     json: Json = False,
@@ -253,8 +273,6 @@ def compare(
     )
 
 
-@app.command()
-@speaking
 def tolerance(
     target: Target,
     pose: Pose = None,
@@ -264,29 +282,36 @@ def tolerance(
         typer.Option(
             callback=typed,
             metavar="[JOINT:]KIND=VALUE",
-            help="A force limit beside the file's, as in --limit radial_force=2kN. Repeatable.",
+            help=(
+                "A force limit in addition to the file's, as in --limit radial_force=2kN. "
+                "Repeatable."
+            ),
         ),
     ] = None,
     allocation: Annotated[
         Objective | None,
-        typer.Option("--allocate", help="Find the largest tolerances that keep all limits."),
+        typer.Option("--allocate", help="Find the largest tolerances that meet all limits."),
     ] = None,
     quantile: Annotated[
         float | None,
         typer.Option(
-            min=0.0, max=1.0, help="Share of the assemblies the allocation keeps; all by default."
+            min=0.0,
+            max=1.0,
+            help="Share of the assemblies that must meet the limits; all by default.",
         ),
     ] = None,
     samples: Annotated[
-        int, typer.Option(min=0, max=100_000_000, help="Assemblies drawn; 0 for none.")
+        int, typer.Option(min=0, max=100_000_000, help="Number of assemblies sampled; 0 for none.")
     ] = 100_000,
-    seed: Annotated[int, typer.Option(min=0, help="Of the random numbers.")] = 2002,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the random numbers.")] = 2002,
     quasi: Annotated[
-        bool, typer.Option("--quasi", help="Draw scrambled Sobol' points in place of random ones.")
+        bool, typer.Option("--quasi", help="Use scrambled Sobol' points instead of random ones.")
     ] = False,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write them to this folder as NetCDF and CSV."
+        ),
     ] = None,
     json: Json = False,
 ) -> None:
@@ -307,8 +332,6 @@ def tolerance(
     work.run(target, limit or (), options, out, at=where(pose, joint), json=json)
 
 
-@app.command()
-@speaking
 def scale(
     machine: Annotated[
         str,
@@ -322,8 +345,9 @@ def scale(
         float | None,
         typer.Option(
             "--from",
-            help="Smallest size beside its own, 0.25 by default; where its document studies its "
-            "size, what that names, as the shortest struts in m.",
+            help="Smallest size relative to its own, 0.25 by default; where its document "
+            "studies the size, the quantity varied there, such as the shortest struts in "
+            "m.",
         ),
     ] = None,
     high: Annotated[
@@ -333,19 +357,28 @@ def scale(
     lengths: Annotated[
         int | None,
         typer.Option(
-            min=2, max=10_000, help="Sizes: 9 by default, 30 where a document has a study."
+            min=2,
+            max=10_000,
+            help="Number of sizes: 9 by default, 30 where a document has a study.",
         ),
     ] = None,
-    width_ratio: Annotated[float, typer.Option(help="Width of a strut over its length.")] = 0.2,
+    width_ratio: Annotated[
+        float, typer.Option(help="Ratio of the width of a strut to its length.")
+    ] = 0.2,
     tilt: Annotated[
         str, typer.Option(metavar="ANGLE", help="Parallelism of the axes: half-angle of the cone.")
     ] = "300 um/m",
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write them there as NetCDF and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write them to this folder as NetCDF and CSV."
+        ),
     ] = None,
     granite: Annotated[
-        bool, typer.Option("--granite", help="Stiffness and frequencies on the granite's solid.")
+        bool,
+        typer.Option(
+            "--granite", help="Include the granite as a solid in stiffness and frequencies."
+        ),
     ] = False,
     json: Json = False,
 ) -> None:
@@ -368,14 +401,3 @@ def scale(
     span = (0.1 if low is None else low, 3.0 if high is None else high)
     count = 30 if lengths is None else lengths
     study(machine, span, count, width_ratio, tilt, out, granite=granite, json=json)
-
-
-app.command()(speaking(accuracy))
-app.command()(speaking(move))
-app.command()(speaking(workspace))
-app.command()(new)
-app.command()(speaking(reversals))
-app.command()(schema)
-app.command()(speaking(singularities))
-app.command()(speaking(trajectory))
-app.command()(report)

@@ -30,7 +30,7 @@ def _print(found: ModelCheck) -> None:
     if found.surplus_drives:
         rows += [
             ("drives", found.drives),
-            ("of them more than the freedoms that they move", found.surplus_drives),
+            ("drives in excess of the freedoms that they move", found.surplus_drives),
         ]
     if found.mass is not None:
         rows.append(("mass, kg", found.mass.total))
@@ -60,7 +60,7 @@ def _print(found: ModelCheck) -> None:
             out.print(table(title, ["", "motion"], numbered, names=2))
     if counts.self_stress and MANNER.whole:
         numbered = [(i, ", ".join(s.joints)) for i, s in enumerate(counts.self_stress, 1)]
-        out.print(table("States of self-stress", ["", "joints that take part"], numbered, names=2))
+        out.print(table("States of self-stress", ["", "joints involved"], numbered, names=2))
     out.print(" ".join(freedom_sentences(found)), soft_wrap=True)
     if not MANNER.whole and (counts.driven_motions or counts.self_stress):
-        out.print("--verbose lists the joints that take part.")
+        out.print("--verbose lists the joints involved.")

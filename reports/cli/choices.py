@@ -74,8 +74,9 @@ Pose = Annotated[
         "--pose",
         callback=typed,
         metavar="DIR=VALUE,...",
-        help="Where the tool stands, as in --pose x=20mm,rz=5deg: x, y, z of the tool centre "
-        "point, and its rotation vector from home. What is not named stays, where it can.",
+        help="Pose of the tool, as in --pose x=20mm,rz=5deg: x, y, z of the tool centre point, "
+        "and its rotation vector from home. Directions not named stay at home where "
+        "possible.",
     ),
 ]
 JointAt = Annotated[
@@ -89,11 +90,13 @@ JointAt = Annotated[
 ]
 Ratio = Annotated[
     float | None,
-    typer.Option("--modal-ratio", help="Damping ratio of every mode, for the file's damping."),
+    typer.Option(
+        "--modal-ratio", help="Damping ratio of every mode, instead of the file's damping."
+    ),
 ]
 Loss = Annotated[
     float | None,
-    typer.Option("--loss-factor", help="Structural loss factor, for the file's damping."),
+    typer.Option("--loss-factor", help="Structural loss factor, instead of the file's damping."),
 ]
 
 Preload = Annotated[
@@ -102,6 +105,6 @@ Preload = Annotated[
         "--preload",
         callback=typed,
         metavar="CASE",
-        help="Load case under which it vibrates, for the file's preload.",
+        help="Load case under which it vibrates, instead of the file's preload.",
     ),
 ]

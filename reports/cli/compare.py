@@ -39,7 +39,7 @@ def _unit(text: str) -> tuple[str, str]:
     label, mark, unit = text.partition("=")
     if not (mark and label.strip() and unit.strip()):
         raise ModelError(
-            f"--unit {text}", "is no LABEL=UNIT.", 'Write it as in --unit "EU=mm/s^2".'
+            f"--unit {text}", "is not LABEL=UNIT.", 'Write it as in --unit "EU=mm/s^2".'
         )
     return label.strip(), unit.strip()
 

@@ -59,9 +59,9 @@ def guarded(program: Callable[[], object]) -> int:
     except (FloatingPointError, OverflowError, RuntimeWarning) as error:
         # a number that is made of one that overflowed may look sound
         _say(
-            f"numbers: leave the range of doubles ({error}); every result is withheld.\n"
-            "Look for a quantity or an option out of all proportion to the others, such as a "
-            "size in the wrong unit."
+            f"numbers: exceed the range of double precision ({error}); every result is "
+            "withheld.\nLook for a quantity or an option that is out of proportion to the "
+            "others, such as a size in the wrong unit."
         )
         return WRONG
     except MemoryError as error:

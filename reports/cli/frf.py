@@ -39,9 +39,12 @@ def run(
     found = target_response(target, *ports, band, lines)
     written = [] if out is None else [str(path) for path in found.write(Path(out))]
     if out is not None and found.is_relative:
-        tell("Note: a universal file knows no motion between two nodes: CSV only.")
+        tell(
+            "Note: a universal file cannot contain the motion between two nodes; only CSV is "
+            "written."
+        )
     if not found.least.certified:
-        tell("Warning: the proof of the minimum was not finished.")
+        tell("Warning: the proof of the minimum was not completed.")
     if json:
         print_json(found.to_dict() | ({"data": written} if written else {}))
         return

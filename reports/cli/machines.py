@@ -33,7 +33,7 @@ def run(json: bool) -> None:
         if len(variants(name)) > 1
     ]
     out.print(
-        table("Their models; a name alone means the first", ["name", "model"], models, names=2)
+        table("Their models; the name alone means the first", ["name", "model"], models, names=2)
     )
     for key, citation in {e.paper.key: e.paper.citation for e in CATALOGUE.values()}.items():
         out.print(f"{key}: {citation}", markup=False)

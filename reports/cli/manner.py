@@ -39,10 +39,10 @@ class Manner:
 #: Of the command that runs; set by its options each time, so that none is left of an earlier one.
 MANNER = Manner()
 
-Csv = Annotated[bool, typer.Option("--csv", help="Print the tables alone, as CSV.")]
+Csv = Annotated[bool, typer.Option("--csv", help="Print only the tables, as CSV.")]
 Verbose = Annotated[
     bool,
-    typer.Option("--verbose", "-v", help="Print also what is left out of the short answer."),
+    typer.Option("--verbose", "-v", help="Also print what the short answer omits."),
 ]
 
 

@@ -28,26 +28,31 @@ def map_command(
     ] = None,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write the map there as NetCDF and CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write the map to this folder as NetCDF and CSV."
+        ),
     ] = None,
     ranges: Annotated[
-        Ranges, typer.Option(help="Whose joint ranges a pose must keep.")
+        Ranges, typer.Option(help="Joint ranges that a pose must respect.")
     ] = Ranges.ALL,
     lattice: Annotated[
         int,
         typer.Option(
-            min=1, max=200, help="Fineness; 10 gives 317 check points, or 21 x 21 in x and tilt."
+            min=1, max=200, help="Resolution; 10 gives 317 check points, or 21 x 21 in x and tilt."
         ),
     ] = 10,
     rolls: Annotated[
-        int, typer.Option(min=1, max=720, help="Rolls about the normal tried at each point.")
+        int,
+        typer.Option(min=1, max=720, help="Number of rolls about the normal tried at each point."),
     ] = 24,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Threads; one a processor by default.")
+        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
     ] = None,
     vibration: Annotated[
         bool,
-        typer.Option("--vibration", help="Frequencies and dynamic stiffness in place of statics."),
+        typer.Option(
+            "--vibration", help="Frequencies and dynamic stiffness instead of static stiffness."
+        ),
     ] = False,
     json: Json = False,
 ) -> None:

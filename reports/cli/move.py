@@ -46,7 +46,9 @@ def run(
 ) -> None:
     """Move, and print where everything stands."""
     if targets is not None and (pose or joint):
-        raise ModelError("move", "is given a file of targets and others.", "Give one or the other.")
+        raise ModelError(
+            "move", "is given both a file of targets and single ones.", "Give one or the other."
+        )
     at = where(pose, joint)
     wanted: dict[Coordinate, Any] = {**{("", d): v for d, v in at.task.items()}, **at.joints}
     if targets is not None:
@@ -77,7 +79,7 @@ def _ways(model: Model, found: Moved) -> tuple[dict[str, Any], Ways]:
     if found.reached.size != 1 or not found.reached.all():
         raise ModelError(
             "--branches",
-            "needs one target that is reached.",
+            "needs one target that can be reached.",
             "Give one pose, or joint coordinates, and leave --targets out.",
         )
     placement = found.placement if not found.placement.batch else found.placement[0]
@@ -133,7 +135,7 @@ def _print_ways(ways: dict[str, Any]) -> None:
     heads = ["mode", "x, mm", "y, mm", "z, mm", "rx, deg", "ry, deg", "rz, deg"]
     which = "all" if ways["every"] else "found from several starts; there may be others"
     screen.print(
-        table(f"Assembly modes at these drives, the first where it stands: {which}", heads, rows)
+        table(f"Assembly modes at these drives, the present one first: {which}", heads, rows)
     )
     drives = ways["working_modes"]
     if drives and drives[0]:
@@ -186,7 +188,7 @@ def _print(
     screen.print(model.title or "Model", markup=False, style="bold")
     if len(reasons) == 1:
         cells = [(*name.rpartition(", ")[::2], float(v[0])) for name, v in columns.items()]
-        title = "Coordinates" if not reasons[0] else "Coordinates where the way ended"
+        title = "Coordinates" if not reasons[0] else "Coordinates where the motion ended"
         print_table(screen, title, ["", "unit", "value"], cells)
     screen.print(f"{reasons.count('')} of {len(reasons)} targets reached", markup=False)
     shares = np.atleast_1d(moved.share)

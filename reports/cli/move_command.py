@@ -19,14 +19,14 @@ def move(
     ] = None,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="CSV", help="Write all coordinates there."),
+        typer.Option("--out", "-o", metavar="CSV", help="Write all coordinates to this file."),
     ] = None,
     branches: Annotated[
         bool,
         typer.Option(
             "--branches",
-            help="Also list the other ways to put the machine together: assembly modes at the "
-            "drives reached, working modes at the pose. Below the target in the file of --out too.",
+            help="Also list the other assembly modes at the drives reached and the working "
+            "modes at the pose, also below the target in the file of --out.",
         ),
     ] = False,
     json: Json = False,

@@ -26,12 +26,12 @@ def run(name: str, like: str, *, json: bool) -> None:
     out = console()
     out.print(f"Written: {visible(str(path))}", markup=False, soft_wrap=True)
     if schema is not None:
-        line = f"Written: {visible(str(schema))}, by which an editor completes it"
+        line = f"Written: {visible(str(schema))}, with which an editor completes the file"
         out.print(line, markup=False, soft_wrap=True)
     for what, command in (
-        ("look at it", "check"),
+        ("check it", "check"),
         ("move it", "move"),
-        ("all about it", "report"),
+        ("full report", "report"),
     ):
         line = f"  strutwork {command} {visible(str(path))}"
         out.print(f"{line:40} {what}", markup=False, soft_wrap=True)

@@ -11,7 +11,7 @@ from strutwork.reports.cli.choices import Json
 
 def new(
     name: Annotated[
-        str, typer.Argument(metavar="NAME", help="Of the machine; the file is NAME.toml.")
+        str, typer.Argument(metavar="NAME", help="Name of the machine; the file is NAME.toml.")
     ],
     like: Annotated[
         str,

@@ -42,14 +42,14 @@ def print_json(result: Mapping[str, Any]) -> None:
         A number that is not finite; nothing is printed.
     """
     if MANNER.csv:
-        raise ModelError("--json", "cannot stand beside --csv.", "Ask for one of the two.")
+        raise ModelError("--json", "cannot be combined with --csv.", "Choose one of the two.")
     try:
         text = json.dumps(result, allow_nan=False, ensure_ascii=False)
         if not _shows(text):
             text = json.dumps(result, allow_nan=False)
     except ValueError:
         raise NumericalError(
-            "result", "holds a number that is not finite and is withheld.", "Check the model."
+            "result", "contains a number that is not finite and is withheld.", "Check the model."
         ) from None
     # one write, so that an error leaves no partial output
     sys.stdout.write(_HIDDEN.sub(_escape, text) + "\n")

@@ -63,5 +63,5 @@ def verify(folder: str, json: bool) -> None:
     if json:
         print_json({"report": folder, "files": len(found.files), "whole": True})
         return
-    whole = f"Whole: {visible(folder)}, {len(found.files)} files"
+    whole = f"Complete: {visible(folder)}, {len(found.files)} files"
     console().print(whole, markup=False, soft_wrap=True)

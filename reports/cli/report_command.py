@@ -40,7 +40,9 @@ def report(
     ] = False,
     fresh: Annotated[
         bool,
-        typer.Option("--fresh", help="Compute everything anew, whatever earlier runs have kept."),
+        typer.Option(
+            "--fresh", help="Compute everything again and ignore stored results of earlier runs."
+        ),
     ] = False,
     json: Json = False,
 ) -> None:

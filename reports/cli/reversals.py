@@ -74,7 +74,7 @@ def _surface(model: Model, names: tuple[str, str], text: str, orientation: str) 
         if orientation != "vertical":
             raise ModelError(
                 "--orientation",
-                "normal to a plane leaves the tool as it is at home.",
+                "normal to a plane is the orientation of the tool at home.",
                 "Leave it out, or choose a sphere or a paraboloid.",
             )
         return Plane(names)
@@ -82,7 +82,7 @@ def _surface(model: Model, names: tuple[str, str], text: str, orientation: str) 
     if kind not in DOMES or name.strip() != "r":
         raise ModelError(
             "--surface",
-            f'"{text}" is none.',
+            f'"{text}" is not a surface.',
             "Write plane, sphere:r=300mm or paraboloid:r=300mm.",
         )
     if names != ("x", "y"):
@@ -178,12 +178,12 @@ def _print(result: dict[str, Any], grid: str, shape: tuple[str, str]) -> None:
             )
         )
     heads = ["drive", "strong", "weak", "lines", "at", "agrees with the border"]
-    out.print(table("Points where a drive turns back whichever way the tool goes", heads, rows))
+    out.print(table("Points where a drive reverses whichever way the tool moves", heads, rows))
     if result["still"]:
         out.print("Still: " + visible(", ".join(result["still"])), markup=False, soft_wrap=True)
     for drive, lines in result["reversal_lines"].items():
         out.print(
-            f"Fed along {result['feed']}, {visible(drive)} turns back on {len(lines)} "
+            f"Fed along {result['feed']}, {visible(drive)} reverses on {len(lines)} "
             f"line{'' if len(lines) == 1 else 's'}",
             markup=False,
         )
@@ -201,7 +201,7 @@ def _print(result: dict[str, Any], grid: str, shape: tuple[str, str]) -> None:
             markup=False,
             soft_wrap=True,
         )
-    out.print(f"Plates that the grid tells apart: {result['plates']}", markup=False)
+    out.print(f"Plates that the grid distinguishes: {result['plates']}", markup=False)
     if result["reach_from_middle"] is not None:
         out.print(
             f"Reached from the middle without a reversal: {100 * result['reach_from_middle']:.3g} "

@@ -26,7 +26,7 @@ def reversals(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
             help="Two directions of the tool, as in --over x=-100mm..100mm,y=-100mm..100mm; 21 "
-            "points along each where none are said.",
+            "points along each by default.",
         ),
     ],
     surface: Annotated[
@@ -34,24 +34,28 @@ def reversals(
         typer.Option(
             callback=typed,
             metavar="plane|sphere:r=R|paraboloid:r=R",
-            help="Over the two directions; a sphere or a paraboloid has its top where the tool "
-            "stands at home, and R is its radius of curvature there.",
+            help="Surface over the two directions; a sphere or a paraboloid has its apex at "
+            "the tool's home position, and R is its radius of curvature there.",
         ),
     ] = "plane",
     orientation: Annotated[
-        Orientation, typer.Option(help="Of the tool on a sphere or a paraboloid.")
+        Orientation, typer.Option(help="Orientation of the tool on a sphere or a paraboloid.")
     ] = Orientation.VERTICAL,
     feed: Annotated[
         str | None,
-        typer.Option(metavar="DIR", help="Feed along one of the two: lines of reversals."),
+        typer.Option(
+            metavar="DIR", help="Direction of the feed, one of the two, for lines of reversals."
+        ),
     ] = None,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write grid, points and lines there: CSV."),
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write grid, points and lines to this folder as CSV."
+        ),
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find where the drives of a machine turn back as its tool goes over a surface."""
+    """Find where the drives of a machine reverse as its tool moves over a surface."""
     from strutwork.reports.cli import reversals as work
 
     work.run(target, over, (surface, orientation.value), feed, out, json=json)

@@ -26,7 +26,7 @@ def study_of(machine: str) -> Callable[..., None]:
     if machine not in studied:
         raise ModelError(
             f"scale of {machine}",
-            "is not known: no study of its size exists.",
+            "is unknown: no study of its size exists.",
             "Machines: " + ", ".join(studied) + ".",
         )
     made: Callable[..., None] = resolve(studied[machine])

@@ -61,10 +61,10 @@ def _factors(span: tuple[float | None, float | None], count: int | None) -> list
         raise ModelError(
             "scale",
             f"goes from {low:g} to {high:g}.",
-            "Give sizes beside the machine's own, as in --from 0.5 --to 2.",
+            "Give sizes relative to the machine's own, as in --from 0.5 --to 2.",
         )
     if number > MOST:
-        raise ModelError("scale", f"has {number} sizes.", f"Take {MOST} at most.")
+        raise ModelError("scale", f"has {number} sizes.", f"Use {MOST} at most.")
     return [float(f) for f in np.geomspace(low, high, number)]
 
 

@@ -12,11 +12,11 @@ def schema(
     out: Annotated[
         str | None,
         typer.Option(
-            "--out", "-o", metavar="FILE", help="Write it there; by default it is printed."
+            "--out", "-o", metavar="FILE", help="Write it to this file; by default it is printed."
         ),
     ] = None,
 ) -> None:
-    """Print the JSON schema of the model file, by which editors complete and check it."""
+    """Print the JSON schema of the model file, with which editors complete and check it."""
     from strutwork.files import write_text
     from strutwork.machines.schema_file import schema_text
     from strutwork.names import visible

@@ -150,7 +150,7 @@ def _print_distance(screen: Console, here: PoseDistance, place: str) -> None:
     distance = here.distance
     say(
         screen,
-        f"Distance {place}, with {1e3 * distance.length:.4g} mm for a radian: "
+        f"Distance {place}, with {1e3 * distance.length:.4g} mm counting as one radian: "
         f"{distance.parallel[0]:.4g} from a parallel singularity (type 2), "
         f"{distance.serial[0]:.4g} from a serial one (type 1)",
     )
@@ -187,7 +187,7 @@ def _print_plane(screen: Console, found: SingularPlane) -> None:
     for curve in borders:
         _print_curve(screen, curve.kind.meaning, curve.at, len(curve.points))
     if found.missed:
-        say(screen, f"On {found.missed} edges of the grid poses differ too much: take more steps")
+        say(screen, f"On {found.missed} edges of the grid, poses differ too much: use more steps")
 
 
 def _print_curve(screen: Console, meaning: str, one: Singularity, points: int) -> None:

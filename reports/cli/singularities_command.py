@@ -17,8 +17,8 @@ def singularities(
         typer.Option(
             callback=typed,
             metavar="DIR=LOW..HIGH[:N]",
-            help="Along a line, as in x=0..40mm, looked at in N poses; several coordinates, "
-            "separated by commas, go along together.",
+            help="Search along a line of N poses, as in x=0..40mm; several coordinates, "
+            "separated by commas, vary together.",
         ),
     ] = None,
     plane: Annotated[
@@ -26,20 +26,28 @@ def singularities(
         typer.Option(
             callback=typed,
             metavar="DIR,DIR",
-            help="Curves over two coordinates, with --from and --to; or as in "
+            help="Find curves over two coordinates, with --from and --to; or as in "
             "x=-40mm..40mm:41,ry=-30deg..30deg:41.",
         ),
     ] = None,
     low: Annotated[
         str | None,
-        typer.Option("--from", callback=typed, metavar="DIR=VALUE,DIR=VALUE", help="Its start."),
+        typer.Option(
+            "--from",
+            callback=typed,
+            metavar="DIR=VALUE,DIR=VALUE",
+            help="Start of the line or plane.",
+        ),
     ] = None,
     high: Annotated[
         str | None,
-        typer.Option("--to", callback=typed, metavar="DIR=VALUE,DIR=VALUE", help="Its end."),
+        typer.Option(
+            "--to", callback=typed, metavar="DIR=VALUE,DIR=VALUE", help="End of the line or plane."
+        ),
     ] = None,
     steps: Annotated[
-        int, typer.Option(min=2, max=100_000, help="Poses along each coordinate of a plane.")
+        int,
+        typer.Option(min=2, max=100_000, help="Number of poses along each coordinate of a plane."),
     ] = 41,
     at: Annotated[
         list[str] | None,
@@ -47,7 +55,7 @@ def singularities(
             "--at",
             callback=typed,
             metavar="DIR=VALUE,...",
-            help="Coordinates that a line or plane holds; what is not named stays as at home.",
+            help="Fixed coordinates of a line or plane; those not named stay at home.",
         ),
     ] = None,
     pose: Pose = None,
@@ -65,11 +73,11 @@ def singularities(
     ] = Ranges.ALL,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write what was found there as CSV."),
+        typer.Option("--out", "-o", metavar="DIR", help="Write the result to this folder as CSV."),
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find singular poses of a machine, which kind they are and what motion is lost there."""
+    """Find singular poses of a machine, their type and the motion that is lost there."""
     if line is not None and plane is not None:
         raise typer.BadParameter("give --line or --plane.")
     if line is None and plane is None and (at or out or low or high):

@@ -67,7 +67,7 @@ def _six(
     print_table(out, title, [what, *columns], rows)
     if len(names) < len(values):
         more = len(values) - len(names)
-        out.print(f"The largest; {more} more are smaller: --verbose lists them.", markup=False)
+        out.print(f"Only the largest are shown; --verbose lists {more} more.", markup=False)
 
 
 def _largest(values: Mapping[str, NDArray[np.float64]], kept: str | None) -> list[str]:
@@ -94,7 +94,7 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
     softest, stiffest = int(np.argmin(free[:3])), int(np.argmax(free[:3]))
     low, high = (f"{show(1e-6 * float(free[i]))} N/µm in {_AXES[i]}" for i in (softest, stiffest))
     out.print(
-        f"Pushed at {found.model.tool}, the other axes free to follow, it is softest with {low} "
-        f"and stiffest with {high}.",
+        f"With the other axes free to follow, the stiffness at {found.model.tool} is least with "
+        f"{low} and largest with {high}.",
         soft_wrap=True,
     )

@@ -131,7 +131,7 @@ def _print(result: dict[str, Any]) -> None:
     out = console()
     out.print(
         f"{result['model']}: {result['points_kept']} of {result['points']} points, "
-        f"{result['candidates_kept']} of {result['candidates']} candidate poses count",
+        f"{result['candidates_kept']} of {result['candidates']} candidate poses are valid",
         markup=False,
     )
     for reason, count in result["dropped"].items():

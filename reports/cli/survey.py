@@ -41,7 +41,7 @@ def run(
     if grid is None:
         raise ModelError(
             target,
-            "says no poses to map.",
+            "gives no poses to map.",
             "Give --over x=-100mm..100mm:5,y=…, or add a table [workspace] to the file.",
         )
     answer: Answer = _vibration(model) if vibration else Stiffness()

@@ -27,6 +27,6 @@ def print_kept(result: dict[str, Any], grid: str) -> None:
     """The machine, its grid, and which poses do not count for which reason."""
     out = console()
     out.print(visible(result["model"] or result["target"]), markup=False, style="bold")
-    out.print(f"{grid}; {result['poses_kept']} of {result['poses']} count", markup=False)
+    out.print(f"{grid}; {result['poses_kept']} of {result['poses']} are valid", markup=False)
     for reason, count in result["dropped_by_reason"].items():
         out.print(f"  {count}: {visible(reason)}", markup=False, soft_wrap=True)

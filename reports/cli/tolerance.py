@@ -101,7 +101,7 @@ def _print(
     )
     if study.distribution is not None:
         shares = " and ".join(_quantile_heads(study))
-        out.print(f"Columns {shares}: what so many of the assemblies stay below")
+        out.print(f"Columns {shares}: the value that this share of the assemblies stays below")
     if len(study.poses) > 1:
         out.print(f"{len(study.poses)} poses; quantiles at {result['governing_pose']}")
     rows = result["quantities"]
@@ -152,9 +152,9 @@ def _tool(
         lines.append([what, factor * row["worst"], *_quantiles(row, factor), _contributor(row)])
     if deviation is not None:
         blank = ["" for _ in _quantile_heads(study)]
-        lines.append(["displacement, any way, µm", 1e6 * deviation["largest"], *blank, ""])
+        lines.append(["displacement, any direction, µm", 1e6 * deviation["largest"], *blank, ""])
     columns = ["tool", "worst", *_quantile_heads(study), "mainly from"]
-    return table("What the locked-in misfits move", columns, lines)
+    return table("Displacements by the locked-in misfits", columns, lines)
 
 
 def _quantile_heads(study: ToleranceStudy) -> list[str]:
@@ -175,7 +175,7 @@ def _print_limits(out: Console, study: ToleranceStudy, result: dict[str, Any]) -
     used = float(study.utilisation.max())
     name = study.quantities[int(study.utilisation.argmax())].name
     verdict = "No assembly exceeds a limit" if study.within_limits else "A limit can be exceeded"
-    text = f"{verdict}: {name} reaches {show(100 * used)} % of its limit at worst"
+    text = f"{verdict}: {name} reaches {show(100 * used)} % of its limit in the worst case"
     sampled = (result["distribution"] or {}).get("utilisation")
     if sampled:
         text += f"; 99 % of the assemblies reach less than {show(100 * sampled['0.99'])} %"
@@ -192,10 +192,10 @@ def _print_allocation(out: Console, study: ToleranceStudy, result: dict[str, Any
             [tolerance.name, tolerance.kind, "µm/m" if angle else "µm", 1e6 * given, 1e6 * size]
         )
     columns = ["tolerance", "kind", "unit", "given", "allocated"]
-    out.print(table("Tolerances that keep the limits", columns, lines, names=3))
+    out.print(table("Tolerances that meet the limits", columns, lines, names=3))
     active = ", ".join(dict.fromkeys(found["active"])) or "nothing"
     for label, text in (
-        ("What stops them", active),
+        ("Limited by", active),
         ("Method", found["method"]),
         ("Optimality", found["optimality"]),
     ):

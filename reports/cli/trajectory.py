@@ -80,8 +80,8 @@ def _print(study: TrajectoryStudy) -> None:
     screen.print(study.title, markup=False, style="bold")
     pull = ", ".join(f"{g:g}" for g in np.asarray(followed.dynamics.gravity, dtype=float))
     screen.print(
-        f"{len(path.times)} samples over {path.duration:.4g} s; gravity {pull} m/s²; rigid bodies "
-        f"of {followed.moving_mass:.4g} kg that move",
+        f"{len(path.times)} samples over {path.duration:.4g} s; gravity {pull} m/s²; moving rigid "
+        f"bodies of {followed.moving_mass:.4g} kg",
         markup=False,
         soft_wrap=True,
     )
@@ -90,7 +90,7 @@ def _print(study: TrajectoryStudy) -> None:
         f"{label} {_shown(value, label.rpartition(':')[2].startswith('r'))}"
         for label, value in study.held.items()
     ]
-    rest = f"; at home stay {', '.join(stays)}" if stays else ""
+    rest = f"; kept at home: {', '.join(stays)}" if stays else ""
     screen.print(f"Given: {', '.join(moving)}{rest}", markup=False, soft_wrap=True)
     heads = ["drive", "from", "to", "speed", "at, s", "acceleration", "at, s"]
     rows = [_motion_row(d) for d in study.demands]

@@ -24,7 +24,7 @@ def trajectory(
         str | None,
         typer.Option(
             metavar="X,Y,Z",
-            help="m/s²; by default the model's own, or 9.80665 along −z.",
+            help="In m/s²; by default the model's own, or 9.80665 along −z.",
         ),
     ] = None,
     limit: Annotated[
@@ -32,16 +32,24 @@ def trajectory(
         typer.Option(
             callback=typed,
             metavar="[JOINT:DIR:]KIND=VALUE",
-            help="What drives can do, beside the model's: speed, acceleration, force or power, as "
-            "in --limit speed=0.5m/s. Repeatable.",
+            help="Limits of the drives in addition to the model's: speed, acceleration, force "
+            "or power, as in --limit speed=0.5m/s. Repeatable.",
         ),
     ] = None,
     reactions: Annotated[
-        bool, typer.Option("--reactions", help="Joint reactions too, where they are determined.")
+        bool,
+        typer.Option(
+            "--reactions", help="Also compute joint reactions, where they are determined."
+        ),
     ] = False,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write all over time there as CSV."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="DIR",
+            help="Write all quantities over time to this folder as CSV.",
+        ),
     ] = None,
     json: Json = False,
 ) -> None:

@@ -3,21 +3,62 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from importlib import import_module
+from typing import Any, ClassVar
 
 import typer
 from typer.core import TyperGroup
 
 from strutwork.names import visible
+from strutwork.reports.cli.manner import speaking
 
 #: Base of what typer raises for wrong usage, wherever its release keeps it.
 USAGE_ERROR: type[Any] = typer.BadParameter.__mro__[1]
 
 
+class Made(Mapping[str, Any]):
+    """Commands by name, each made when it is first asked for: typer takes milliseconds for one.
+
+    Parameters
+    ----------
+    places : mapping of name to str
+        Where each stands, "MODULE:FUNCTION".
+    silent : collection of str
+        Those that print no tables.
+    """
+
+    def __init__(self, places: Mapping[str, str], silent: Collection[str]) -> None:
+        self._places, self._silent = places, silent
+        self._made: dict[str, Any] = {}
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in self._made:
+            module, _, function = self._places[name].partition(":")
+            work = getattr(import_module(module), function)
+            one = typer.Typer(add_completion=False)
+            one.command(name)(work if name in self._silent else speaking(work))
+            self._made[name] = typer.main.get_command(one)
+        return self._made[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._places)
+
+    def __len__(self) -> int:
+        return len(self._places)
+
+
 class Commands(TyperGroup):
     """The commands; what they say of wrong usage acts on no terminal."""
+
+    #: Where each command stands, and those that print no tables.
+    places: ClassVar[Mapping[str, str]] = {}
+    silent: ClassVar[Collection[str]] = ()
+
+    def __init__(self, *args: Any, **extra: Any) -> None:
+        super().__init__(*args, **extra)
+        self.commands: Any = Made(self.places, self.silent)
 
     def make_context(self, *args: Any, **extra: Any) -> Any:
         """Read the options before the command."""

@@ -33,7 +33,7 @@ def run(
     if isinstance(made, GridMachine):
         raise ModelError(
             f"machine {machine}",
-            "takes hardly a pose of the hemisphere over which vibration is mapped.",
+            "reaches hardly any pose of the hemisphere over which vibration is mapped.",
             "Leave --vibration out for its stiffness over x and a tilt, or use `strutwork modes` "
             "at home.",
         )
@@ -93,7 +93,7 @@ def _spread(values: np.ndarray[Any, Any]) -> dict[str, float | None]:
 def _print(result: dict[str, Any]) -> None:
     out = console()
     out.print(
-        f"{result['model']}: {result['points_kept']} of {result['points']} points count",
+        f"{result['model']}: {result['points_kept']} of {result['points']} points are valid",
         markup=False,
     )
     names = ["worst", "mean", "best"]

@@ -119,7 +119,7 @@ def _axes(
     if grid is None:
         raise ModelError(
             target,
-            "says no workspace to look at.",
+            "gives no workspace.",
             "Give --over x=-100mm..100mm,y=…, or add a table [workspace] to the file.",
         )
     axes = {d: np.asarray(v) for d, v in grid.axes.items() if len(v) > 1}
@@ -148,7 +148,7 @@ def _spare(asked: Asked) -> Spare | None:
     if not equals or direction not in (*DIRECTIONS, ROLL) or (joint and direction == ROLL):
         raise ModelError(
             "--spare",
-            f'"{asked.spare}" names no coordinate and range.',
+            f'"{asked.spare}" does not name a coordinate and a range.',
             "Write it as in roll=-180deg..180deg:13, rz=-30deg..30deg or stage:z=-5mm..5mm.",
         )
     kind = ANGLE if direction.startswith("r") else LENGTH
@@ -171,8 +171,8 @@ def _bounds(model: Model, asked: Asked) -> tuple[Bound, ...]:
         except ValueError:
             raise ModelError(
                 "--amplification",
-                f'"{asked.amplification}" is no bound.',
-                "Write it as in 3, or 0.33..3.",
+                f'"{asked.amplification}" is not a bound.',
+                "Write it as 3 or 0.33..3.",
             ) from None
         found.append(AmplificationBound(model, *ends))
     if asked.stiffness is not None:
@@ -196,7 +196,7 @@ def _shape(wanted: Wanted, axes: Mapping[str, Array]) -> InscribedShape | None:
     if parts.size != spans.size or not np.all((parts > 0) & np.isfinite(parts)):
         raise ModelError(
             "--proportions",
-            f'"{wanted.proportions}" is no number for each of {", ".join(axes)}.',
+            f'"{wanted.proportions}" does not give a number for each of {", ".join(axes)}.',
             "Write them as in 2:1:1, in m and rad or shares of either.",
         )
     return InscribedShape(wanted.kind, 0.5 * parts)
@@ -226,7 +226,7 @@ def _largest(
         if names - set(found.grid.directions) or any(joint for joint, _ in said):
             raise ModelError(
                 "--around",
-                "names what is no direction of the grid.",
+                "names something that is not a direction of the grid.",
                 f"Directions are {', '.join(found.grid.directions)}; others stay at home.",
             )
         centre = [
@@ -309,7 +309,7 @@ def _print(result: Mapping[str, Any]) -> None:
     home = result["home"]
     pieces = result["components"]
     where = (
-        f"home is in number {home['component']}"
+        f"home is in piece {home['component']}"
         if home["component"]
         else f"home is in none ({home['least']})"
         if home["margin"] < 0.0
@@ -329,18 +329,18 @@ def _print(result: Mapping[str, Any]) -> None:
         safe = result["interference"]
         out.print(
             f"Interference: {parts_words(safe)}, {count(safe['pairs'], 'pair')} that may collide; "
-            "solids are looked at where they have [[shapes]]",
+            "solids are checked where they have [[shapes]]",
             markup=False,
             soft_wrap=True,
         )
     if result["border"]:
         rows = [(words, 100.0 * share) for words, share in result["border"].items()]
-        out.print(table("Border", ["what ends the workspace", "%"], rows[:ROWS]))
+        out.print(table("Border", ["what limits the workspace", "%"], rows[:ROWS]))
     near = result["nearest"]
     if near is not None:
         out.print(
-            f"Nearest to home it ends at {placed(near['at'])}, {1e3 * near['distance']:.4g} mm "
-            f"away: {near['reason']}",
+            f"The limit nearest to home is at {placed(near['at'])}, {1e3 * near['distance']:.4g} "
+            f"mm away: {near['reason']}",
             markup=False,
             soft_wrap=True,
         )
@@ -348,8 +348,8 @@ def _print(result: Mapping[str, Any]) -> None:
         big = result["largest"]
         out.print(
             f"Largest {big['kind']}: {placed(big['sides'])} about {placed(big['centre'])}; "
-            f"critical at {placed(big['critical'])}: {big['reason']}; {big['confirmed']} poses "
-            "of it were found good",
+            f"critical at {placed(big['critical'])}: {big['reason']}; {big['confirmed']} poses in "
+            "it were checked and are good",
             markup=False,
             soft_wrap=True,
         )

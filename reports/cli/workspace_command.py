@@ -26,25 +26,26 @@ def workspace(
         typer.Option(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
-            help="One to three directions of the tool, as in --over x=-100mm..100mm:41; N odd. A "
-            "direction with one value is where the tool is put first. By default the machine's own "
-            "or the file's [workspace].",
+            help="One to three directions of the tool, as in --over x=-100mm..100mm:41; N odd. "
+            "A direction with one value is where the tool is placed first. By default the "
+            "machine's own or the file's [workspace].",
         ),
     ] = None,
     tilt: Annotated[
-        str | None, typer.Option(metavar="ANGLE", help="Of the tool, the same everywhere.")
+        str | None,
+        typer.Option(metavar="ANGLE", help="Orientation of the tool, the same everywhere."),
     ] = None,
     azimuth: Annotated[
-        str, typer.Option(metavar="ANGLE", help="Where --tilt leans to, from the tool's x.")
+        str, typer.Option(metavar="ANGLE", help="Direction of --tilt, from the tool's x.")
     ] = "0 deg",
     dexterous: Annotated[
         str | None,
         typer.Option(
-            metavar="ANGLE", help="All tilts up to this one, all ways round, must be good."
+            metavar="ANGLE", help="All tilts up to this angle, in all directions, must be good."
         ),
     ] = None,
     azimuths: Annotated[
-        int, typer.Option(min=3, max=360, help="Ways round that --dexterous looks at.")
+        int, typer.Option(min=3, max=360, help="Number of directions that --dexterous checks.")
     ] = 12,
     roll: Annotated[
         str | None,
@@ -63,7 +64,7 @@ def workspace(
     ] = None,
     radius: Annotated[
         str | None,
-        typer.Option(metavar="LENGTH", help="Bodies are this thick and must not collide."),
+        typer.Option(metavar="LENGTH", help="Bodies have this radius and must not collide."),
     ] = None,
     interference: Annotated[
         bool,
@@ -86,10 +87,13 @@ def workspace(
     stiffness: Annotated[
         str | None,
         typer.Option(
-            metavar="STIFFNESS", help="Least at the tool in its softest direction, as '10 N/um'."
+            metavar="STIFFNESS",
+            help="Least stiffness at the tool in its softest direction, as '10 N/um'.",
         ),
     ] = None,
-    largest: Annotated[Inscribed | None, typer.Option(help="Find the largest one inside.")] = None,
+    largest: Annotated[
+        Inscribed | None, typer.Option(help="Find the largest shape of this kind inside.")
+    ] = None,
     proportions: Annotated[
         str | None,
         typer.Option(metavar="A:B:C", help="Sizes of --largest along the directions, as 2:1:1."),
@@ -105,12 +109,12 @@ def workspace(
     out: Annotated[
         str | None,
         typer.Option(
-            "--out", "-o", metavar="DIR", help="Write it there: NetCDF, CSV, and STL and PLY."
+            "--out", "-o", metavar="DIR", help="Write it to this folder: NetCDF, CSV, STL and PLY."
         ),
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find the poses that a machine can take: how large, how many pieces, bounded by what."""
+    """Find the poses that a machine can reach: size, number of pieces and limits."""
     if tilt is not None and dexterous is not None:
         raise typer.BadParameter("give --tilt or --dexterous, not both.")
     if radius is not None and interference:

@@ -76,7 +76,7 @@ def hemisphere_map(
     dropped = np.flatnonzero(~np.isfinite(values))
     marks = [heat]
     if dropped.size:
-        marks.append(_marks(x[dropped], y[dropped], "no pose counts", "x-thin", 6, SOFT, hover=[]))
+        marks.append(_marks(x[dropped], y[dropped], "no valid pose", "x-thin", 6, SOFT, hover=[]))
     worst, best = int(np.nanargmin(values)), int(np.nanargmax(values))
     marks += [
         _marks(x[[worst]], y[[worst]], "worst", "triangle-down", 15, "#ffffff", [hover[worst]]),

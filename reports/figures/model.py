@@ -104,7 +104,7 @@ def marked_view(model: Model, names: Sequence[str]) -> dict[str, Any]:
         if s.name in known
     ]
     if shapes:
-        figure["data"].append(mesh(shapes, "gives way most", "#c62828"))
+        figure["data"].append(mesh(shapes, "deforms most", "#c62828"))
     # what the symbols mean stands beside the drawing of the structure
     figure["layout"]["showlegend"] = False
     return figure

@@ -19,7 +19,7 @@ Array = NDArray[Any]
 #: Lines of the laws, in their order.
 DASHES = ("solid", "dash", "dot", "dashdot")
 
-SIZE = "size L beside the machine's own"
+SIZE = "size L over the machine's own"
 
 
 def powers(
@@ -114,4 +114,4 @@ def deflection_powers(
             some.append(Curve(name, values, PALETTE[k], DASHES[i % len(DASHES)]))
             fitted = study.removal(i, (n,))["xyz"[direction]][0]
             exponents.append(fitted.deflection)
-    return powers(study.factors, some, "deflection beside L = 1", exponents)
+    return powers(study.factors, some, "deflection over that at L = 1", exponents)

@@ -128,7 +128,7 @@ def mode_view(study: VibrationStudy, labels: Sequence[str]) -> dict[str, Any]:
     resting = path(points, "at rest", "#a9b2bd", 3)
     sizes = [rounded(np.nan_to_num(np.linalg.norm(m, axis=-1)), 3) for m in motion]
     scale = {"color": sizes[0], "colorscale": "Viridis", "cmin": 0.0, "cmax": 1.0, "width": 9}
-    scale |= {"showscale": True, "colorbar": colour_bar("motion beside the largest")}
+    scale |= {"showscale": True, "colorbar": colour_bar("motion over the largest")}
     swung = path(
         points + amplitude * motion[0], "swinging", "#0072b2", 9, line=scale, showlegend=False
     )
@@ -226,8 +226,8 @@ def responses(
                 "color": colour,
                 "line": {"color": INK, "width": 1.5},
             },
-            "hovertemplate": f"%{{x:.6g}} Hz: {significant(value / 1e6)} N/µm at least"
-            f"<extra>{plain(name)}</extra>",
+            "hovertemplate": f"%{{x:.6g}} Hz: {significant(value / 1e6)} N/µm, the "
+            f"least<extra>{plain(name)}</extra>",
         }
         for name, frequency, value, colour in marks
     ]

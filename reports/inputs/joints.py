@@ -66,7 +66,9 @@ def joints(model: Model) -> Echo:
         *(f"stiffness_{d}_{'N_m_per_rad' if d[0] == 'r' else 'N_per_m'}" for d in DIRECTIONS),
         *(f"damping_{d}_{'N_m_s_per_rad' if d[0] == 'r' else 'N_s_per_m'}" for d in DIRECTIONS),
     )
-    caption = "Joints at home, directions in the joint's own axes; what is not free is held"
+    caption = (
+        "Joints at home, directions in the joint's own axes; directions that are not free are held"
+    )
     return Echo("joints", caption, columns, shown, heads, exact, loose=(1, 6))
 
 
@@ -99,8 +101,8 @@ def drives(model: Model) -> Echo:
     columns = (
         Column("drive", "", False),
         Column("moves", "", False),
-        Column("greatest speed", "", False),
-        Column("greatest force or torque", "", False),
+        Column("largest speed", "", False),
+        Column("largest force or torque", "", False),
         Column("resolution", "", False),
     )
     shown, exact = {}, {}

@@ -110,4 +110,4 @@ def masses(model: Model) -> Echo:
         *(f"centre_{a}_m" for a in "xyz"),
         *(f"I{a}_kg_m2" for a in ("xx", "xy", "xz", "yy", "yz", "zz")),
     )
-    return Echo("masses", "Masses that nodes carry", columns, shown, heads, exact, loose=(0, 3))
+    return Echo("masses", "Masses at nodes", columns, shown, heads, exact, loose=(0, 3))

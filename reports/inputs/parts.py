@@ -131,9 +131,9 @@ def beams(model: Model) -> Echo:
             b.section.name,
             number(lengths[b.name], 1e3),
             str(b.elements),
-            "counted (Timoshenko)"
+            "included (Timoshenko)"
             if _shears(b.section, shear=b.shear)
-            else "left out (Euler-Bernoulli)",
+            else "neglected (Euler-Bernoulli)",
         ]
         for b in structure.beams
     }

@@ -16,7 +16,7 @@ from strutwork.reports.numbers import count
 NAMED = 6
 
 SMALL = (
-    "Displacements are small and linear: no friction, no play, and contact that never opens, "
+    "Displacements are small and linear, without friction or play, and contacts never open, "
     "except where a chapter says otherwise."
 )
 COLD = "The temperature is that at which the machine was assembled: no part expands."
@@ -36,9 +36,12 @@ def _beams(model: Model) -> Iterator[str]:
         if b.shear and b.section.shear_areas is None and b.section.shear_coefficients is None
     }
     if no_area - stiff:
-        yield f"Shear does not deform beams of {_some(sorted(no_area - stiff))}: no shear areas."
+        yield (
+            f"Shear does not deform beams of {_some(sorted(no_area - stiff))}: no shear areas are "
+            "given."
+        )
     if stiff:
-        yield f"Shear is left out, as the model asks, of beams of {_some(sorted(stiff))}."
+        yield f"Shear is neglected, as the model requests, in beams of {_some(sorted(stiff))}."
     flexible = model.structure.flexible_bodies
     bodies = model.structure.linkage.body_names
     rigid = [name for i, name in enumerate(bodies) if i not in flexible]
@@ -54,7 +57,7 @@ def _joints(model: Model) -> Iterator[str]:
     own = [j for j in linkage.joints if j.name in model.joints]
     held = [j.name for j in own if State.LOCKED in j.states and not j.driven]
     if held:
-        yield f"{_some(held)}: directions that are held and have no stiffness are rigid."
+        yield f"{_some(held)}: held directions without a given stiffness are rigid."
     stiff = [j.name for j in own if any(d not in j.stiffness for d in j.driven)]
     if stiff:
         verb = "holds its" if len(stiff) == 1 else "hold their"
@@ -70,14 +73,14 @@ def _heavy(model: Model) -> Iterator[str]:
     if light:
         yield f"Parts of {_some(light)} have no mass: no density is given."
     if not model.structure.masses:
-        yield "No mass stands at a node or on a body."
+        yield "No node or body carries a mass of its own."
 
 
 def _loads(model: Model) -> Iterator[str]:
     if not any(case.gravity is not None for case in model.cases):
         yield "No weight acts: gravity is not given."
     if model.preload is None:
-        yield "The machine vibrates without preload: no load stiffens it or makes it softer."
+        yield "The machine vibrates without preload: no load stiffens or softens it."
     else:
         yield f"It vibrates under the loads of the case “{model.preload}”."
 
@@ -88,7 +91,7 @@ def _damped(model: Model) -> Iterator[str]:
         joints = model.structure.linkage.joints
         lossy = any(m.loss_factor for m in used_materials(model).values())
         if not lossy and not any(any(j.damping.values()) for j in joints):
-            yield "Nothing damps: no damping is given."
+            yield "Nothing is damped: no damping is given."
         return
     if damping.modal_ratio is not None:
         yield f"Every mode is damped by the viscous ratio {damping.modal_ratio:g}."
@@ -96,12 +99,12 @@ def _damped(model: Model) -> Iterator[str]:
         yield f"All parts have the structural loss factor {damping.loss_factor:g}."
     if damping.rayleigh is not None:
         alpha, beta = damping.rayleigh
-        yield f"Damping is {alpha:g} 1/s times the mass and {beta:g} s times the stiffness."
+        yield f"Damping is {alpha:g} 1/s times the mass plus {beta:g} s times the stiffness."
     lossy_names = [name for name, m in used_materials(model).items() if m.loss_factor]
     if lossy_names:
         yield (
-            f"The loss factor of {_some(lossy_names)} is not used: the damping of the "
-            "structure contains it."
+            f"The loss factor of {_some(lossy_names)} is not used: the damping of the structure "
+            "already includes it."
         )
 
 
@@ -110,30 +113,30 @@ def _motion(model: Model) -> Iterator[str]:
     limited = {(m.joint, m.coordinate) for m in model.limits}
     driven = [f"{j}:{d}" for j, d in linkage.driven if (j, d) not in limited]
     if driven:
-        yield f"{_some(driven)} may move without an end: no limits are given."
+        yield f"{_some(driven)} can move without limit: no limits are given."
     known = {(d.joint, d.direction): d for d in model.drives}
     silent = [f"{j}:{d}" for j, d in linkage.driven if (j, d) not in known]
     if silent:
-        yield f"Speed, force and resolution of {_some(silent)} are not given, and not compared."
+        yield f"Speed, force and resolution of {_some(silent)} are not given and not checked."
     if linkage.driven and model.workspace is None:
-        yield "No workspace is given: the machine is looked at where it stands."
+        yield "No workspace is given: the machine is analysed only in the configuration given."
 
 
 def _tolerances(model: Model) -> Iterator[str]:
     if not model.tolerances:
         return
     if not model.force_limits:
-        yield "No limits of joint forces are given: forces are not compared with any."
+        yield "No limits of joint forces are given: forces are not checked."
     still = [
         t.name
         for t in model.tolerances
         if t.kind not in TILTS and t.kind in {"position", "coaxiality", "location"} and not t.length
     ]
     if still:
-        yield f"Within {_some(still)} nothing tilts: no length is given."
+        yield f"The tolerances {_some(still)} allow no tilt: no length is given."
     by_default = [t.name for t in model.tolerances if t.datum is None]
     if by_default:
-        yield f"Features of {_some(by_default)} turn about the first node of their first joint."
+        yield f"Features of {_some(by_default)} rotate about the first node of their first joint."
 
 
 def _some(names: Sequence[str]) -> str:

@@ -58,18 +58,18 @@ def test_over_a_grid(strutwork: Program, tmp_path: Path) -> None:
     one = strutwork("accuracy", DELTA, "--pose", pose, "--json").result
     assert one["largest"]["length"] == pytest.approx(most["length"], rel=1e-4)
     run = strutwork("accuracy", DELTA, "--over", "x=-100mm..100mm:2")
-    assert "Largest contributors to it" in run.out
+    assert "Its largest contributors" in run.out
 
 
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ((), "finds no error in"),
-        (("--drive-error", "5kg"), "is no length and no angle"),
+        ((), "finds no source of error in"),
+        (("--drive-error", "5kg"), "is neither a length nor an angle"),
         (("--drive-error", "5um", "--drive-error", "6um"), "gives two lengths"),
         (("--play", "x=5um"), "names no joint for x"),
         (("--play", "leg1/ball:rx=5urad"), "is in a direction that is free"),
-        (("--pose", "x=1mm", "--over", "x=1mm..2mm"), "is given a pose and a grid"),
+        (("--pose", "x=1mm", "--over", "x=1mm..2mm"), "is given both a pose and a grid"),
     ],
 )
 def test_what_is_wrong_is_said(strutwork: Program, words: tuple[str, ...], said: str) -> None:

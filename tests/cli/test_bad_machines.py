@@ -156,7 +156,7 @@ def test_more_coordinates_than_freedoms(strutwork: Program) -> None:
 def test_more_drives_than_freedoms(strutwork: Program, write: Write) -> None:
     file = write(planar(put("joints.1.driven", ["rz"])))
     run = strutwork("check", file)
-    assert "of them more than the freedoms that they move" in run.out
+    assert "drives in excess of the freedoms that they move" in run.out
     found = strutwork("check", file, "--json").result
     assert (found["drives"], found["surplus_drives"]) == (4, 1)
     assert any(
@@ -172,18 +172,18 @@ def test_a_pose_out_of_reach_offers_one_that_is_not(command: str, strutwork: Pro
     run = strutwork(command, PLANAR, "--pose", "x=900mm")
     assert (run.status, run.out) == (1, "")
     assert "out of reach" in run.err
-    near = run.err.split("gets to ")[1].strip().rstrip(".").replace(" ", "")
+    near = run.err.split("reaches ")[1].strip().rstrip(".").replace(" ", "")
     again = strutwork("move", PLANAR, "--pose", near, "--json")
     assert again.result["reached"] == 1
 
 
 def test_a_pose_out_of_reach_in_python() -> None:
     model = sw.load(str(PLANAR))
-    with pytest.raises(UnreachableError, match=r"out of reach.*\nOn the way .* x = 142\.\d+ mm"):
+    with pytest.raises(UnreachableError, match=r"out of reach.*\nOn the path .* x = 142\.\d+ mm"):
         at_pose(model, {"x": 0.9})
     joints = {("motor1", "rz"): 1.6, ("motor2", "rz"): -1.6, ("motor3", "rz"): 3.0}
     with pytest.raises(
-        UnreachableError, match=r"parallel singularity \(type 2\)[^\n]*\n.*gets to motor1:rz = \d"
+        UnreachableError, match=r"parallel singularity \(type 2\)[^\n]*\n.*reaches motor1:rz = \d"
     ):
         at_pose(model, None, joints)
 
@@ -195,7 +195,7 @@ FAR = "x=900mm..1000mm:5,y=900mm..1000mm:5"
 def test_a_grid_out_of_reach_says_why(command: str, strutwork: Program) -> None:
     run = strutwork(command, PLANAR, "--over", FAR)
     assert (run.status, run.out) == (1, "")
-    assert "out of reach: on the way a leg comes to the end" in run.err
+    assert "out of reach: on the path a leg reaches the end" in run.err
 
 
 def test_a_workspace_out_of_reach_says_why(strutwork: Program) -> None:
@@ -215,7 +215,7 @@ def test_a_path_through_a_singularity_says_where_and_which(
     run = strutwork("trajectory", PLANAR, way)
     assert (run.status, run.out) == (1, "")
     assert "passes through a singularity, parallel (type 2)" in run.err
-    assert "Lead the path round it" in run.err
+    assert "Lead the path around it" in run.err
     angle = float(run.err.split("rz = ")[1].split(" deg")[0])
     line = strutwork("singularities", PLANAR, "--line", "rz=-60deg..0deg", "--json").result
     where = [np.degrees(s["at"]["rz"]) for s in line["singularities"] if s["type"] == 2]
@@ -259,7 +259,7 @@ def test_time_and_memory_in_python(monkeypatch: pytest.MonkeyPatch, tmp_path: Pa
         with pytest.raises(ModelError, match=r"3,600 poses.* GB; 6 hours, 0.0005 GB are the"):
             survey(model, grid, [Stiffness()])
         # what goes on from kept chunks has no bound of time, but still one of memory
-        with pytest.raises(ModelError, match=r" GB; 0.0005 GB are the most"):
+        with pytest.raises(ModelError, match=r" GB; at most 0.0005 GB are allowed"):
             survey(model, grid, [Stiffness()], folder=tmp_path)
     margin = MachineMargin(model, ("x", "y"), np.full(2, 1e-3))
     with monkeypatch.context() as patch:

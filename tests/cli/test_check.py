@@ -111,7 +111,7 @@ def test_mechanism_left_with_drives_held(
     run = strutwork("check", write(free), "--json")
     found = run.result
     # without the joint that is left out its two ends stand at one place
-    assert "nodes D of body plate and F of beam strut stand at one place" in run.err
+    assert "nodes D of body plate and F of beam strut are at one place" in run.err
     assert (found["mobility"], found["mobility_locked"]) == (3, 3)
     descriptions = " ".join(m["description"] for m in found["mechanisms"])
     assert "hinge in rz" in descriptions

@@ -77,7 +77,7 @@ def test_compare(strutwork: Program, files: tuple[Path, Path]) -> None:
     ("content", "words"),
     [
         (b"", "is empty"),
-        (b"\x00\x01garbage", "no universal file"),
+        (b"\x00\x01garbage", "not a universal file"),
         (b"    -1\n    58\nhalf\n", "cut short"),
     ],
 )

@@ -69,7 +69,7 @@ def test_apparent_joint_model_is_another(strutwork: Program) -> None:
 
 @pytest.mark.parametrize(
     ("machine", "expected"),
-    [("hexapod", "no machine of the catalogue"), ("model.toml", "does not exist")],
+    [("hexapod", "neither a machine of the catalogue"), ("model.toml", "does not exist")],
 )
 def test_no_machine_of_the_catalogue(machine: str, expected: str, strutwork: Program) -> None:
     run = strutwork("map", machine, "--json")
@@ -122,5 +122,5 @@ def test_planar_machine_and_hexapod_are_mapped_over_x_and_a_tilt(
 def test_vibration_is_not_mapped_where_the_hemisphere_cannot_be_reached(strutwork: Program) -> None:
     run = strutwork("map", "mit-ss1", "--vibration", "--lattice", "1")
     assert (run.status, run.out) == (1, "")
-    assert "machine mit-ss1: takes hardly a pose" in run.err
+    assert "machine mit-ss1: reaches hardly any pose" in run.err
     assert "strutwork modes" in run.err

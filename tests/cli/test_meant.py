@@ -40,7 +40,7 @@ def test_a_file(tmp_path: Path) -> None:
 
 
 def test_what_is_like_nothing_is_not_guessed() -> None:
-    with pytest.raises(ModelError, match=r"no model file\.\nMachines: "):
+    with pytest.raises(ModelError, match=r"nor a model file\.\nMachines: "):
         sw.load("lathe")
 
 

@@ -78,7 +78,7 @@ def test_a_map_over_a_grid(strutwork: Program, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("solve", HEAD, "--pose", "z=900mm"), "On the way from home it gets to z = "),
+        (("solve", HEAD, "--pose", "z=900mm"), "On the path from home it reaches z = "),
         (("solve", HEAD, "--pose", "drive1:z=1"), "Use --joint for it"),
         (("solve", HEAD, "--joint", "z=1"), "names no joint for z"),
         (("solve", HEAD, "--pose", "rz=1deg"), "task: the tool cannot move in rz from home"),
@@ -90,7 +90,7 @@ def test_a_map_over_a_grid(strutwork: Program, tmp_path: Path) -> None:
         (("map", HEAD, "--over", "z=0..1:1"), "fewer than two points"),
         (("map", HEAD, "--over", "z=0..1:x"), "has no number of points"),
         (("map", HEAD, "--over", "z=5..6:2"), "no pose of the 2 can be taken"),
-        (("report", "azulay-2014", "--pose", "x=1"), "has no pose of its own"),
+        (("report", "azulay-2014", "--pose", "x=1"), "has no pose"),
     ],
 )
 def test_what_is_wrong_is_named(strutwork: Program, words: tuple[str, ...], said: str) -> None:

@@ -45,7 +45,7 @@ def test_words_for_people(strutwork: Program) -> None:
     assert run.status == 0, run.err
     assert "on a sphere:r=200mm, tool normal; 25 can be reached" in run.out
     assert "Longest straight path without a reversal along y" in run.out
-    assert "Plates that the grid tells apart" in run.out
+    assert "Plates that the grid distinguishes" in run.out
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_words_for_people(strutwork: Program) -> None:
         (("--over", "x=-10mm..10mm"), "gives 1 directions"),
         ((*OVER, "--surface", "cube:r=1mm"), '"cube:r=1mm" is none'),
         ((*OVER, "--orientation", "normal"), "normal to a plane"),
-        ((*OVER, "--feed", "z"), '"z" is none of x and y'),
+        ((*OVER, "--feed", "z"), '"z" is neither x nor y'),
         (("--over", "x=-9mm..9mm,z=390mm..410mm", "--surface", "sphere:r=1m"), "over x and y"),
         (("--over", "x=-1mm..1mm:3000,y=-1mm..1mm:3000"), "would take about"),
     ],

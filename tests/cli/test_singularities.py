@@ -24,7 +24,7 @@ def test_the_distance_at_home_and_elsewhere(strutwork: Program) -> None:
     ).result
     assert near["parallel_distance"] < 0.05 * home["parallel_distance"]
     text = strutwork("singularities", "hexel-hexapod", "--pose", "rx=-47deg").out
-    assert "Distance at the pose, with 565.1 mm for a radian" in text
+    assert "Distance at the pose, with 565.1 mm counting as one radian" in text
 
 
 def test_a_line_across_a_singular_pose(strutwork: Program, tmp_path: Path) -> None:
@@ -89,9 +89,9 @@ def test_a_model_file_ends_in_a_stretched_leg(strutwork: Program) -> None:
     ("arguments", "said"),
     [
         (("--plane", "x,y"), "has no --from"),
-        (("--plane", "x,y", "--from", "x=0,y=0", "--to", "x=1mm"), "does not name just x,y"),
-        (("--plane", "x=0..1mm"), "is no two ranges"),
-        (("--line", "x=5mm"), "Give each a range"),
+        (("--plane", "x,y", "--from", "x=0,y=0", "--to", "x=1mm"), "does not name exactly x,y"),
+        (("--plane", "x=0..1mm"), "is not two ranges"),
+        (("--line", "x=5mm"), "Give each the same number"),
         (("--line", "x=0..9mm", "--at", "x=1mm"), "names x twice"),
         (("--line", "x=0..9mm", "--length", "-1mm"), "Give a positive length"),
         (("--plane", "x,y", "--from", "x=0,y=0", "--to", "x=9mm,y=9mm", "--steps", "9999"), "GB"),

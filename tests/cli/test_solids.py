@@ -241,7 +241,7 @@ def test_the_example_in_all_commands(tmp_path: Path, strutwork: Program) -> None
     assert len(solid["nodes"]) == 5
     page = (tmp_path / "report.html").read_text(encoding="utf-8")
     assert "edge of a solid" in page
-    assert "accuracy is not promised" not in page
+    assert "accuracy is not guaranteed" not in page
     # the drawn edges move with the modes
     shapes = (tmp_path / "vibration-mode-shapes.csv").read_text(encoding="utf-8")
     assert len(shapes.splitlines()) > 1000
@@ -263,9 +263,9 @@ def test_the_report_says_where_the_promise_ends(
     path = write(column(*bare, soft, put("solids.0.modes", 6)))
     run = strutwork("report", path, "-o", tmp_path / "page")
     assert run.status == 0, run.err
-    assert "accuracy is not promised" in run.err
+    assert "accuracy is not guaranteed" in run.err
     page = (tmp_path / "page" / "report.html").read_text(encoding="utf-8")
-    assert "accuracy is not promised" in page
+    assert "accuracy is not guaranteed" in page
 
 
 def test_a_mesh_beside_the_model_file(tmp_path: Path, strutwork: Program) -> None:

@@ -282,9 +282,9 @@ def test_tables_for_people(strutwork: Program) -> None:
         "Largest forces",
         "Columns 95 % and 99 %",
         "A limit can be exceeded",
-        "What the locked-in misfits move",
-        "displacement, any way",
-        "Tolerances that keep the limits",
+        "Displacements by the locked-in misfits",
+        "displacement, any direction",
+        "Tolerances that meet the limits",
     ):
         assert words in run.out
     assert run.err == ""

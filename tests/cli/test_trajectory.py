@@ -157,7 +157,7 @@ def test_limits_are_named_with_time_and_measure(strutwork: Program, tmp_path: Pa
 
 def test_a_machine_of_the_catalogue(strutwork: Program) -> None:
     run = strutwork("trajectory", "mit-ss1", CIRCLE)
-    assert "at home stay ry 0 deg" in run.out
+    assert "kept at home: ry 0 deg" in run.out
     assert "without mass: block1, block2, block3" in run.err
     assert "Beyond" not in run.out
     refused = strutwork("trajectory", "mit-ss1", CIRCLE, "--reactions")

@@ -86,7 +86,7 @@ def test_a_direction_with_one_value_is_where_the_tool_is_put(strutwork: Program)
         ((*OVER, "--radius", "200mm"), "interfere at home"),
         ((*OVER, "--conditioning", "2"), "conditioning"),
         ((*OVER, "--amplification", "3..x"), "--amplification"),
-        ((*OVER, "--stiffness", "20 N/um"), "home does not keep"),
+        ((*OVER, "--stiffness", "20 N/um"), "home does not meet"),
     ],
 )
 def test_what_cannot_be_asked(strutwork: Program, options: tuple[str, ...], words: str) -> None:
@@ -98,7 +98,7 @@ def test_what_cannot_be_asked(strutwork: Program, options: tuple[str, ...], word
 def test_a_file_without_a_workspace(strutwork: Program) -> None:
     run = strutwork("workspace", "examples/05_two_link_leg.toml")
     assert run.status == 1
-    assert "says no workspace" in run.err
+    assert "gives no workspace" in run.err
 
 
 def test_options_that_exclude_each_other(strutwork: Program) -> None:

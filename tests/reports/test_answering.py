@@ -126,7 +126,7 @@ def test_what_is_damaged_or_not_ours_is_not_read(
         store.folder.chmod(0o770)
         assert store.read("number") is None
         monkeypatch.setattr(cache_folder, "_noted", set())
-        with pytest.warns(CacheWarning, match="open to others"):
+        with pytest.warns(CacheWarning, match="accessible to other users"):
             assert not store.write("number", Outcome(42))
     else:
         monkeypatch.setattr("strutwork.reports.answer_store.LARGEST", 3)

@@ -39,7 +39,7 @@ def test_modes_found_from_starts_are_said_to_be_so() -> None:
     subject = Subject(load("mit-ss1"), "mit-ss1", "mit-ss1")
     chapter = chapter_of.write(subject)
     text = " ".join(getattr(b, "text", "") for b in chapter.blocks)
-    assert "starts, of which" in text
+    assert "starting points, of which" in text
     assert "all there are" not in text
 
 

@@ -71,7 +71,7 @@ def test_the_files_hold_what_the_page_says(written: WrittenReport, small: str) -
     # the softest pose of the cover is the least of the file
     subject = Subject(parse_model(small), "head.toml", "head")
     answers = next(b for b in cover(subject).blocks if isinstance(b, Answers))
-    softest = next(a for a in answers.items if a.before.startswith("At worst in its workspace"))
+    softest = next(a for a in answers.items if a.before.startswith("In its workspace"))
     numbers = [float(n) for n in re.findall(r"[\d.]+", softest.number)]
     assert answers.items[0].sentence.endswith("with the other directions free to follow.")
     assert len(answers.items) <= 8
@@ -93,5 +93,5 @@ def test_a_limit_out_of_which_poses_fall_is_named(small: str) -> None:
     subject = Subject(parse_model(text), "head.toml", "head")
     chapters, _ = chapters_of(subject, [c for c in CHAPTERS if c.key == "workspace-stiffness"])
     tables = [b for b in chapters[0].blocks if isinstance(b, Table)]
-    lost = next(t for t in tables if t.caption == "Poses that the machine cannot take")
+    lost = next(t for t in tables if t.caption == "Poses that the machine cannot reach")
     assert any("drive1: z of the prismatic joint, 540 to 640 mm" in str(r[0]) for r in lost.rows)

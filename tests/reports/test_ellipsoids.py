@@ -119,7 +119,7 @@ def test_equal_axes_have_no_direction_of_their_own() -> None:
     round_bar = CANTILEVER.replace('height_z = "40 mm"', 'height_z = "20 mm"')
     chapter = ellipsoids.write(Subject(parse_model(round_bar), "bar.toml", "bar"))
     first, second, third = (str(row[4]) for row in table(chapter).rows[:3])
-    assert first == second == "any across the other"
+    assert first == second == "any normal to the other"
     assert third == "1.000, 0.000, 0.000"
 
 

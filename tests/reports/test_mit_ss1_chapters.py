@@ -135,7 +135,7 @@ def test_what_the_data_leave_open_is_said(planar_report: WrittenReport) -> None:
     text = text_of(planar_report.report)
     section = re.findall(r'<section id="calibration".*?</section>', text, re.DOTALL)[0]
     assert section.count("not determined</td>") == sum(not v for v in known.values()) == 5
-    assert section.count("on its bound") == 2
+    assert section.count("at its bound") == 2
     assert "5 targets determine 5 of 7 combinations" in section
     values = rows_of(folder / "calibration-singular-values.csv")
     assert len(values) == len(known)

@@ -37,7 +37,7 @@ def test_a_tripod_moves_its_platform_and_the_band_reaches_its_stiff_axis() -> No
 def test_twelve_springs_of_four_mounts_are_one_row_that_opens() -> None:
     chapter = budget_chapter(load(EXAMPLES / "08_column_on_mounts.toml"))
     (table,) = [b for b in chapter.blocks if isinstance(b, Table)]
-    assert [row[0].text for row in table.cells] == ["mounts", "arm", "column", "all of it, µm/N"]
+    assert [row[0].text for row in table.cells] == ["mounts", "arm", "column", "total, µm/N"]
     (opens,) = [b for b in chapter.blocks if isinstance(b, Details)]
     assert opens.summary == "mounts: 12 parts and directions"
     (inner,) = opens.items

@@ -90,8 +90,8 @@ def test_without_a_browser_nothing_is_computed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("BROWSER_PATH", str(tmp_path / "none"))
-    with pytest.raises(ModelError, match=r"no program") as caught:
-        write_report("no machine", tmp_path / "r", pdf=True)
+    with pytest.raises(ModelError, match=r"not a program") as caught:
+        write_report("nor a model file", tmp_path / "r", pdf=True)
     assert "apt install chromium" in caught.value.remedy
     assert not (tmp_path / "r").exists()
 

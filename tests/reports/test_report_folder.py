@@ -83,7 +83,7 @@ def test_a_report_on_something_else_is_not_replaced(tmp_path: Path) -> None:
         write_set(folder, {PAGE: lambda path: path.write_text(content)}, about)
 
     write("6-ups.toml", "first")
-    with pytest.raises(OutputError, match=r'"6-ups\.toml", and this one is on "mit-ss1"') as caught:
+    with pytest.raises(OutputError, match=r'"6-ups\.toml", but this is on "mit-ss1"') as caught:
         write("mit-ss1", "second")
     assert "another folder" in caught.value.remedy
     assert lying(folder) == {PAGE: "first"}
@@ -144,7 +144,7 @@ def test_a_manifest_from_elsewhere_reaches_nothing_outside(tmp_path: Path, name:
     entry = {"size": 1, "sha256": ""}
     content = {"made_by": "", "complete": True, "files": {name: entry}}
     (folder / MANIFEST).write_text(json.dumps(content))
-    with pytest.raises(ModelError, match="no manifest"):
+    with pytest.raises(ModelError, match="not the manifest"):
         put(folder, NEW)
     assert (tmp_path / "mine").read_text() == "mine"
 
@@ -159,5 +159,5 @@ def test_a_damaged_manifest(tmp_path: Path, text: str) -> None:
 def test_a_file_in_place_of_the_folder(tmp_path: Path) -> None:
     (tmp_path / "r").write_text("mine")
     for folder in (tmp_path / "r", Path("/dev/full")):
-        with pytest.raises(OutputError, match="no folder"):
+        with pytest.raises(OutputError, match="not a folder"):
             put(folder, NEW)

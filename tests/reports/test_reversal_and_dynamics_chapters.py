@@ -38,7 +38,7 @@ def test_every_drive_has_its_row(hexapod: Subject) -> None:
     assert sum(lines.values()) > 0
     assert {str(row[6]) for row in table.rows} == {"yes"}
     (figure,) = [b for b in chapter.blocks if isinstance(b, Figure)]
-    drawn = [t for t in figure.spec["data"] if t["name"].endswith("turns back")]
+    drawn = [t for t in figure.spec["data"] if t["name"].endswith("reverses")]
     assert len(drawn) == sum(lines.values())
     # in mm, as the axis says
     for trace in drawn:
@@ -51,7 +51,7 @@ def test_a_serial_machine_turns_back_nowhere() -> None:
     assert not reversals.missing(subject)
     chapter = reversals.write(subject)
     (figure,) = [b for b in chapter.blocks if isinstance(b, Figure)]
-    assert "No drive turns back" in figure.caption
+    assert "No drive reverses" in figure.caption
     facts = next(b for b in chapter.blocks if isinstance(b, Facts))
     assert [f.value for f in facts.items if f.label == "Plates"] == ["1"]
 
@@ -61,7 +61,7 @@ def test_dynamics_say_what_the_study_found(hexapod: Subject) -> None:
     found = hexapod.standard_motion
     facts = next(b for b in chapter.blocks if isinstance(b, Facts))
     values = {f.label: f.value for f in facts.items}
-    assert values["Mass felt along x"] == significant(found.free[0])
+    assert values["Effective mass along x"] == significant(found.free[0])
     assert found.surely is not None
     assert values["Force it can exert in every direction"] == significant(found.surely)
     _, standing, circle = tables(chapter)

@@ -34,9 +34,10 @@ def test_regions_add_up() -> None:
     assert any(isinstance(b, Text) and BARRIER in b.text for b in chapter.blocks)
     *regions, ranges = [b for b in chapter.blocks if isinstance(b, Table)]
     for table in regions:
-        points = [int(str(row[-1])) for row in table.rows]
-        # three axes each of all points, the pole's side and what lies beyond
-        assert points[0] == points[3] + points[6] == 317
+        points = [int(str(row[2])) for row in table.rows]
+        # all points, the pole's side and what lies beyond; the axes stand side by side
+        assert points[0] == points[1] + points[2] == 317
+        assert [name for name, _ in table.groups if name] == ["Kxx", "Kyy", "Kzz"]
     assert [str(row[1]) for row in ranges.rows] == [
         "revolute joints only",
         "the machine's own, all",

@@ -201,7 +201,7 @@ def test_progress_counts_starts() -> None:
             lambda: calibrate(
                 with_known, parameters("k1"), [Target("third", 1.0, 1.0)], progress=silent
             ),
-            "target third: is not among what the model gives: first, second, static",
+            "target third: is not among the results of the model: first, second, static",
         ),
     ],
 )

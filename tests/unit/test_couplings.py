@@ -156,11 +156,14 @@ GEAR = '[[couplings]]\nname = "gear"\n'
 @pytest.mark.parametrize(
     ("table", "words"),
     [
-        ('between = ["motor:rz", "guide:z"]\nratio = 2', "a turn and a way"),
-        ('between = ["guide:z", "motor:rz"]\nper_turn = "5 mm"', "first a turn, then a way"),
+        ('between = ["motor:rz", "guide:z"]\nratio = 2', "a rotation and a translation"),
+        (
+            'between = ["guide:z", "motor:rz"]\nper_turn = "5 mm"',
+            "first a rotation and then a translation",
+        ),
         ('between = ["motor:rz", "guide:z"]', "neither ratio nor per_turn"),
         ('between = ["motor:rz", "guide:z"]\nratio = 1\nper_turn = 1', "or both"),
-        ('between = ["motor", "guide:z"]\nratio = 1', 'names "motor", which is no joint'),
+        ('between = ["motor", "guide:z"]\nratio = 1', 'names "motor", which is not a joint'),
         ('between = ["motor:rz", "gide:z"]\nper_turn = 1', 'unknown joint "gide"'),
         ('between = ["motor:rz", "guide:x"]\nper_turn = 1', "guide:x, which is sprung"),
         ('between = ["motor:rz", "motor:rz"]\nratio = 1', "with itself"),

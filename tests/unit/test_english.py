@@ -32,6 +32,25 @@ WORDS: dict[str, tuple[str, str]] = {
     r"our|we|us": ("Strutwork, or the passive with its reason", r"US\b|us\b(?=\")"),
     r"a (?:second|minute|metre|hour)(?= (?:on|for|with|of processor))": ("per", ""),
     r"thousands? of \w+ a second": ("per second", ""),
+    r"freedoms": ("degrees of freedom", ""),
+    r"giv(?:es?|ing) way": ("is (the most) compliant, deforms", ""),
+    r"mend(?:s|ed|ing)?": ("correct, repair", "recommend"),
+    r"(?:is|are) said": ("is stated", ""),
+    r"look(?:s|ed|ing)? over": ("covers, studies", ""),
+    r"of the literature": ("from the literature", ""),
+    r"(?:turns?|turned|turning) back": ("reverses", ""),
+    r"(?:goes|gone|went) on": ("continues", ""),
+    r"in (?:the )?place of": ("instead of, replaces", ""),
+    r"(?:rests?|rested) on": ("depends on", "the rest"),
+    r"stands? (?:in|beside|for)": ("replaces, is beside, denotes", "stands? in line"),
+    r"comes? of": ("results from", ""),
+    r"taken for": ("assumed to be, mistaken for", "mistaken for"),
+    r"for (?:it|them)sel(?:f|ves)": ("separately, independently", "speaks? for"),
+    r"anew": ("again", ""),
+    r"wholly": ("entirely", ""),
+    r"passed over": ("ignored", ""),
+    r"nowhere": ("not ... anywhere", ""),
+    r"softest": ("most compliant", ""),
 }
 
 
@@ -75,6 +94,9 @@ def test_a_page_has_no_private_words(page: Path) -> None:
         "thousands of poses a second",
         "We chose a stiffness.",
         "with odd options",
+        "It has six freedoms, and the rod gives way most.",
+        "Beside it stands what a machine of the literature has in place of it.",
+        "A drive that turns back goes on.",
     ],
 )
 def test_private_words_are_seen(line: str) -> None:
@@ -87,6 +109,7 @@ def test_private_words_are_seen(line: str) -> None:
         "An odd number of points, and a whole number of cells.",
         "Poses that are found are counted; headroom is left.",
         "a table on two rails, in a second step",
+        "The rest on the bed has three degrees of freedom; it was recommended in the place.",
     ],
 )
 def test_plain_words_are_not(line: str) -> None:

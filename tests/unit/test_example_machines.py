@@ -170,7 +170,7 @@ def test_the_hexapods_stiffness_is_that_of_poses_taken_one_by_one() -> None:
 def test_a_pose_out_of_a_limit_offers_the_nearest_on_the_way() -> None:
     with pytest.raises(strutwork.UnreachableError, match=r"slide1.*exceeded") as caught:
         at_pose(load("linear-delta"), {"z": 0.4})
-    assert "gets to z = 250 mm" in str(caught.value)
+    assert "reaches z = 250 mm" in str(caught.value)
 
 
 def test_a_template_takes_any_title() -> None:

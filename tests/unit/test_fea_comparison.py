@@ -137,7 +137,7 @@ def test_limits_without_one_are_refused(limits: tuple[float, float]) -> None:
 
 
 def test_bands_apart_are_refused() -> None:
-    with pytest.raises(ModelError, match="share too little of the band"):
+    with pytest.raises(ModelError, match="have too little of the band in common"):
         frac_with_scale((LINES, response(LINES)), (LINES + 300, response(LINES)))
 
 

@@ -62,7 +62,7 @@ def test_another_solver_takes_over_where_choleskys_method_fails() -> None:
 
 @pytest.mark.parametrize("solver", [s for s in SOLVERS if not SOLVERS[s].INDEFINITE])
 def test_choleskys_method_refuses_what_is_not_positive(solver: str) -> None:
-    words = "positive definite matrices only" if solver in INSTALLED else "not installed"
+    words = "accepts only positive definite matrices" if solver in INSTALLED else "not installed"
     with pytest.raises(ModelError, match=words):
         factorize(sp.csc_array(-definite()), solver)
 

@@ -333,5 +333,5 @@ def test_a_direct_solution_that_is_off_is_refused(monkeypatch: pytest.MonkeyPatc
         return np.asarray(exact(matrix, right) * (1.0 + 1e-5))
 
     monkeypatch.setattr(np.linalg, "solve", rough)
-    with pytest.raises(NumericalError, match=r"at 30 Hz is certain to 1e-05 of its largest"):
+    with pytest.raises(NumericalError, match=r"at 30 Hz is accurate to 1e-05 of its largest"):
         frequency_response(placed, port, port, [30.0], LossFactor(0.05), "direct")

@@ -128,5 +128,5 @@ def test_a_band_says_where_it_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("strutwork.reports.covering_band.FARTHEST", 1.5)
     band, stop = covering_band(placed, [Port("TCP", "z")])
     assert band is not None
-    assert "The band stops at" in stop
+    assert "The band ends at" in stop
     assert "TCP:z" in stop

@@ -90,7 +90,7 @@ def test_all_there_are_and_a_note_where_more_are_asked() -> None:
     found = modes(oscillators((1e4, 3.0), (2e4, 3.0)).place(), 5)
     assert found.frequencies.shape == (2,)
     assert found.shapes.shape[0] == found.effective_mass.shape[0] == 2
-    assert found.note == "5 modes were asked for and 2 exist: these are all there are."
+    assert found.note == "5 modes were requested, but only 2 exist."
     assert modes(oscillators((1e4, 3.0)).place(), 1).note == ""
 
 

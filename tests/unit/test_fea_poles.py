@@ -155,7 +155,7 @@ def test_direct_solutions_stand_in_for_poles_that_fail(monkeypatch: pytest.Monke
     sure = least_dynamic_stiffness(given.placed, port, port, given.damping, (1.0, 500.0))
 
     def fail(*_: Any) -> Any:
-        raise NumericalError("poles", "cannot be told apart.", "")
+        raise NumericalError("poles", "cannot be distinguished.", "")
 
     monkeypatch.setattr("strutwork.fea.least_stiffness.pole_model", fail)
     found = least_dynamic_stiffness(given.placed, port, port, given.damping, (1.0, 500.0))

@@ -27,15 +27,15 @@ def test_known_nodes_tell_a_hyphen_in_a_name() -> None:
     assert Port.parse("tool-tip:x", nodes) == Port("tool-tip", "x")
     assert Port.parse("table-tool-tip:x", nodes) == Port("tool-tip", "x", against="table")
     assert Port.parse("tool-tip-table:x", nodes) == Port("table", "x", against="tool-tip")
-    with pytest.raises(ModelError, match="which node moves against which"):
+    with pytest.raises(ModelError, match="which node moves relative to which"):
         Port.parse("a-b-c:x")
-    with pytest.raises(ModelError, match="which node moves against which"):
+    with pytest.raises(ModelError, match="which node moves relative to which"):
         Port.parse("nowhere-tip:x", nodes)
 
 
 @pytest.mark.parametrize("text", ["TCP", ":x", "TCP:", ""])
 def test_text_without_node_or_direction(text: str) -> None:
-    with pytest.raises(ModelError, match="is no node with a direction"):
+    with pytest.raises(ModelError, match="is not a node with a direction"):
         Port.parse(text)
 
 

@@ -65,7 +65,7 @@ def test_effective_masses_add_up_to_the_mass(cube: SolidMatrices) -> None:
 
 @pytest.mark.parametrize("count", [0, 1000])
 def test_number_of_modes(cube: SolidMatrices, count: int) -> None:
-    with pytest.raises(ModelError, match=f"{count} modes are asked of 375"):
+    with pytest.raises(ModelError, match=f"{count} modes are requested of 375"):
         solid_modes(cube, count)
 
 

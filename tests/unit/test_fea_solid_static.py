@@ -216,5 +216,5 @@ def test_a_slender_solid_is_answered_to_what_it_claims() -> None:
 
 def test_a_solid_too_slender_for_doubles_is_withheld() -> None:
     matrices, load = needle(1000)
-    with pytest.raises(NumericalError, match=r"certain to .* of its largest displacement only"):
+    with pytest.raises(NumericalError, match=r"accurate to .* of its largest displacement only"):
         solve_solid(matrices, load, {"-x": "xyz"}, "superlu")

@@ -130,7 +130,7 @@ def test_nothing_to_write(path: Path) -> None:
     [
         ({"values": VALUES[:-1]}, "333 frequencies and 332 values"),
         ({"values": np.where(LINES > 100, np.nan, VALUES)}, "not finite"),
-        ({"frequencies": LINES[::-1]}, "do not rise"),
+        ({"frequencies": LINES[::-1]}, "do not ascend"),
         ({"frequencies": LINES[:1], "values": VALUES[:1]}, "fewer than two"),
         ({"output": ("a", "w")}, '"w"'),
         ({"motion": "jerk"}, "jerk"),
@@ -216,9 +216,9 @@ def test_labels_name_units(tmp_path: Path, labels: tuple[str, str], factor: floa
     ("labels", "words"),
     [
         (("strange", "N"), '"strange", an unknown unit of acceleration'),
-        (("mm", "N"), '"mm", which is no unit of acceleration'),
+        (("mm", "N"), '"mm", which is not a unit of acceleration'),
         (("m/s^2", "EU"), '"EU", an unknown unit of force'),
-        (("m/s^2", "mn"), '"mn", which is no unit of force'),
+        (("m/s^2", "mn"), '"mn", which is not a unit of force'),
         (("g/N", "kN"), "per force and beside it"),
     ],
 )
@@ -253,7 +253,7 @@ def test_what_is_no_response_is_ignored_and_said(tmp_path: Path) -> None:
     assert len(found.functions) == 1
     assert found.ignored == (
         "coherence (function of type 6)",
-        "function that is no motion per force in a direction",
+        "function that is not a motion per force in a direction",
     )
 
 
@@ -293,7 +293,7 @@ SPOIL: dict[str, list[Any]] = {
     "only units": [lambda f: units(f, 1.0, 1.0)],
     "time response": [lambda f: foreign(f, func_type=1, data=np.ones(8))],
     "other sets": [lambda f: f.write_text("    -1\n  9999\n   stuff\n    -1\n")],
-    "no motion": [lambda f: foreign(f, ordinate_spec_data_type=0)],
+    "not a motion": [lambda f: foreign(f, ordinate_spec_data_type=0)],
     "NaN in a function": [
         foreign,
         lambda f: swap(f, "   3.00000000000e+00", "                 NaN"),
@@ -319,17 +319,17 @@ def spoiled(tmp_path: Path, name: str) -> Path:
         ("absent", "does not exist"),
         ("empty", "is empty"),
         ("blank", "is empty"),
-        ("garbage", "no universal file: it is binary data"),
-        ("text", "no universal file: it is text"),
+        ("garbage", "not a universal file: it is binary data"),
+        ("text", "not a universal file: it is text"),
         ("folder", "not an ordinary file"),
         ("cut in a set", "cut short.*not closed"),
         ("cut in binary", r"cut short.*58.*not closed"),
-        ("lines missing", "says 8 lines and has 6"),
+        ("lines missing", "states 8 lines and has 6"),
         ("header missing", r"data set 1 \(type 58\).*cannot be read"),
         ("only units", "no function and no mode, only nodes and units"),
         ("time response", r"no function and no mode, only time response \(function of type 1"),
         ("other sets", "only data set 9999"),
-        ("no motion", "does not tell displacement"),
+        ("not a motion", "does not state displacement"),
         ("NaN in a function", "not finite"),
         ("infinity in a mode", "not finite"),
         ("units of zero", "unit factor"),

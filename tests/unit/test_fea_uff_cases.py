@@ -59,7 +59,7 @@ def test_a_coordinate_system_that_is_missing_is_asked_for(tmp_path: Path) -> Non
     kept = lines[:start] + lines[start + 17 :]
     file = tmp_path / "x.uff"
     file.write_text("\n".join(kept) + "\n")
-    with pytest.raises(ModelError, match="coordinate system 2, which the file does not hold"):
+    with pytest.raises(ModelError, match="coordinate system 2, which the file does not contain"):
         read_universal(file)
 
 
@@ -76,7 +76,7 @@ def test_a_place_goes_before_a_number(tmp_path: Path) -> None:
     file.write_text("\n".join(swapped) + "\n")
     found = compare_files(read_universal(UFF / "computed.uff"), read_universal(file))
     assert [p.mac for p in found.modes] == pytest.approx([1.0, 1.0, 1.0], abs=1e-9)
-    assert any("4 of 5 nodes are matched by place" in note for note in found.notes)
+    assert any("4 of 5 nodes are matched by position" in note for note in found.notes)
 
 
 def mutant(source: bytes, rng: np.random.Generator) -> bytes:

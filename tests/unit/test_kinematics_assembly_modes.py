@@ -240,7 +240,7 @@ def test_a_serial_machine_has_one_working_mode() -> None:
 def test_why_there_are_no_circles() -> None:
     for name, words in (
         ("6-ups", "hangs on 6 balls"),
-        ("linear-delta", "does not fall into legs"),
+        ("linear-delta", "does not split into legs"),
         ("planar-3-rrr", "does not end in a ball"),
     ):
         model = machine(name)

@@ -348,7 +348,7 @@ def test_what_is_refused() -> None:
         simple(open_chain(points, axes), first, DOWN)
     pair = chain(points, axes, driven=0, closed=False)
     swinging = simple(pair, first, DOWN, bar2=(1.0, [0.7, 0, 0], 0.1))
-    with pytest.raises(ModelError, match="bar2: turns freely about a line"):
+    with pytest.raises(ModelError, match="bar2: rotates freely about a line"):
         forces_of(swinging, 0.1, 0.0, 0.0)
     # a wheel that is balanced about its own hinge is no matter
     wheel = forces_of(simple(pair, first, DOWN, bar2=(2.0, [0.5, 0, 0], 0.1)), 0.1, 3.0, 7.0)
@@ -366,7 +366,7 @@ def test_what_is_refused() -> None:
     massless = Dynamics(motion, none, Coordinates(("x",)))
     with pytest.raises(NumericalError, match="have no mass"):
         _ = massless.at(motion.move(task={"x": [0.38]})).mass
-    with pytest.raises(UnreachableError, match="cannot be taken"):
+    with pytest.raises(UnreachableError, match="cannot be reached"):
         massless.at(motion.move(task={"x": [0.5]}))
 
 

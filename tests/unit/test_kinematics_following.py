@@ -145,7 +145,7 @@ def test_a_path_out_of_reach() -> None:
     masses = masses_of(linkage, slider=(1.0, [0, 0, 0], 0.0))
     tool = Dynamics(Motion(linkage, placement), masses, Coordinates(("x",)))
     start = float(placement.positions[linkage.node_index["tool"], 0])
-    with pytest.raises(UnreachableError, match=r"at t = .* s, .*: cannot be taken: out of reach"):
+    with pytest.raises(UnreachableError, match=r"at t = .* s, .*: cannot be reached: out of reach"):
         follow(tool, point_to_point(tool.coordinates, [start], [0.45], 1.0))
     with pytest.raises(ModelError, match="gives R2:rz; the dynamics are those of R1:rz"):
         follow(dynamics, point_to_point(Coordinates((), (("R2", "rz"),)), [0.0], [1.0], 1.0))
@@ -200,7 +200,7 @@ def test_the_fastest_within_speed_limits() -> None:
     assert abs(home_again.work) < 1e-9 * np.abs(home_again.powers).max()
     with pytest.raises(ModelError, match="bound no drive"):
         within_speeds(dynamics, make, np.full(6, np.inf))
-    with pytest.raises(ModelError, match="not one positive number a drive"):
+    with pytest.raises(ModelError, match="not one positive number per drive"):
         fastest(found, [1.0, 2.0])
 
 

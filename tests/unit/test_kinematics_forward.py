@@ -170,7 +170,7 @@ def test_one_pose_that_cannot_be_found_is_masked_with_its_reason() -> None:
     assert found.found.tolist() == [True, False, False]
     np.testing.assert_allclose(found.position[0], [0, 0, 0.5], atol=1e-12)
     assert np.isnan(found.position[1:]).all()
-    assert "singularity lies on the way" in found.reason(1)
+    assert "singularity lies on the path" in found.reason(1)
     assert "not finite" in found.reason(2)
     assert "1 found" in repr(found)
     with pytest.raises(StrutworkError, match=r"forward kinematics, pose 1.*2 of 3 poses"):
@@ -192,7 +192,7 @@ def test_a_start_that_cannot_be_taken_or_is_singular_is_said() -> None:
     machine = HexelHexapod()
     values = drive_values(machine, machine.place(machine.home()))
     above = machine.poses(0.0, 0.0, 1.5)
-    with pytest.raises(UnreachableError, match="the start cannot be taken: leg 1"):
+    with pytest.raises(UnreachableError, match="the start cannot be reached: leg 1"):
         forward_kinematics(machine, values, above)
     platform = gough()
     quarter = Poses.of([0.0, 0, 0.5], Rotation.from_rotvec([0, 0, np.pi / 2]).as_matrix())

@@ -161,7 +161,7 @@ def test_planar_legs_go_with_all_joints_and_refuse_what_leaves_the_plane() -> No
     poses = Poses.of(start.position + np.array([[0.02, 0, 0], [0.02, 0, 1e-4]]), start.rotation)
     found = motion.move(tool=poses)
     assert not found.reached[1]
-    assert "contradicts itself or the joints" in found.placement.reason(1)
+    assert "contradict one another or the joints" in found.placement.reason(1)
 
 
 def test_the_leg_that_ends_the_way_is_named_and_the_others_stop_with_it() -> None:
@@ -171,7 +171,7 @@ def test_the_leg_that_ends_the_way_is_named_and_the_others_stop_with_it() -> Non
     found = motion.move(tool=poses)
     assert found.reached.tolist() == [True, False]
     reason = found.placement.reason(1)
-    assert reason.startswith("out of reach: on the way the leg of leg")
+    assert reason.startswith("out of reach: on the path the leg of leg")
     share = float(found.share[1])
     assert 0.0 < share < 1.0
     assert found.tool is not None

@@ -131,7 +131,7 @@ def test_what_is_no_machine_of_legs_goes_by_all_rows() -> None:
     placement = mit.place(mit.home())
     for linkage, at in ((mit.linkage, placement), slider_crank(0.5)):
         assert leg_chains(linkage) is None
-        with pytest.raises(ModelError, match="does not fall into legs"):
+        with pytest.raises(ModelError, match="does not split into legs"):
             jacobians(linkage, at, "legs")
         assert np.isfinite(jacobians(linkage, at).inverse).all()
 

@@ -248,7 +248,7 @@ def test_pairs_of_meshes_and_capsules_of_a_linkage() -> None:
     assert mixed.reach == pytest.approx([0.2])
     assert "2 meshes" in repr(both)
     assert both.check(home) is both
-    with pytest.raises(ModelError, match="does not say how its body has turned"):
+    with pytest.raises(ModelError, match="does not give the rotation of its body"):
         both.gaps(home[None])
 
 

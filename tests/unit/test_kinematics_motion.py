@@ -157,7 +157,7 @@ def test_drives_that_cross_a_singularity() -> None:
     linkage, home = slider_crank(0.7)
     found = Motion(linkage, home).move(joints={("guide", "z"): 0.2})
     assert not found.reached
-    assert "a parallel singularity (type 2) lies on the way" in found.placement.reason(())
+    assert "a parallel singularity (type 2) lies on the path" in found.placement.reason(())
 
 
 def test_what_is_given_twice_must_agree() -> None:
@@ -167,7 +167,7 @@ def test_what_is_given_twice_must_agree() -> None:
     rocker = float(alone.coordinate("R4", "rz"))
     both = motion.move(joints={("R1", "rz"): 0.5, ("R4", "rz"): [rocker, rocker + 0.1]})
     assert not both.reached[1]
-    assert both.placement.reason(1).startswith("what is given contradicts itself")
+    assert both.placement.reason(1).startswith("the given coordinates contradict one another")
 
 
 def test_a_redundant_coordinate_is_fixed_or_moves_least() -> None:
@@ -221,7 +221,7 @@ def test_a_screw_joint_is_measured_along_its_axis() -> None:
         ({"task": {"x": np.nan}}, "x of target 0 is not finite"),
         ({"joints": {("crnak", "rz"): 0.1}}, 'unknown joint "crnak".\nDid you mean "crank"'),
         ({"joints": {("crank", "z"): 0.1}}, '"z" does not move in it.\nIts coordinates are rz'),
-        ({"task": {"x": [0.1, 0.2]}, "joints": {("pin", "rz"): [1, 2, 3]}}, "do not go together"),
+        ({"task": {"x": [0.1, 0.2]}, "joints": {("pin", "rz"): [1, 2, 3]}}, "do not match"),
         ({"tool": Poses.of([0, 0, 0.0]), "task": {"x": 0.0}}, "both a pose and a task"),
     ],
 )
@@ -272,4 +272,4 @@ def test_a_flat_parallelogram_says_that_home_is_special() -> None:
         beside.move(joints={("j1", "rz"): 0.2}).coordinate("j4", "rz"), 0.2, atol=1e-9
     )
     wrong = beside.move(joints={("j1", "rz"): 0.2, ("j4", "rz"): 0.1})
-    assert "contradicts itself" in wrong.placement.reason(())
+    assert "contradict one another" in wrong.placement.reason(())

@@ -1,28 +1,45 @@
-"""What `strutwork.kinematics` offers by name, and what its import does not yet read."""
+"""What packages offer by name, and what the import of `strutwork.kinematics` does not yet read."""
 
 from __future__ import annotations
 
 import pkgutil
 import subprocess
 import sys
+from types import ModuleType
 
 import pytest
 
-from strutwork import kinematics
+from strutwork import kinematics, msa, overconstraint
 from strutwork.kinematics.motion import Motion
 
-
-@pytest.mark.parametrize("name", kinematics.__all__)
-def test_each_name_is_there_and_is_listed(name: str) -> None:
-    assert getattr(kinematics, name) is not None
-    assert name in dir(kinematics)
+PACKAGES = (kinematics, msa, overconstraint)
 
 
-def test_names_that_are_read_later_are_public_and_no_file_takes_their_place() -> None:
-    files = {found.name for found in pkgutil.iter_modules(kinematics.__path__)}
-    later = set(kinematics._LATER)
-    assert later <= set(kinematics.__all__)
-    assert not later & files
+@pytest.mark.parametrize(("package", "name"), [(p, name) for p in PACKAGES for name in p.__all__])
+def test_each_name_is_there_and_is_listed(package: ModuleType, name: str) -> None:
+    assert getattr(package, name) is not None
+    assert name in dir(package)
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_names_that_are_read_later_are_public_and_of_no_other_file(package: ModuleType) -> None:
+    files = {found.name for found in pkgutil.iter_modules(package.__path__)}
+    assert set(package._LATER) <= set(package.__all__)
+    assert {package._LATER[name] for name in package._LATER} <= files
+    # Python puts a file that is read in the place of its name: only its own name may stand there
+    assert all(file == name for name, file in package._LATER.items() if name in files)
+
+
+@pytest.mark.parametrize("first", ["import strutwork.msa.solve", "from strutwork.msa import solve"])
+def test_a_name_stands_in_the_place_of_its_file_whoever_reads_it_first(first: str) -> None:
+    program = (
+        f"{first}; import strutwork.msa as m; from strutwork.msa.solve import solve as own; "
+        "from strutwork.msa import solve; print(m.solve is own, solve is own)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["True", "True"]
 
 
 def test_a_name_is_the_one_of_its_file() -> None:

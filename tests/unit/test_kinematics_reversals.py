@@ -176,9 +176,9 @@ def test_bad_input_is_named() -> None:
     axis = np.linspace(-0.1, 0.1, 5)
     with pytest.raises(ModelError, match="beyond the sphere's radius of 50 mm"):
         reversals(hexapod(Dome(sphere(0.05, [0, 0, 0.4]))), axis, axis)
-    with pytest.raises(ModelError, match="second parameter: is no ascending row"):
+    with pytest.raises(ModelError, match="second parameter: is not an ascending row"):
         reversals(hexapod(Plane(("x", "y"))), axis, axis[::-1])
-    with pytest.raises(UnreachableError, match="no point that the machine can take"):
+    with pytest.raises(UnreachableError, match="no point that the machine can reach"):
         reversals(hexapod(Dome(sphere(0.5, [0, 0, 2.0]))), axis, axis)
     with pytest.raises(ModelError, match="in rx"):
         MotionField(

@@ -94,7 +94,7 @@ def test_a_parallelogram_branches_where_it_is_flat() -> None:
     assert places(found, "turn") == pytest.approx([0.0, np.pi], abs=1e-9)
     assert {one.kind for one in found} == {Kind.CONFIGURATION}
     assert found[0].lost is not None
-    assert "joints that lose a condition: R1, R2, R3, R4" in found[0].lost.description
+    assert "joints that lose a constraint: R1, R2, R3, R4" in found[0].lost.description
 
 
 def three_sliders() -> tuple[Linkage, PoseFamily]:

@@ -147,7 +147,7 @@ def test_samples_that_are_refused(times: Any, values: Array, message: str) -> No
 
 def test_paths_that_are_refused() -> None:
     times, values = np.arange(4.0), np.zeros((4, 1))
-    with pytest.raises(ModelError, match="derivatives alone"):
+    with pytest.raises(ModelError, match="only first or only second derivatives"):
         sampled(X, times, values, values)
     with pytest.raises(ModelError, match="lasts 0"):
         point_to_point(X, [0.0], [1.0], 0.0)

@@ -76,8 +76,8 @@ def test_poses_that_it_cannot_take_say_why() -> None:
     machine = BiglideThirdLeg()
     turned = Poses.of([0.0, 0.0, 0.0], rotation_z(np.asarray(0.1)))
     for poses, words in (
-        (Poses.of([0.0, 0.0, 1e-3], np.eye(3)), "stands off the plane"),
-        (turned, "turned about another axis than y"),
+        (Poses.of([0.0, 0.0, 1e-3], np.eye(3)), "is outside the plane"),
+        (turned, "rotated about an axis other than y"),
         (machine.poses(0.0, 1.01), "leg 1: its end is farther"),
         (machine.poses(-1.01, 0.0), "leg 2: its end is farther"),
         (machine.poses(0.5, 0.5, np.pi), "leg 3: its end is farther"),

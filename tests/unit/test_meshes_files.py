@@ -221,9 +221,9 @@ def test_inverted_cells_of_a_file_are_counted_and_placed(tmp_path: Path) -> None
 @pytest.mark.parametrize(
     ("suffix", "name", "words"),
     [
-        (".msh", 'a"b', "Gmsh cannot hold the name"),
-        (".med", "λ", "MED cannot hold the name"),
-        (".med", "a/b", "MED cannot hold the name"),
+        (".msh", 'a"b', "Gmsh cannot store the name"),
+        (".med", "λ", "MED cannot store the name"),
+        (".med", "a/b", "MED cannot store the name"),
         (".msh", "top", "used by two of a region, a patch and a node set"),
     ],
 )

@@ -172,7 +172,7 @@ def test_a_text_stl_cut_short_is_refused(tmp_path: Path) -> None:
     ("name", "unit", "words"),
     [
         ("none.stl", "m", "no such file"),
-        ("part.step", "m", "none of a surface"),
+        ("part.step", "m", "not that of a surface"),
         ("part.stl", "inch", "unit is given as 'inch'"),
         ("part.glb", "mm", "glTF is in m"),
     ],

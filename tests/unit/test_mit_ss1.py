@@ -125,9 +125,9 @@ def test_pins_turn_by_what_their_values_say() -> None:
 @pytest.mark.parametrize(
     ("poses", "words"),
     [
-        (Poses.of([0.0, 1e-3, 0.0]), "off the plane y = 0"),
-        (Poses.of([0.0, 0.0, 0.0], rotation_z(0.01)), "another axis than y"),
-        (Poses.of([0.0, 0.0, 0.0], np.diag([1.0, -1.0, -1.0])), "another axis than y"),
+        (Poses.of([0.0, 1e-3, 0.0]), "outside the plane y = 0"),
+        (Poses.of([0.0, 0.0, 0.0], rotation_z(0.01)), "an axis other than y"),
+        (Poses.of([0.0, 0.0, 0.0], np.diag([1.0, -1.0, -1.0])), "an axis other than y"),
         (Poses.of([0.3, 0.0, 0.0]), "strut 1: its joint on the housing is farther"),
         (Poses.of([-0.25, 0.0, 0.0]), "strut 2: its joint on the housing is farther"),
         (Poses.of([-0.06, 0.0, 0.0]), "strut 3: its joint on the housing is farther"),

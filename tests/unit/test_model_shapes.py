@@ -105,10 +105,10 @@ def test_shapes_that_collide_at_home_name_both(tmp_path: Path) -> None:
         ('"post.stl"', '"missing.stl"', r'shapes\[0\].surface: there is no file "missing.stl"'),
         ('"post.stl"', '"../post.stl"', "leads out of the folder"),
         ('"post.stl"', '"post.toml"', r"there is no file"),
-        ('"post.stl"', '"arm.toml"', r"suffix '.toml' is none of a surface"),
+        ('"post.stl"', '"arm.toml"', r"suffix '.toml' is not that of a surface"),
         ('"post.stl"', '"open.stl"', "is not watertight"),
         ('"post.stl"', '"two.stl"', "holds 2 separate bodies"),
-        ('"post.stl"', '"broken.stl"', "is cut short or no STL file"),
+        ('"post.stl"', '"broken.stl"', "is cut short or not an STL file"),
         ('"post.stl"', '"fine.stl"', r"triangles; 200000 is the limit"),
         ('body = "post"\nsurface', 'body = "pole"\nsurface', 'unknown body, beam or solid "pole"'),
         ("[[shapes]]", SHAPE + "[[shapes]]", 'has the name "post" of another shape'),
@@ -159,5 +159,5 @@ def test_the_chapter_says_what_was_looked_at(tmp_path: Path) -> None:
 def test_formulas_that_tell_no_turns_are_refused(tmp_path: Path) -> None:
     model = load(str(written(tmp_path)))
     formula = replace(model, closed_form=lambda _: model.placement)
-    with pytest.raises(ModelError, match="needs bodies whose turns are known"):
+    with pytest.raises(ModelError, match="needs the rotations of the bodies"):
         interference_of(formula, None)

@@ -36,7 +36,7 @@ WRONG: dict[str, tuple[list[Edit], list[str]]] = {
     "no cell": ([drop("solids.0.cell")], ["solids.column.cell", "missing", "block"]),
     "key of another shape": (
         [put("solids.0.plate", 0.1)],
-        ["solids.column.plate", "no key of a block", "size, cell"],
+        ["solids.column.plate", "not a key of a block", "size, cell"],
     ),
     "unknown shape": ([put("solids.0.shape", "ball")], ["solids.column.shape", '"ball"']),
     "unknown key": ([put("solids.0.modess", 6)], ["solids.column.modess", '"modes"']),
@@ -78,7 +78,7 @@ WRONG: dict[str, tuple[list[Edit], list[str]]] = {
         [drop("materials.granite.density")],
         ["solids.column.material", "density", "materials.granite"],
     ),
-    "cannot be compressed": (
+    "is incompressible": (
         [put("materials.granite.poissons_ratio", 0.5)],
         ["solids.column", "Poisson's ratio"],
     ),
@@ -148,7 +148,7 @@ WRONG: dict[str, tuple[list[Edit], list[str]]] = {
     "empty file": ([from_file("empty.msh")], ["solids.column.mesh", "empty"]),
     "inverted cells": ([from_file("inverted.msh")], ["solids.column.mesh", "16 of 16 cells"]),
     "unknown unit": ([from_file("part.msh", unit="inch")], ["solids.column.unit", '"inch"']),
-    "unit of a block": ([put("solids.0.unit", "mm")], ["solids.column.unit", "no key of a block"]),
+    "unit of a block": ([put("solids.0.unit", "mm")], ["solids.column.unit", "not a key of a"]),
 }  # fmt: skip
 
 

@@ -132,7 +132,7 @@ def test_an_unreachable_pose_is_named_with_its_reason() -> None:
         placement.positions, placement.frames, placement.values, (), status, ("leg 2 too short",)
     )
     structure = LIBRARY["hexapod"]().model.structure()
-    with pytest.raises(UnreachableError, match="pose 4: cannot be taken: leg 2 too short"):
+    with pytest.raises(UnreachableError, match="pose 4: cannot be reached: leg 2 too short"):
         structure.at(bad)
     assert structure.at(bad[bad.reachable]).batch == (6,)
 

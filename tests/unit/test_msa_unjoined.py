@@ -17,7 +17,7 @@ CASES = Path(__file__).parents[1] / "cases" / "models"
 
 
 def meeting(gap: float = 0.0) -> Model:
-    """Two beams whose ends stand at one place, on a metre."""
+    """Two beams whose ends are at one place, on a metre."""
     model = Model()
     model.nodes(a=(0, 0, 0), b=(1, 0, 0), b2=(1 + gap, 0, 0), c=(2, 0, 0))
     model.beam("left", "a", "b", rod(0.02))
@@ -68,9 +68,7 @@ def test_a_rigid_body_with_two_nodes_at_one_place() -> None:
 
 
 def test_a_file_whose_beams_end_under_two_names_warns_and_the_error_says_why() -> None:
-    with pytest.warns(
-        ModelWarning, match="nodes B of beam b1 and B2 of beam b2 stand at one place"
-    ):
+    with pytest.warns(ModelWarning, match="nodes B of beam b1 and B2 of beam b2 are at one place"):
         model = read_model(CASES / "f8_unjoined.toml")
     with pytest.raises(MechanismError, match="Probably nodes B of beam b1 and B2 of beam b2"):
         solve(model.placed, model.cases)

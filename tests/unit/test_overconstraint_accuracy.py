@@ -130,7 +130,7 @@ def test_redundant_rows_ask_the_stiffness() -> None:
     model = load(f"{FOLDER}/gantry.toml")
     errors = drive_errors(model)
     assert bool(accuracy(model.placed, model.tolerances, errors).elastic)
-    with pytest.raises(ModelError, match="hold more than they need"):
+    with pytest.raises(ModelError, match="are over-constrained"):
         accuracy(model.placed, model.tolerances, errors, "rows")
 
 

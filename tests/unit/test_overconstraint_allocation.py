@@ -281,10 +281,10 @@ def test_slopes_of_a_quantile_are_its_differences() -> None:
 def test_limits_that_cannot_be_met() -> None:
     responses = case(one_of_each())
     limits = all_limits(responses, 0.9)
-    with pytest.raises(ModelError, match=r"limit of the joint\d .*cannot be kept.*still") as error:
+    with pytest.raises(ModelError, match=r"limit of the joint\d .*cannot be met.*still") as error:
         allocate(responses, limits, bounds={"axis1": (1e-2, None)})
     assert "Raise the limit" in error.value.remedy
-    with pytest.raises(ModelError, match="joint1 radial force: 100 N cannot be kept"):
+    with pytest.raises(ModelError, match="joint1 radial force: 100 N cannot be met"):
         # the spacer's middle alone loads the joints
         allocate(responses, {("joint1", "radial force"): 100.0}, "cost")
     with pytest.raises(ModelError, match=r"fewer than 0\.99 of the assemblies"):

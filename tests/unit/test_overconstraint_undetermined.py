@@ -27,7 +27,9 @@ def door(**hinge: float) -> PlacedStructure:
 
 
 def test_rigid_hinges_share_an_unknown_way() -> None:
-    with pytest.warns(UndeterminedWarning, match=r"top in x.*bottom in x.*only their sum is sure"):
+    with pytest.warns(
+        UndeterminedWarning, match=r"top in x.*bottom in x.*only their sum is certain"
+    ):
         found = influence(door(), [("stop", "x")])
     # the sum is sure: the two hinges balance the mount
     np.testing.assert_allclose(found.forces[:, 0].sum(axis=0), 0.0, atol=1e-3)

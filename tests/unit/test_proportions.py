@@ -1,4 +1,4 @@
-"""Dimensions out of all proportion are named; millimetres taken for metres, mostly."""
+"""Dimensions out of proportion are named; millimetres taken for metres, mostly."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_a_length_in_millimetres_is_named(name: str) -> None:
     assert len(named) >= 3
     for field in named:
         length = getattr(machine, field)
-        with pytest.raises(ModelError, match=rf"{field}.*m, out of all proportion[\s\S]*metres"):
+        with pytest.raises(ModelError, match=rf"{field}.*m, out of proportion[\s\S]*metres"):
             replace(machine, **{field: 1000.0 * length})
 
 

@@ -59,7 +59,7 @@ def test_the_poses_at_fault_are_found_and_the_others_solved_once() -> None:
     with pytest.raises(NumericalError, match="residual"):
         found.require_all()
     assert found.require_some() is found
-    with pytest.warns(PoseWarning, match="no answer at 3 of 1000 poses.*2: solution"):
+    with pytest.warns(PoseWarning, match="no result at 3 of 1000 poses.*2: solution"):
         found.warn("compliance")
 
 
@@ -112,7 +112,7 @@ def spoiled(count: int) -> PlacedStructure:
 def test_a_mechanism_in_a_batch_is_marked_and_the_rest_solved(count: int) -> None:
     placed = spoiled(count)
     good = np.arange(count) != 1
-    with pytest.warns(PoseWarning, match=f"no answer at 1 of {count} poses, .*moves freely"):
+    with pytest.warns(PoseWarning, match=f"no result at 1 of {count} poses, .*moves freely"):
         found = tool_compliance(placed)
     again, outcome = compliance_and_outcome(placed)
     np.testing.assert_array_equal(again, found)

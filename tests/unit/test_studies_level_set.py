@@ -120,7 +120,7 @@ def test_wrong_grids() -> None:
         margin_grid("x", [np.linspace(0, 1, 6)], good)
     with pytest.raises(ModelError, match="one, two or three"):
         margin_grid("", [], good)
-    with pytest.raises(ModelError, match="rise evenly"):
+    with pytest.raises(ModelError, match="evenly spaced"):
         margin_grid("x", [np.array([0.0, 1.0, 2.0, 4.0, 5.0])], good)
     with pytest.raises(ModelError, match="not a number"):
         margin_grid("x", axes(1, 5), shape(lambda p: np.full(len(p), np.nan)))

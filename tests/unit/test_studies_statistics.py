@@ -136,7 +136,7 @@ def test_summary_says_what_it_does_not_know(settings: dict[str, str], message: s
 
 
 def test_summary_of_nothing_is_an_error() -> None:
-    with pytest.raises(ModelError, match="no pose counts"):
+    with pytest.raises(ModelError, match="no valid pose"):
         summary(dataset([1.0], [int(PoseStatus.UNREACHABLE)]))
 
 

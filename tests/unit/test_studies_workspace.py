@@ -245,7 +245,7 @@ def test_a_grid_too_large_is_refused_beforehand(monkeypatch: pytest.MonkeyPatch)
     axes = {d: np.linspace(-0.05, 0.05, 41) for d in "xyz"}
     monkeypatch.setattr(module, "LONGEST", 1e-3)
     with pytest.raises(
-        ModelError, match=r"68,921 poses, which would take .* GB; 10,000,000 poses, 2"
+        ModelError, match=r"68,921 poses, which would take .* GB; at most 10,000,000 poses, 2"
     ):
         workspace(margin, axes)
     monkeypatch.setattr(module, "LONGEST", 7200.0)

@@ -158,7 +158,7 @@ def test_library_stays_unloaded_for_common_units() -> None:
 def test_what_leaves_the_range_of_doubles_in_products_is_refused(
     value: object, dimension: Dimension
 ) -> None:
-    with pytest.raises(UnitError, match="the largest that counts"):
+    with pytest.raises(UnitError, match="the largest that is accepted"):
         quantity(value, dimension, "field")
 
 

@@ -40,8 +40,8 @@ def method_table(filters: Filters) -> Table:
                 "radius 4 mm, 317 points",
                 PAPER,
                 (
-                    "section 3; which points is not printed: taken is the lattice i² + j² ≤ 100, "
-                    "projected up"
+                    "section 3; the points are not printed: assumed is the lattice i² + j² ≤ "
+                    "100, projected up"
                 ),
             ),
             (
@@ -51,7 +51,7 @@ def method_table(filters: Filters) -> Table:
                 "the best of them is taken at each point by the largest Kxx (section 3.3.1)",
             ),
             (
-                "Joint ranges kept",
+                "Joint ranges respected",
                 kinds,
                 OURS,
                 "with the other ranges of Table 3 the published means are out of reach",
@@ -80,7 +80,7 @@ def method_table(filters: Filters) -> Table:
                 OURS,
                 "free directions free, the others without compliance",
             ),
-            ("Guide", "rigid", OURS, "only the drives yield along it"),
+            ("Guide", "rigid", OURS, "only the drives are compliant along it"),
         ],
     )
 
@@ -102,11 +102,11 @@ def models_table() -> Table:
             ),
             (
                 "carriage on the guide",
-                "follows the guide and turns as it slides",
-                "slides along the tangent and does not turn",
+                "follows the guide and rotates as it slides",
+                "slides along the tangent and does not rotate",
             ),
             (
-                "what it is for",
+                "purpose",
                 "the machine as it is drawn and described",
                 "comes closest to the paper's tables; not a prediction",
             ),
@@ -131,7 +131,7 @@ def _common(machine: ThreeLegs) -> list[Line]:
             "Stiffness of a drive",
             "3 N/µm on both drives of a leg",
             PAPER,
-            "section 3.3.1 gives the value; that both drives have it is a reading of it",
+            "section 3.3.1 gives the value; it is assumed for both drives",
         ),
         ("Range of the passive revolute joint", f"{low:.0f}° to {high:.0f}°", PAPER, "Table 3"),
         ("Tool centre point", "centre of the spherical joints", OURS, "not printed"),
@@ -187,7 +187,7 @@ def _own(machine: ThreeLegs) -> list[Line]:
                 "Second drive",
                 "a spring along the radius at the shoulder",
                 CALIBRATED,
-                "how 3 N/µm act on a turning drive is not printed; this meets Table 4 best",
+                "how 3 N/µm act on a rotary drive is not printed; this meets Table 4 best",
             ),
         ]
     return []

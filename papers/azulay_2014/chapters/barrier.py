@@ -9,14 +9,15 @@ from strutwork.papers.tables import numbers, texts
 from strutwork.reports.chapters.stiffness import AXES
 from strutwork.reports.content import Chapter, Table, Text
 from strutwork.reports.numbers import micro, significant
+from strutwork.reports.pivot import Entry, pivoted
 
 NONE = "–"
 
 BARRIER = (
-    "With six drives no way leads from the pole to a tilt of 90° on this hemisphere: at every roll "
-    "one tilt between them is a type 2 singularity, where the platform moves though all drives are "
-    "held. The singular poses fill the ring between the two dashed circles, one distance for each "
-    "roll. A seventh drive would be needed to cross it."
+    "With six drives no path leads from the pole to a tilt of 90° on this hemisphere: at every "
+    "roll one tilt between them is a type 2 singularity, where the platform can move although "
+    "all drives are held. The singular poses fill the ring between the two dashed circles, one "
+    "distance for each roll. A seventh drive would be needed to cross it."
 )
 
 
@@ -43,12 +44,12 @@ def regions_chapter(found: Mapping[str, Barred], first: str) -> Chapter:
     """
     return Chapter(
         "regions",
-        "What six drives and the joint ranges leave",
+        "What is reached with six drives and the joint ranges",
         (
             ring_text(found),
             Text(
                 "A machine works on one side of the ring only. Each side is connected over tilts "
-                "and rolls; a point belongs to the side of the pose that is chosen there."
+                "and rolls; a point belongs to the side of the pose chosen for it."
             ),
             regions_table(found, first, own=True),
             regions_table(found, first, own=False),
@@ -64,38 +65,39 @@ def regions_chapter(found: Mapping[str, Barred], first: str) -> Chapter:
 
 
 def regions_table(found: Mapping[str, Barred], first: str, own: bool) -> Table:
-    """Statistics for each connected region as well as for all points."""
-    rows = []
-    for label, one in found.items():
-        for side, words in SIDES.items():
-            rows += _rows(one, label, words, side, own)
-    columns = (
-        *texts(first, "region", "axis"),
-        *numbers("mean", unit="N/µm"),
-        *numbers("variance", unit="N²/µm²"),
-        *numbers("minimum", "maximum", unit="N/µm"),
-        *numbers("points"),
+    """Statistics for each connected region as well as for all points, axes side by side."""
+    entries = [
+        Entry([label, words, f"{one.kept(own, side)}"], f"K{axis * 2}", cells)
+        for label, one in found.items()
+        for side, words in SIDES.items()
+        for axis, cells in _by_axis(one, side, own).items()
+    ]
+    return pivoted(
+        f"Blocked stiffness by region; joint ranges respected: {RANGES[own]}",
+        (*texts(first, "region"), *numbers("points")),
+        (
+            *numbers("mean", unit="N/µm"),
+            *numbers("variance", unit="N²/µm²"),
+            *numbers("least to largest", unit="N/µm"),
+        ),
+        entries,
+        "report.json",
     )
-    return Table(f"By region; joint ranges kept: {RANGES[own]}", columns, rows, "report.json")
 
 
-def _rows(one: Barred, label: str, words: str, side: Side, own: bool) -> list[list[str]]:
+def _by_axis(one: Barred, side: Side, own: bool) -> dict[str, list[str]]:
     part = one.parts[own, side]
     if part is None:
-        return [[label, words, NONE, NONE, NONE, NONE, NONE, "0"]]
-    return [
-        [
-            label,
-            words,
-            f"K{axis * 2}",
-            micro(part.axis(axis).statistics.mean),
-            significant(part.axis(axis).statistics.variance / 1e12),
-            micro(part.axis(axis).worst.value),
-            micro(part.axis(axis).best.value),
-            str(part.points_kept),
+        return {axis: [NONE] * 3 for axis in AXES}
+    found = {}
+    for axis in AXES:
+        values = part.axis(axis)
+        found[axis] = [
+            micro(values.statistics.mean),
+            significant(values.statistics.variance / 1e12),
+            f"{micro(values.worst.value)} to {micro(values.best.value)}",
         ]
-        for axis in AXES
-    ]
+    return found
 
 
 def ranges_table(found: Mapping[str, Barred], first: str) -> Table:
@@ -111,9 +113,9 @@ def ranges_table(found: Mapping[str, Barred], first: str) -> Table:
         for own in RANGES
     ]
     columns = (
-        *texts(first, "joint ranges kept"),
+        *texts(first, "joint ranges respected"),
         *numbers("all", "pole's side", "beyond", group="check points kept"),
         *numbers(*(f"K{a * 2}" for a in AXES), unit="N/µm", group="mean"),
     )
     count = next(iter(found.values())).points
-    return Table(f"Of {count} check points", columns, rows, "report.json")
+    return Table(f"Of {count} check points; stiffness blocked", columns, rows, "report.json")

@@ -27,10 +27,10 @@ def budget_chapter(study: MachineStudy) -> Chapter:
         )
     blocks: list[Block] = [
         Text(
-            "Which part gives way under a force at the tool: the share of each part's strain "
-            "energy, which is its share in the deflection along the force. The poses are those "
-            "with the largest, the median and the smallest stiffness along that axis; the tool's "
-            "other directions are free to follow the force."
+            "The chart shows which parts deform under a force at the tool: each part's share of "
+            "the strain energy is its share in the deflection along the force. The poses are "
+            "those with the largest, the median and the smallest stiffness along that axis; the "
+            "tool's other directions are free to follow the force."
         ),
         Row(tuple(figures), 420),
     ]

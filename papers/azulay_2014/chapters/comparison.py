@@ -39,6 +39,7 @@ from strutwork.reports.content import (
     Text,
 )
 from strutwork.reports.figures.charts import Bars, grouped, stacked_shares
+from strutwork.reports.long_tables import parted
 from strutwork.reports.numbers import micro, significant
 
 #: Short names for axes of charts.
@@ -70,14 +71,14 @@ def summary_chapter(study: Comparison) -> Chapter:
         f"which their own joint ranges leave {left}. "
         + " ".join(
             f"Along {a} the {SHORT[stiffest[a]]} machine is the stiffest, "
-            f"{micro(study.barred[stiffest[a], 'spherical'].mean(a, True))} N/µm on "
-            "average over the points that it keeps."
+            f"{micro(study.barred[stiffest[a], 'spherical'].mean(a, True))} N/µm on average over "
+            "the points that remain."
             for a in AXES
         )
-        + f" With the ranges of revolute joints alone, which the paper's means agree with, the "
-        f"order of the four machines is the published one along {_along(agree)}; with all of a "
-        f"machine's own ranges along {_along(own)}. No machine comes from the pole to 90° with its "
-        "six drives: a ring of singular poses lies between."
+        + " With the ranges of revolute joints alone, which the paper's means agree with, "
+        f"the order of the four machines is the published one along {_along(agree)}; with "
+        f"all of a machine's own ranges along {_along(own)}. No machine passes from the "
+        "pole to 90° with its six drives: a ring of singular poses lies between."
     )
     facts = []
     for axis in AXES:
@@ -114,11 +115,11 @@ def summary_chapter(study: Comparison) -> Chapter:
             Facts(tuple(facts)),
             means_table(study),
             Note(
-                "True spherical joints are the machines as they are described. The paper's own "
-                "numbers suggest links clamped in the platform; that model comes closer and is "
+                "The model with true spherical joints is the machines as described. The paper's "
+                "own numbers suggest links clamped in the platform; that model is closer and is "
                 "shown beside the first throughout, labelled “as the paper's numbers suggest”. "
-                "Both are calibrated, neither is a prediction: heights of poles, lengths and the "
-                "model of the drives were chosen with the paper's means in view."
+                "Both are calibrated and neither is a prediction: heights of poles, lengths and "
+                "the model of the drives were chosen to match the paper's means."
             ),
         ),
     )
@@ -227,8 +228,8 @@ def rankings_chapter(study: Comparison) -> Chapter:
                 "Order of the machines", [Column(h, "", False) for h in heads], rows, "report.json"
             ),
             Text(
-                "Along z the place of the Glozman machine is calibrated: the height of its pole, "
-                "which the paper does not give, was fitted to that place."
+                "Along z the rank of the Glozman machine is calibrated: the height of its pole, "
+                "which the paper does not give, was fitted to that rank."
             ),
         ),
     )
@@ -261,8 +262,8 @@ def reasons_chapter(study: Comparison) -> Chapter:
     high = TABLE_4.value("proposed-3pprs", "Kzz mean")
     spherical, apparent = (_mean_difference(study, model) for model in MODEL_NAMES)
     variances = (
-        f"Variances that no model tried meets within a factor of two, N²/µm²: {missed}. How the "
-        "paper chose and dropped its poses is not printed in full."
+        f"Variances that no model tried meets within a factor of two, N²/µm²: {missed}. The paper "
+        "does not fully state how it chose and dropped its poses."
     )
     tables = (
         f"Tables 2 and 4 print {low:g} and {high:g} N/µm for the mean Kzz of one machine: no model "
@@ -274,9 +275,10 @@ def reasons_chapter(study: Comparison) -> Chapter:
         "rotations of the spherical joints had not been released."
     )
     fitted = (
-        "The heights of the workpiece's pole, the length of the Eclipse column and of the Alizade "
-        "strut, and how the Glozman machine's turning drive yields are not printed. What matters "
-        "of them was fitted to Table 4, so its rows are called calibrated, whether near or not."
+        "The heights of the workpiece's pole, the length of the Eclipse column and of the "
+        "Alizade strut, and the compliance of the Glozman machine's rotary drive are not "
+        "printed. Those that matter were fitted to Table 4, so its rows are called calibrated, "
+        "whether close or not."
     )
     points = "The check points are not printed, only their number."
     return Chapter(
@@ -313,9 +315,9 @@ def budget_chapter(study: Comparison) -> Chapter:
         ]
     blocks = (
         Text(
-            "Which part gives way under a force at the tool, true spherical joints: shares of the "
-            "strain energy at the best, median and worst pose along each axis, other directions "
-            "free to follow."
+            "The charts show which parts deform under a force at the tool, with true spherical "
+            "joints: shares of the strain energy at the best, median and worst pose along each "
+            "axis, other directions free to follow."
         ),
         Row(tuple(figures), 420),
     )
@@ -334,15 +336,20 @@ def poses_chapter(study: Comparison) -> Chapter:
             study.azulay.summaries[name, "spherical"],
         )
     ]
+    # machines are compared axis by axis
+    rows.sort(key=lambda row: str(row[1]))
     return Chapter(
         "poses",
         "Worst poses and dropped poses",
         (
-            Table(
-                "Worst and best poses, true spherical joints",
-                pose_columns("machine"),
-                rows,
-                "report.json",
+            *parted(
+                Table(
+                    "Worst and best poses, stiffness blocked, true spherical joints",
+                    pose_columns("machine"),
+                    rows,
+                    "report.json",
+                ),
+                1,
             ),
             dropped_table(maps, "machine"),
         ),

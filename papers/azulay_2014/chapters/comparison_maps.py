@@ -16,9 +16,9 @@ def maps_chapter(study: Comparison) -> Chapter:
     """Small discs, one for each machine and axis, with one scale an axis."""
     blocks: list[Block] = [
         Text(
-            "True spherical joints, seen from above; the middle of a disc is the pole, its rim the "
-            "equator of the hemisphere. The four machines of a row share one scale. ▽ marks the "
-            "worst point, ▲ the best, × points where no pose counts."
+            "The maps are for true spherical joints and seen from above; the middle of a disc is "
+            "the pole and its rim the equator of the hemisphere. The four machines of a row "
+            "share one scale. ▽ marks the worst point, ▲ the best, × points without a valid pose."
         ),
         ring_text({SHORT[name]: study.barred[name, "spherical"] for name in study.names}),
     ]

@@ -43,8 +43,8 @@ def lengths_chapter(study: MachineStudy) -> Chapter:
     table, file = published_table(TABLE_2, rows)
     blocks: list[Block] = [
         Text(
-            "Longer links make the machine softer along every axis, most along z. Only the links "
-            "change; guide, platform and workpiece stay."
+            "Longer links make the machine softer along every axis, most of all along z. Only "
+            "the links change; guide, platform and workpiece stay the same."
         ),
         Row(tuple(figures), 360),
         *table,

@@ -20,8 +20,9 @@ from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.numbers import fixed, micro, percent, significant
 
 DRAWING = (
-    "Drag to turn, scroll to zoom; names show under the pointer. Lengths are in mm and links at "
-    "their true diameter; joint symbols are not to scale. Black arrows show the driven motions."
+    "Drag to rotate, scroll to zoom; names appear under the pointer. Lengths are in mm and links "
+    "at their true diameter; joint symbols are not to scale. Black arrows show the driven "
+    "motions."
 )
 
 
@@ -33,14 +34,15 @@ def summary_chapter(study: MachineStudy) -> Chapter:
     found = parted.parts[True, "all"] or wide
     linkage = study.machines["spherical"].linkage
     text = (
-        f"{study.entry.title}: three legs on one circular guide carry the platform, each leg, from "
-        f"the guide up, {study.entry.topology} (P prismatic, R revolute, S spherical; driven ones "
-        f"in brackets), {len(linkage.driven)} drives in all. Its static stiffness at the tool was "
-        f"computed at the {found.points_kept} of {found.points} check points on a hemisphere that "
-        "its own joint ranges leave, at each of them with the roll that makes Kxx largest; "
-        f"{parted.kept(True, 'pole')} of them lie on the pole's side of the singular ring and "
-        f"{parted.kept(True, 'beyond')} beyond it, where six drives do not lead. The paper's means "
-        f"agree best with the ranges of the revolute joints alone, which leave {wide.points_kept}."
+        f"{study.entry.title}: three legs on one circular guide carry the platform, each leg, "
+        f"from the guide up, {study.entry.topology} (P prismatic, R revolute, S spherical; driven "
+        f"ones in brackets), {len(linkage.driven)} drives in all. Its static stiffness at the "
+        f"tool was computed at the {found.points_kept} of {found.points} check points on a "
+        "hemisphere that its own joint ranges leave, at each of them with the roll that makes "
+        f"Kxx largest; {parted.kept(True, 'pole')} of them lie on the pole's side of the singular "
+        f"ring and {parted.kept(True, 'beyond')} beyond it, which six drives do not reach. The "
+        "paper's means agree best with the ranges of the revolute joints alone, which leave "
+        f"{wide.points_kept}."
     )
     facts = []
     for axis in AXES:
@@ -64,7 +66,7 @@ def summary_chapter(study: MachineStudy) -> Chapter:
     where = ", ".join(fixed(1e3 * v, 1) for v in worst.worst.position)
     facts.append(
         Fact(
-            "Softest of all",
+            "Least stiffness",
             micro(worst.worst.value),
             "N/µm",
             f"K{worst.direction * 2} at x, y, z = {where} mm",
@@ -77,10 +79,10 @@ def summary_chapter(study: MachineStudy) -> Chapter:
             Text(text),
             Facts(tuple(facts)),
             Note(
-                "Large numbers: true spherical joints, which is the machine as it is described. "
-                "The paper's own numbers suggest links clamped in the platform; both models stand "
-                "side by side below, each labelled. Both are calibrated: dimensions that the paper "
-                "leaves open were chosen with its means in view."
+                "The large numbers are for true spherical joints, the machine as described. The "
+                "paper's own numbers suggest links clamped in the platform; both models are "
+                "shown side by side below, each labelled. Both are calibrated: dimensions that "
+                "the paper leaves open were chosen to match its means."
             ),
         ),
     )

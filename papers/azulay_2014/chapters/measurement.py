@@ -112,22 +112,22 @@ def measurement_chapter(machine: Prototype3PPPRS) -> Chapter:
     lone = [significant(f, 4) for f in (*result.only_measured, *result.only_computed)]
     blocks: list[Block] = [
         Note(
-            "No measured data of this machine are printed. What is called synthetic here was "
-            "calculated: the model with steel, drives, masses, damping and places of the stages "
-            f"changed at random (seed {measured.seed}) and {100 * measured.noise:g} % noise. It "
-            "shows how a measurement is compared, and says nothing of the machine."
+            "No measured data of this machine are printed. The synthetic data were calculated "
+            "from the model with steel, drives, masses, damping and positions of the stages "
+            f"changed at random (seed {measured.seed}) and {100 * measured.noise:g} % noise. They "
+            "show how a measurement is compared and say nothing about the machine."
         ),
         pairs,
         Text(
-            "MAC compares shapes, one is the same; modes of equal frequency are compared as the "
-            "span of their group. "
+            "MAC compares shapes, and one means equal; modes of equal frequency are compared as "
+            "the span of their group. "
             + (f"Without a partner: {', '.join(lone)} Hz." if lone else "No mode is left over.")
         ),
         fits,
         Text(
-            "FRAC compares whole responses, one is the same but for a factor. A small shift of a "
-            "frequency ruins it, so the scale of the computed frequencies that makes it best "
-            "stands beside it."
+            "FRAC compares entire responses, and one means equal up to a factor. A small shift "
+            "of a frequency spoils it, so the best scale of the computed frequencies is given "
+            "beside it."
         ),
         Row(tuple(figures), 420),
     ]

@@ -9,19 +9,21 @@ from strutwork.papers.azulay_2014.comparison import Model
 from strutwork.papers.azulay_2014.machine_study import MODEL_NAMES
 from strutwork.papers.published_rows import PublishedRow, file_name
 from strutwork.papers.published_table import PublishedTable
-from strutwork.papers.tables import difference, numbers, ours, rows_file, texts
-from strutwork.reports.content import Block, Cell, Points, Table, Text
+from strutwork.papers.tables import beside, numbers, rows_file, texts
+from strutwork.reports.content import Block, Column, Points, Table, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.numbers import significant
+from strutwork.reports.pivot import Entry, pivoted
 
 Rows = Mapping[Model, tuple[PublishedRow, ...]]
 
 READING = (
-    "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while its "
-    "other five directions are held. This is the meaning that agrees with the paper. All means "
-    "are called calibrated, near or far: heights of the pole, lengths and the model of the drives "
-    "were chosen with the means of these tables in view. To the variances nothing was fitted; as "
-    "a set they do not come out and are called not reproducible. Nothing is rescaled."
+    "Stiffness along an axis is the blocked one, (C⁻¹)_ii: the tool moves along the axis while "
+    "its other five directions are held. This is the meaning that agrees with the paper. All "
+    "means are called calibrated, close or not: heights of the pole, lengths and the model of "
+    "the drives were chosen to match the means of these tables. Nothing was fitted to the "
+    "variances; as a set they are not reproduced and are called not reproducible. Nothing is "
+    "rescaled."
 )
 
 
@@ -34,34 +36,36 @@ def published_table(table: PublishedTable, rows: Rows) -> tuple[list[Block], Dat
     rows : mapping of model to tuple of PublishedRow
         The same rows in the same order for every model.
     """
-    columns = (
-        *texts("row", "quantity", "unit"),
-        *numbers("published"),
-        *ours(MODEL_NAMES.values()),
-    )
-    lines: list[list[str | Cell]] = []
-    for row in zip(*(rows[model] for model in MODEL_NAMES), strict=True):
-        first = row[0]
-        line: list[str | Cell] = [
-            first.row,
-            first.quantity,
-            _pretty(first.unit),
-            significant(first.published, 4),
-        ]
-        for entry in row:
-            line += [significant(entry.computed, 4), difference(entry), entry.status]
-        lines.append(line)
     file = file_name(table.key)
     notes = dict.fromkeys(
         f"{', '.join(sorted(about))}: {note}." for note, about in _notes(rows).items()
     )
     blocks: list[Block] = [
-        Table(f"{_label(table)} of the paper: {table.title}", columns, lines, file)
+        _beside(f"{_label(table)} of the paper: {table.title}, blocked; {name}", rows[model], file)
+        for model, name in MODEL_NAMES.items()
     ]
     if table.note:
         blocks.append(Text(table.note))
     blocks.append(Points(tuple(notes)))
     return blocks, published_file(table, rows)
+
+
+def _beside(caption: str, rows: tuple[PublishedRow, ...], file: str) -> Table:
+    """Published and computed of every machine side by side, a quantity a row."""
+    return pivoted(
+        caption,
+        (*texts("quantity", "unit"), Column("status", "", False, width="narrow")),
+        numbers("published", "computed"),
+        [
+            Entry(
+                [row.quantity, _pretty(row.unit), row.status],
+                row.row,
+                [significant(row.published, 4), beside(row, significant(row.computed, 4))],
+            )
+            for row in rows
+        ],
+        file,
+    )
 
 
 def published_file(table: PublishedTable, rows: Rows) -> DataFile:

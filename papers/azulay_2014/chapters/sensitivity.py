@@ -77,10 +77,10 @@ def link_length_blocks() -> tuple[list[Block], list[DataFile]]:
     ]
     blocks: list[Block] = [
         Text(
-            "Link length of the proposed machine (content of Fig. 8), workpiece in the same place. "
-            "Longer links lower the least dynamic stiffness along z, as the paper finds. Along x "
-            "and y another thing decides: how high the tool stands beside the height where the "
-            "links' directions meet, which changes with the length."
+            "Link length of the proposed machine (content of Fig. 8), workpiece in the same "
+            "place. Longer links lower the least dynamic stiffness along z, as the paper finds. "
+            "Along x and y another quantity decides: the height of the tool relative to the "
+            "point where the links' directions meet, which changes with the length."
         ),
         Row(tuple(figures), 360),
         Table("Proposed machine by link length", columns, rows, "vibration-link-lengths.csv"),
@@ -138,9 +138,10 @@ def sensitivity_blocks(names: Sequence[str]) -> tuple[list[Block], list[DataFile
             )
     blocks: list[Block] = [
         Text(
-            "What decides the minimum and is not printed: how high the tool, the platform's centre "
-            "point, stands above the spherical joints, and the platform's mass. The first moves "
-            "the minimum along x and y by more than any dimension that the paper compares."
+            "Two quantities that are not printed decide the minimum: the height of the tool, the "
+            "platform's centre point, above the spherical joints, and the platform's mass. The "
+            "first moves the minimum along x and y by more than any dimension that the paper "
+            "compares."
         ),
         Row(tuple(figures), 400 if len(names) == 1 else 340),
     ]

@@ -81,7 +81,7 @@ def distribution_chapter(study: MachineStudy) -> Chapter:
             {label: study.summaries[m] for m, label in MODEL_NAMES.items()},
         ),
         statistics_table(
-            "Other directions free to follow, 1/C_ii: the softer meaning, at the same poses",
+            "Other directions free to follow, 1/C_ii: the softer definition, at the same poses",
             {label: study.free[m] for m, label in MODEL_NAMES.items()},
         ),
     ]
@@ -95,7 +95,9 @@ def poses_chapter(study: MachineStudy) -> Chapter:
         for model, label in MODEL_NAMES.items()
         for row in pose_rows(label, study.maps[model], study.summaries[model])
     ]
-    table = Table("Worst and best poses", pose_columns("model"), rows, "report.json")
+    table = Table(
+        "Worst and best poses, stiffness blocked", pose_columns("model"), rows, "report.json"
+    )
     dropped = dropped_table({label: study.maps[m] for m, label in MODEL_NAMES.items()}, "model")
     return Chapter(
         "poses",
@@ -103,9 +105,9 @@ def poses_chapter(study: MachineStudy) -> Chapter:
         (
             table,
             Text(
-                "At every check point each roll is a candidate; those out of reach, out of the "
-                "joint ranges kept or near a singularity are dropped. A point is lost only when no "
-                "candidate is left."
+                "At every check point each roll is a candidate; those out of reach, outside the "
+                "joint ranges respected or near a singularity are dropped. A point is lost only "
+                "when no candidate is left."
             ),
             dropped,
             ranges_table(study),

@@ -40,35 +40,34 @@ def tilts_chapter(study: TiltStudy) -> Chapter:
         (
             Text(
                 "Table 3 prints one tilt angle for each machine, and does not say at which roll, "
-                "from where a joint's range is counted, nor whether the way there leads through a "
-                "singular pose. The computed tilts stand beside it for the 4 mm hemisphere: with "
-                "some roll, "
-                "joint ranges kept, however the machine came there; by poses within the ranges "
-                "that lead there from the pole; and the same before the singular ring, which is as "
-                "far as six drives go. Bodies that touch are not looked at. Neutral directions of "
-                "the spherical joints, middles of strokes and heights of the pole are assumed: "
-                "none "
-                "of these tilts is a prediction, and none meets the paper's."
+                "from where a joint's range is counted, nor whether the path there leads through "
+                "a singular pose. The computed tilts are given beside it for the 4 mm "
+                "hemisphere: within the joint ranges at any roll, whatever the path; by poses "
+                "within the ranges that are connected with the pole; and the same before the "
+                "singular ring, which is as far as six drives reach. Collisions of bodies are "
+                "not checked. Neutral directions of the spherical joints, middles of strokes and "
+                "heights of the pole are assumed: none of these tilts is a prediction, and none "
+                "meets the paper's."
             ),
             _tilts_table(study),
             Row(tuple(_plane(name, found) for name, found in study.planes.items()), 380),
             Text(
                 "Fig. 3 draws the tilt of the proposed machine by the radius of the sphere for "
                 "several link lengths, and the paper finds 196 mm better than 216 mm. With the "
-                "assumed "
-                "heights and neutral directions it is the other way about on small spheres: links "
-                "of 196 mm bring the sliders to the inner end of their stroke, with 216 mm a "
-                "spherical joint ends the tilt."
+                "assumed heights and neutral directions it is the opposite on small spheres: "
+                "links of 196 mm bring the sliders to the inner end of their stroke, and with "
+                "216 mm a spherical joint limits the tilt."
             ),
             _by_radius(study),
             Text(
-                "Singular poses by the paper's eq. 35. Type 2, det J⁻¹ = 0: the platform moves "
-                "though the drives stand. Type 1, det J⁻¹ = ±∞: a drive moves though the platform "
-                "stands; that is where a joint of the platform comes upon the guide's axis, at a "
-                "tilt whose tangent is R_p over the radius of the sphere (and at 180° less that, "
-                "half a turn of roll away), whatever the machine, and where a leg stands straight "
-                "at the end of reach. Type 3, both at once. The paper shows type 2 alone; type 1 "
-                "on the axis lies below 90° as well, at single rolls, which a way can pass by."
+                "Singular poses by the paper's eq. 35. Type 2, det J⁻¹ = 0: the platform can "
+                "move although the drives are held. Type 1, det J⁻¹ = ±∞: a drive can move "
+                "although the platform stands still; that is where a joint of the platform "
+                "reaches the guide's axis, at a tilt whose tangent is R_p over the radius of the "
+                "sphere (and at 180° less that, half a turn of roll away), whatever the machine, "
+                "and where a leg is straight at the end of reach. Type 3: both at once. The "
+                "paper shows only type 2; type 1 on the axis also occurs below 90°, at single "
+                "rolls, which a path can avoid."
             ),
             _types_table(study),
         ),
@@ -213,7 +212,7 @@ def _planes_file(study: TiltStudy) -> DataFile:
     ]
     return csv_file(
         PLANES,
-        "poses over tilt and roll of the four machines, by what they are",
+        "poses over tilt and roll of the four machines, by type",
         ("machine", "tilt_deg", "roll_deg", "kind"),
         rows,
     )

@@ -43,9 +43,9 @@ VIBRATION_DATA = "vibration-table-5.json"
 
 INTRODUCTION = (
     "The machine at home, roots clamped on the guide, drives locked, links with their mass and a "
-    "rigid heavy platform, as in section 3.3.2 of the paper. Its Table 5 leaves out what decides "
-    "it, so two sets of the missing numbers stand side by side. Everything drawn here is of the "
-    "calibrated set."
+    "rigid heavy platform, as in section 3.3.2 of the paper. Its Table 5 omits numbers that "
+    "decide the results, so two sets of the missing numbers are shown side by side. All figures "
+    "here are of the calibrated set."
 )
 
 ASSUMPTIONS = (
@@ -57,7 +57,7 @@ ASSUMPTIONS = (
         "Roots of the links clamped to the guide, drives rigid: no stiffness of guide, carriage or "
         "drive enters."
     ),
-    "Spherical and revolute joints turn freely and are rigid otherwise; the platform is rigid.",
+    "Spherical and revolute joints rotate freely and are rigid otherwise; the platform is rigid.",
     "Links are beams with shear and rotary inertia, eight elements each, of AISI 1018.",
     *(f"Set “{name}”: {meaning}." for name, meaning in DYNAMIC_SETS.items()),
     "No preload, no gravity, no cutting process: free vibration about the home pose.",
@@ -186,15 +186,15 @@ def table_5(dynamics: AzulayDynamics, names: Sequence[str]) -> tuple[list[Block]
     blocks: list[Block] = [
         Table(f"Table 5 of the paper: {TABLE_5.title}, N/µm", columns, lines, file.name),
         Text(
-            "“Calibrated”: what the paper leaves out was fitted to this table. “Not "
-            "reproducible”: farther than a factor of two from the print even so, or of the blind "
-            "set, whose numbers are no predictions because the paper leaves out what decides them."
+            "“Calibrated”: what the paper omits was fitted to this table. “Not reproducible”: "
+            "still farther than a factor of two from the printed value, or of the blind set, "
+            "whose numbers are not predictions because the paper omits what decides them."
         ),
         Points(remarks),
     ]
     whole = json_file(
         VIBRATION_DATA,
-        "both sets: frequencies, rankings, minima with a loss factor in place of a ratio",
+        "both sets: frequencies, rankings, minima with a loss factor instead of a ratio",
         dynamics.to_dict(),
     )
     return blocks, [file, whole]

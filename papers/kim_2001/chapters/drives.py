@@ -49,16 +49,15 @@ def barriers_chapter() -> Chapter:
         "Singular tilts and extra drives",
         (
             Text(
-                "With six drives and balls of ±55° the platform cannot be tilted from vertical to "
-                "horizontal without passing poses in which the drives do not hold it. "
-                "At spindle angle 0 each extra drive alone leaves one "
-                "of them, that of leg 1 the lower and that of "
-                "leg 2 the higher; both together leave none for spindle angles up to 30° to "
-                "either side. The second barrier is gone beyond spindle angles of 29°. The "
-                "first stays up to 113°; beyond, no singular tilt is left, but the balls with "
-                "their ±55° do not let the platform tilt so far there, whether their sockets are "
-                "counted from the links at home or from half way. So within what the joints allow "
-                "the first barrier is on every way, as the document has it; the second is not."
+                "With six drives and balls of ±55° the platform cannot be tilted from vertical "
+                "to horizontal without passing poses in which the drives do not hold it. At "
+                "spindle angle 0 each extra drive alone leaves one of them, that of leg 1 the "
+                "lower and that of leg 2 the higher; both together leave none for spindle angles "
+                "up to 30° to either side. The second barrier vanishes beyond spindle angles of "
+                "29°. The first stays up to 113°; beyond, no singular tilt is left, but the "
+                "balls with their ±55° do not allow such a tilt there, whether their sockets are "
+                "counted from the links at home or from half way. So within the joint ranges the "
+                "first barrier lies on every path, as the document states; the second does not."
             ),
             Table(
                 "Singular tilts with six drives, by the calibrated dimensions",
@@ -67,11 +66,11 @@ def barriers_chapter() -> Chapter:
             ),
             Text(
                 "G = J⁻ᵀJ⁻¹ over the rows of the driven joints loses rank at a singular tilt. It "
-                "adds metres to radians, so that its condition number and its least singular value "
-                "need a length that counts as much as one radian, of the tool and of a drive that "
-                "turns. The document states none: both are given for two lengths of the machine, "
-                "and neither is the document's number. A least value and the tilt at which it "
-                "stands change with that length; whether it is zero does not."
+                "adds metres to radians, so that its condition number and its least singular "
+                "value need a length that counts as much as one radian, of the tool and of a "
+                "rotary drive. The document states none: both are given for two lengths of the "
+                "machine, and neither is the document's number. A least value and the tilt at "
+                "which it occurs change with that length; whether it is zero does not."
             ),
             _margins(machine),
             Row(

@@ -20,7 +20,7 @@ TILTS = np.arange(0.0, 90.1, 15.0)
 
 WORDS = {
     "home": "range counted from the link's direction at home",
-    "midway": "range counted from half way between tilts of 0 and 90 deg",
+    "midway": "range counted from halfway between tilts of 0 and 90 deg",
 }
 
 #: Radius of the cylinder that section VI names as the prototype's workspace, mm.
@@ -52,18 +52,17 @@ def places_chapter() -> Chapter:
         "Workspace, and compliance over it",
         (
             Text(
-                "Positioning workspace: the points at which the tilted spindle can be turned all "
-                "the way round the vertical while its own turn is free, with balls of ±55°. On a "
-                "complete guide its radius is all that the joints limit; heights follow from "
-                "strokes, "
-                "which are not printed. Nor are the axes of the sockets: counted from the links at "
-                "home they leave nothing at 90°, since the link of leg 1 turns by 87° in the "
-                "platform. Singular poses on the way are not looked at."
+                "Positioning workspace: the points at which the tilted spindle can be rotated "
+                "all the way round the vertical while its own rotation is free, with balls of "
+                "±55°. On a complete guide the joints limit only its radius; heights follow from "
+                "strokes, which are not printed. Nor are the axes of the sockets: counted from "
+                "the links at home they leave nothing at 90°, since the link of leg 1 rotates by "
+                "87° in the platform. Singular poses on the path are not checked."
             ),
             Figure(
                 "positioning",
-                "Radius of the positioning workspace by tilt (the document's Figs 8 and 9); 150 mm "
-                "is as far as it was looked for.",
+                "Radius of the positioning workspace by tilt (the document's Figs 8 and 9); the "
+                "search ends at 150 mm.",
                 curves(
                     TILTS,
                     lines,
@@ -76,10 +75,10 @@ def places_chapter() -> Chapter:
                 340,
             ),
             Text(
-                "Norm of the compliance over places of the tool in the plane of the guide, as the "
-                "document's Fig. 13 draws it without numbers; tool at the platform's centre, six "
-                "drives. That of the joints alone is relative, as in the document: here each drive "
-                "is as stiff along its path as any other, and the middle counts as one."
+                "Norm of the compliance over places of the tool in the plane of the guide, as "
+                "the document's Fig. 13 draws it without numbers; tool at the platform's centre, "
+                "six drives. That of the joints alone is relative, as in the document: here all "
+                "drives are equally stiff along their paths, and the value in the middle is one."
             ),
             *(Row(_maps(name, found), 380) for name, found in maps.items()),
         ),

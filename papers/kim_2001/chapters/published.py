@@ -31,10 +31,10 @@ def published_chapter() -> Chapter:
         (
             Text(
                 "The document prints neither the link's length nor the platform's radius, the "
-                "place of the tool or the columns' section. These four were fitted to the numbers "
-                "below, so that all rows are calibrated and none is a prediction. Drives and "
-                "joints are rigid; compliance is taken at the platform's centre, singular tilts "
-                "with the tool on the guide's axis."
+                "position of the tool or the columns' section. These four were fitted to the "
+                "numbers below, so that all rows are calibrated and none is a prediction. Drives "
+                "and joints are rigid; compliance is taken at the platform's centre, singular "
+                "tilts with the tool on the guide's axis."
             ),
             *(rows_table(t.title, rows, file_name(t.key)) for t, rows in groups),
             Text(TABLE_2.note),

@@ -28,7 +28,7 @@ def radius_chapter() -> Chapter:
         (
             Text(
                 "Norm of the compliance of the tool's position. The document finds it flat from "
-                "35 mm on, and chose 33 mm; so does the model, with its calibrated dimensions."
+                "35 mm on and chooses 33 mm; the model with its calibrated dimensions agrees."
             ),
             Table(
                 "All links, relative to rigid ones; calibrated",
@@ -44,11 +44,10 @@ def radius_chapter() -> Chapter:
                 [[f"leg {i}", f"{a:.3f}", f"{b:.3f}"] for i, (a, b) in enumerate(thin, 1)],
             ),
             Text(
-                "The document draws the norm over the radius of each link (Fig. 14) and over those "
-                "of all links and all columns (Fig. 15). The computed one stands relative to the "
-                "machine as "
-                "built. At tilt 0 it is links 2 and 3 that matter most and at tilt 90 link 1: the "
-                "document has it the other way about. With six drives the forces in the rods do "
+                "The document draws the norm over the radius of each link (Fig. 14) and over "
+                "those of all links and all columns (Fig. 15). The computed one is relative to "
+                "the machine as built. At tilt 0 links 2 and 3 matter most and at tilt 90 link "
+                "1; the document states the opposite. With six drives the forces in the rods do "
                 "not depend on their radii, and the compliance is a sum over the rods."
             ),
             Row(tuple(_single(study) for study in studies), 380),

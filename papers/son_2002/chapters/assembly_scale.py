@@ -102,11 +102,11 @@ def scale_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         Text(
             "Eq. 64 gives the width, read as w = l (4 K_y / (E t))^(1/3), a cantilever of the "
             "section t x w bent along y with the tip stiffness K_y = E t w³ / (4 l³): width and "
-            "length grow together and K_y stays, which is why the stiffnesses may stay here. With "
-            f"K_y = k_y = {micro(k_y, 4)} N/µm and steel, w = {WIDTH_RATIO:g} l asks for "
-            f"t = {significant(1e3 * thickness)} mm; a strut of {significant(1e3 * THICKNESS)} mm "
-            f"would have w = {significant(ratio)} l. Thickness and K_y are not published, so the "
-            "cases' ratio is used."
+            "length grow together and K_y is constant, which is why the stiffnesses can be "
+            f"constant here. With K_y = k_y = {micro(k_y, 4)} N/µm and steel, w = {WIDTH_RATIO:g} "
+            f"l requires t = {significant(1e3 * thickness)} mm; a strut of "
+            f"{significant(1e3 * THICKNESS)} mm would have w = {significant(ratio)} l. Thickness "
+            "and K_y are not published, so the cases' ratio is used."
         ),
     ]
     rows = [

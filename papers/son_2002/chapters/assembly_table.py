@@ -12,36 +12,38 @@ from strutwork.papers.son_2002.figures.assembly_scene import strut_assembly_view
 from strutwork.papers.son_2002.mit_ss1_study import MitSS1Study
 from strutwork.papers.son_2002.published import TABLE_2
 from strutwork.papers.son_2002.strut_assembly import CASES, TILT, StrutAssembly
-from strutwork.papers.tables import nearly, numbers, ours, rows_file, texts
+from strutwork.papers.tables import nearly, numbers, rows_file, texts
 from strutwork.reports.chapters.overconstraint import label, leading, shown
 from strutwork.reports.chapters.overconstraint_forces import Published
 from strutwork.reports.content import Block, Cell, Figure, Note, Points, Table, Text
 from strutwork.reports.data_files import DataFile, json_file
 from strutwork.reports.figures.assembly_scene import assembled
 from strutwork.reports.numbers import micro, percent, significant, times
+from strutwork.reports.pivot import Entry, pivoted
 
 RECONSTRUCTED = (
-    "Reconstructed: figures 40 and 42 of the thesis, which show the structure and its dimensions, "
-    "are not at hand. The structure here is one that meets the 36 printed forces; others may as "
-    "well. Its stiffnesses are calibrated, so agreement is a fit and no prediction."
+    "Reconstructed: figures 40 and 42 of the thesis, which show the structure and its "
+    "dimensions, are not available. The structure here is one that meets the 36 printed forces; "
+    "others may do so too. Its stiffnesses are calibrated, so agreement is a fit and not a "
+    "prediction."
 )
 
 STRUCTURE = (
     (
-        "The end-effector is rigid. Joints 1, 2 stand at x = −95 mm, 3, 4 at x = +95 mm, 5, 6 at "
-        "z = −150 mm, with r and t of Appendix B; odd joints are the far bearings (y = w), even "
-        "ones the near ones in the datum y = 0. Struts 1 and 2 stand along z, strut 3 along x. "
-        "Assumed."
+        "The end-effector is rigid. Joints 1, 2 are at x = −95 mm, 3, 4 at x = +95 mm, 5, 6 at z "
+        "= −150 mm, with r and t of Appendix B; odd joints are the far bearings (y = w), even "
+        "ones the near ones in the datum y = 0. Struts 1 and 2 are along z, strut 3 along x. "
+        "This is assumed."
     ),
     (
-        "Each moving block's axis is tilted by 300 µm/m at any azimuth about the datum and takes "
-        "its strut along: radial and axial misfit share the azimuth. From section 6.6."
+        "Each moving block's axis is tilted by 300 µm/m at any azimuth about the datum and tilts "
+        "its strut with it: radial and axial misfit share the azimuth. This follows section 6.6."
     ),
     (
         "Stiffness along the strut k at the far, 2k at the near joint; across the strut twice "
         "that; along the pin k_y at every joint. Assumed; k and k_y are fitted."
     ),
-    "The worst case is taken over all azimuths, for each force by itself, exactly.",
+    "The worst case is taken over all azimuths, for each force separately, exactly.",
 )
 
 
@@ -70,9 +72,9 @@ def misfit_blocks(study: MitSS1Study, case: str = "I") -> tuple[list[Block], lis
         f"misfit-case-{case}",
         f"Table 2, case {case}: the azimuths of the three axes at which the "
         f"{label(found.quantities[top])} is largest, {shown(float(found.largest[top]), 'N')} kN. "
-        f"Misfits and displacements drawn {times(shape.factor)} times as large as they "
-        f"are (the largest misfit is {significant(1e6 * largest)} µm); arrows are the forces on "
-        "the end-effector.",
+        f"Misfits and displacements are drawn {times(shape.factor)} times their true size (the "
+        f"largest misfit is {significant(1e6 * largest)} µm); arrows are the forces on the "
+        "end-effector.",
         strut_assembly_view(assembly, shape),
         "Three-dimensional drawing: struts as designed, struts on their tilted axes, and the "
         "end-effector pulled between them, with the joint forces as arrows.",
@@ -86,36 +88,36 @@ def misfit_blocks(study: MitSS1Study, case: str = "I") -> tuple[list[Block], lis
 def table_2_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     """All 36 forces beside the computed values, with both fits."""
     file = file_name(TABLE_2.key)
-    columns = (*texts("case"), *numbers("joint"), *texts("force"), *numbers("published", unit="kN"))
-    rows: list[list[str | Cell]] = []
+    entries = []
     for pair in zip(*study.table_2.values(), strict=True):
-        _, case, _, joint = pair[0].row.split()
-        row: list[str | Cell] = [case, joint, pair[0].quantity]
-        row.append(f"{pair[0].published:.1f}")
+        first = pair[0]
+        _, case, _, joint = first.row.split()
+        cells: list[str | Cell] = [f"{first.published:.1f}"]
         for entry in pair:
-            row += [f"{entry.computed:.2f}", _difference(entry), entry.status]
-        rows.append(row)
+            found = _difference(entry)
+            cells.append(Cell(f"{entry.computed:.2f}", found.tone, found.text))
+        entries.append(Entry([joint, first.quantity], f"Case {case}", cells))
     on_one, on_all = study.calibrations
     blocks: list[Block] = [
         Note(RECONSTRUCTED),
         Points(STRUCTURE),
         _fits(study),
-        Table(
-            f"Table 2 of the thesis: {TABLE_2.title}",
-            (*columns, *ours(_HEADS.values(), "kN")),
-            rows,
+        pivoted(
+            f"Table 2 of the thesis: {TABLE_2.title}; both fits calibrated",
+            texts("joint", "force"),
+            numbers("published", *_HEADS.values(), unit="kN"),
+            entries,
             file,
         ),
         Text(
-            "Differences are left as they are. The thesis prints one decimal, which alone is up to "
+            "Differences are not adjusted. The thesis prints one decimal, which alone is up to "
             "2.9 % of Case I's axial forces. “Calibrated”: the stiffnesses were fitted to this "
             "number among others. “Predicted”: from the stiffnesses fitted to Case I alone; but "
-            "the layout and the stiffness ratios were chosen with all cases in view. A least-"
-            "squares fit made afresh for this page gives "
-            f"k = {micro(on_one.stiffness, 4)} and k_y = {micro(on_one.axial_stiffness, 4)} N/µm "
-            f"on Case I alone and {micro(on_all.stiffness, 4)} and "
-            f"{micro(on_all.axial_stiffness, 4)} N/µm on all cases (largest error "
-            f"{100 * on_all.largest:.1f} %)."
+            "the layout and the stiffness ratios were chosen to match all cases. A new "
+            f"least-squares fit for this page gives k = {micro(on_one.stiffness, 4)} and k_y = "
+            f"{micro(on_one.axial_stiffness, 4)} N/µm on Case I alone and "
+            f"{micro(on_all.stiffness, 4)} and {micro(on_all.axial_stiffness, 4)} N/µm on all "
+            f"cases (largest error {100 * on_all.largest:.1f} %)."
         ),
     ]
     # what the second fit makes of each row stands in the file beside it
@@ -150,7 +152,7 @@ def _fits(study: MitSS1Study) -> Table:
             line += [f"{max(some):.1f} %", f"{np.sqrt(np.mean(np.square(some))):.1f} %"]
         rows.append(line)
     return Table(
-        "The two stored fits and the errors that they leave",
+        "The two stored fits and their remaining errors",
         (
             *texts("set"),
             *numbers("k", "k_y", unit="N/µm"),
@@ -183,7 +185,7 @@ def cases_table(study: MitSS1Study, cases: Sequence[str] = tuple(CASES)) -> Tabl
             ]
         )
     return Table(
-        "Largest parallelism that keeps every bearing within its assumed static rating",
+        "Largest parallelism at which every bearing stays within its assumed static rating",
         (
             *texts("case"),
             *numbers("largest force at 300 µm/m", unit="kN"),

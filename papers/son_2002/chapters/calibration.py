@@ -12,6 +12,7 @@ from strutwork.papers.tables import nearly, numbers, texts
 from strutwork.reports.content import Block, Cell, Chapter, Figure, Points, Table, Text
 from strutwork.reports.data_files import csv_file, json_file
 from strutwork.reports.figures.modes import singular_values
+from strutwork.reports.long_tables import parted
 from strutwork.reports.numbers import MINUS, count, percent, significant
 from strutwork.studies.calibrate import Calibration
 
@@ -56,19 +57,20 @@ def calibration_chapter(study: WholeStudy) -> Chapter:
     threshold = next(iter(found.values())).identified.threshold
     blocks: list[Block] = [
         Text(
-            "Four steps of bounded least squares, each on what those before found; frequencies "
-            "are weighted with 0.5 %. The constants are stored; for this page they were "
-            "assessed, not searched again: residuals, and from the sensitivities of the targets "
-            "which combinations of parameters they determine. A standard error is that of the "
-            "weights, to first order, and says nothing about what the model leaves out."
+            "The calibration has four steps of bounded least squares, each based on the results "
+            "of those before; frequencies are weighted with 0.5 %. The constants are stored; for "
+            "this page they were assessed, not searched again: the residuals, and the "
+            "combinations of parameters that the sensitivities of the targets determine. A "
+            "standard error is that of the weights, to first order, and does not cover what the "
+            "model omits."
         ),
-        _parameters(found),
-        _targets(found),
+        *parted(_parameters(found), 6),
+        *parted(_targets(found), 6),
         Figure(
             "singular-values",
-            "Singular values of the targets' sensitivities, beside the largest of each step. "
-            "Below the dashed line a combination of parameters is not determined; zeros stand at "
-            "the foot.",
+            "Singular values of the targets' sensitivities, relative to the largest of each "
+            "step. Below the dashed line a combination of parameters is not determined; zeros "
+            "are at the bottom.",
             singular_values(
                 {STEPS[k]: c.identified.singular_values.tolist() for k, c in found.items()},
                 threshold,
@@ -91,7 +93,7 @@ def calibration_chapter(study: WholeStudy) -> Chapter:
             ),
             csv_file(
                 "calibration-singular-values.csv",
-                "singular values and the combinations that belong to them",
+                "singular values and their combinations",
                 ["step", "combination", "singular_value", "determined", "weights"],
                 [
                     [part, i + 1, float(v), i < c.identified.rank, _weights(c, i)]
@@ -118,7 +120,7 @@ def _parameters(found: Mapping[Part, Calibration]) -> Table:
                     unit,
                     f"±{100 * float(error):.1f} %" if known else Cell("not determined", "poor"),
                     f"{significant(factor * p.low, 2)} to {significant(factor * p.high, 2)}",
-                    Cell("on its bound", "poor") if bound else "within",
+                    Cell("at its bound", "poor") if bound else "within",
                     STEPS[part],
                 ]
             )

@@ -56,16 +56,16 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     blocks: list[Block] = [
         Text(
             "The thesis shows three designs in Fig. 39: rails on separate datum surfaces, two on "
-            "one, all on one ground surface. Its dimensions are not published. This reading, with "
-            f"sizes that are assumed: every datum surface lies within {1e6 * DATUM_ZONE:g} µm of "
-            f"its "
-            "place (height along y and two tilts, its corners within the zone); every rail lies on "
-            f"its datum within {1e6 * RAIL_HEIGHT:g} µm (the parallelism of section 8.6) over "
-            f"{1e3 * RAIL_LENGTH:g} mm of length; surfaces are {1e3 * MARGIN:g} mm wider than "
-            "their rails stand apart. In (b) rails 1 and 2 share, those of the equal struts. "
-            "What a common datum does to all its rails alike locks in no force: from (a) to (c) "
-            f"the rails' share of the largest radial force falls {significant(gain, 2)}-fold, "
-            "and the parallelism of the pins is what remains. The same machine, at home, in all."
+            "one, all on one ground surface. Its dimensions are not published. It is interpreted "
+            f"here with assumed sizes: every datum surface lies within {1e6 * DATUM_ZONE:g} µm of "
+            "its place (height along y and two tilts, its corners within the zone); every rail "
+            f"lies on its datum within {1e6 * RAIL_HEIGHT:g} µm (the parallelism of section 8.6) "
+            f"over {1e3 * RAIL_LENGTH:g} mm of length; surfaces are {1e3 * MARGIN:g} mm wider "
+            "than the spacing of their rails. In (b) rails 1 and 2 share, those of the equal "
+            "struts. A deviation of a common datum, equal for all its rails, locks in no force: "
+            "from (a) to (c) the rails' share of the largest radial force falls "
+            f"{significant(gain, 2)}-fold, and the parallelism of the pins is what remains. All "
+            "are the same machine at home."
         ),
         Figure(
             "design-forces",
@@ -84,7 +84,7 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
         Table(
             "The three designs: largest worst-case force in any bearing",
             (
-                *texts("design, as read here"),
+                *texts("design, as interpreted here"),
                 *numbers("radial", "axial", unit="kN", group="rails alone"),
                 *numbers("radial", "axial", unit="kN", group="rails and pins"),
                 *numbers("tool along y, rails alone", unit="µm"),
@@ -105,5 +105,5 @@ def design_blocks(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:
     heads = ["design", "title"]
     heads += [f"{of}_{kind.split()[0]}_N" for of in ("rails", "rails_and_pins") for kind in FORCES]
     heads += [f"tool_{d}" for d in ("x_m", "y_m", "z_m", "rx_rad", "ry_rad", "rz_rad")]
-    what = "worst-case forces of the designs of Fig. 39, as read here"
+    what = "worst-case forces of the designs of Fig. 39, as interpreted here"
     return blocks, [csv_file(file, what, heads, content)]

@@ -50,7 +50,7 @@ def energy_blocks(study: WholeStudy) -> list[Block]:
     return [
         Figure(
             "mode-energies",
-            "Where each mode keeps its strain energy, the highest mode at the top. The ball "
+            "Where each mode stores its strain energy, the highest mode at the top. The ball "
             "screw's is of the machine with elastic drives.",
             energy_bars(
                 names, {k: [f[k] for f in found] for k in kinds}, "share of strain energy (%)"
@@ -79,7 +79,7 @@ def _energy_table(study: WholeStudy, kinds: list[str]) -> Table:
             ]
         )
     return Table(
-        "Modes at home: share of the name's pattern that the mode holds, and its strain energy",
+        "Modes at home: share of the named pattern in the mode, and its strain energy",
         (
             *texts("mode"),
             *numbers("frequency", unit="Hz"),

@@ -46,10 +46,10 @@ def kinematics_chapter(study: MitSS1Study) -> Chapter:
     blocks: list[Block] = [
         Text(
             f"Nominal workspace: x from {significant(1e3 * NOMINAL_X[0], 2)} to "
-            f"{significant(1e3 * NOMINAL_X[1], 2)} mm and "
-            f"tilts to ±{degrees(NOMINAL_TILT):g}° at any height; z is a pure translation. The "
-            "condition number is that of the tool's velocity along x, y and z with the tilts held: "
-            "the struts make x and z, the table's carriage makes y one to one."
+            f"{significant(1e3 * NOMINAL_X[1], 2)} mm and tilts to ±{degrees(NOMINAL_TILT):g}° at "
+            "any height; z is a pure translation. The condition number is that of the tool's "
+            "velocity along x, y and z with the tilts held: the struts move x and z, and the "
+            "table's carriage moves y one to one."
         ),
         Row(
             (

@@ -41,9 +41,10 @@ from strutwork.reports.drawing_data import drawing_data
 from strutwork.reports.numbers import MINUS, micro, significant
 
 DRAWING = (
-    "The mechanism alone, with its joints. Seen from outside towards the granite. Drag to turn, "
-    "scroll to zoom; names show under the pointer. Lengths are in mm; struts have their section, "
-    "blocks, rails and housing are not to scale. Black arrows show the driven motions."
+    "The mechanism alone, with its joints, seen from outside towards the granite. Drag to "
+    "rotate, scroll to zoom; names appear under the pointer. Lengths are in mm; struts have "
+    "their section, blocks, rails and housing are not to scale. Black arrows show the driven "
+    "motions."
 )
 
 
@@ -52,25 +53,25 @@ def summary_chapter(study: MitSS1Study) -> Chapter:
     states = int(study.own.responses.influence.redundant.max(initial=0))
     blocks = (
         Text(
-            "MIT-SS-1: three blocks on vertical guides move a spindle housing in the x-z plane by "
-            "struts of fixed length, a planar 3-PRR mechanism, [P vertical] R R (P prismatic, R "
-            "revolute; driven ones in brackets), before a granite L on four mounts. How it moves, "
-            "how stiff it is, at which frequencies it vibrates, and what all of this becomes in "
-            "another size:"
+            "MIT-SS-1: three blocks on vertical guides move a spindle housing in the x-z plane "
+            "by struts of fixed length, a planar 3-PRR mechanism, [P vertical] R R (P prismatic, "
+            "R revolute; driven ones in brackets), before a granite L on four mounts. These "
+            "values show how it moves, how stiff it is, at which frequencies it vibrates, and "
+            "how these depend on its size:"
         ),
         Facts((*_plane_facts(study), *_whole_facts(study))),
         Text(
-            "All pins are parallel, so the machine is constrained more than once, and what its "
-            "parts deviate from each other is locked in as forces in its bearings:"
+            "All pins are parallel, so the machine is constrained more than once, and the "
+            "deviations between its parts are locked in as forces in its bearings:"
         ),
         Facts(tuple(_force_facts(study))),
         Note(
-            f"With two elastic bearings a pin the machine has {states} states of self-stress. The "
-            "dimensions are the thesis's; stiffnesses, masses and thicknesses are calibrated; the "
-            "static rating, the damping and some tolerances are assumptions, each named below. "
-            "The thesis's numbers do not all come from one machine: stiffness map and assembly "
-            "forces, the modes of its finite element model and the measured ones each have their "
-            "own set of bearings, and each chapter says which it uses."
+            f"With two elastic bearings per pin the machine has {states} states of self-stress. "
+            "The dimensions are the thesis's; stiffnesses, masses and thicknesses are "
+            "calibrated; the static rating, the damping and some tolerances are assumptions, "
+            "each named below. The thesis's numbers do not all come from one machine: stiffness "
+            "map and assembly forces, the modes of its finite element model and the measured "
+            "ones each have their own set of bearings, and each chapter says which it uses."
         ),
     )
     return Chapter("summary", "Summary", blocks)
@@ -268,10 +269,14 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
         [
             "Axial stiffness of a bearing",
             f"{micro(machine.axial_stiffness or np.inf)} N/µm",
-            "calibrated: two in series are the k_y of the reconstructed Table 2",
+            "calibrated: two in series give the k_y of the reconstructed Table 2",
         ],
         ["Struts", f"{machine.section.name} mm, {machine.material.name}, beams with shear", ours],
-        ["Guides, drives, blocks, housing", "rigid", "section 6.2 holds the drives; rest assumed"],
+        [
+            "Guides, drives, blocks, housing",
+            "rigid",
+            "the drives are held in section 6.2; the rest is assumed",
+        ],
         [
             "Parallelism of the pins in the blocks",
             "300 µm/m, any azimuth, about the near bearing",
@@ -298,7 +303,7 @@ def _assumed(machine: MitSS1) -> list[list[str]]:
         [
             "Limit of a bearing",
             "radial and axial force each below the static rating, safety factor 1",
-            f"ISO 76: P₀ = max(Fr, ½ Fr + {AXIAL_FACTOR:g} Fa); each taken by itself, assumed",
+            f"ISO 76: P₀ = max(Fr, ½ Fr + {AXIAL_FACTOR:g} Fa); each separately, assumed",
         ],
         [
             "Distribution of the machine's tolerances",

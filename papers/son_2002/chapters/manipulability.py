@@ -61,21 +61,20 @@ def manipulability_chapter(found: xr.Dataset) -> Chapter:
         Points(
             (
                 (
-                    f"{IDENTITY[0].upper()}{IDENTITY[1:]}. The computed ones add to six within "
+                    f"{IDENTITY[0].upper()}{IDENTITY[1:]}. The computed ones add up to six within "
                     f"{_identity(found):.0e}."
                 ),
                 (
-                    "Condition number, smallest axis and volume as printed do not contradict this: "
-                    "with three different axes, 2.76 and 0.465 make a volume of 0.68. With "
-                    "three-fold symmetry, as the drawing is read here, two axes are equal at "
-                    "home, and "
-                    "2.76 makes 0.735 there or, with the smaller ones equal, 0.584: outside the "
-                    "printed 0.66 to 0.71."
+                    "Condition number, smallest axis and volume as printed do not contradict "
+                    "this: with three different axes, 2.76 and 0.465 make a volume of 0.68. With "
+                    "three-fold symmetry, as the drawing is interpreted here, two axes are equal "
+                    "at home, and 2.76 makes 0.735 there or, with the smaller ones equal, 0.584: "
+                    "outside the printed 0.66 to 0.71."
                 ),
                 (
-                    "The drawing is missing. How the joints stand and how far the machine reaches "
-                    "was chosen among many readings by the condition numbers of the position: "
-                    "every row is therefore called calibrated, near or far."
+                    "The drawing is missing. The arrangement of the joints and the reach of the "
+                    "machine were chosen among many interpretations by the condition numbers of "
+                    "the position; every row is therefore called calibrated, close or not."
                 ),
             )
         ),

@@ -53,23 +53,23 @@ def modes_chapter(study: WholeStudy) -> Chapter:
     """Frequencies, shapes, energies and postures."""
     blocks: list[Block] = [
         Text(
-            "A mode has the name of the pattern of motion that it holds most of: the eight lowest "
-            "modes of the granite alone on its mounts, and the moving structure along x (the "
-            "housing's tilt about the tool tip), y (struts) and z (ball screws). The published "
-            "frequencies are the thesis's finite element model (section 6.2) and a hammer test "
-            "without the spindle (section 9.2.2)."
+            "A mode is named after its largest pattern of motion: the eight lowest modes of the "
+            "granite alone on its mounts, and the moving structure along x (the housing's tilt "
+            "about the tool tip), y (struts) and z (ball screws). The published frequencies are "
+            "the thesis's finite element model (section 6.2) and a hammer test without the "
+            "spindle (section 9.2.2)."
         ),
         Note(
             "All agreement here is calibration: the thesis prints neither the granite's "
-            "thicknesses nor the masses and bearing stiffnesses of its model. What each number "
-            "was calibrated on stands below, what the data leave open under Calibration."
+            "thicknesses nor the masses and bearing stiffnesses of its model. The targets of "
+            "each number are given below; what the data leave open is under Calibration."
         ),
         _published(study),
         _dots(study),
         Points(_notes(study)),
         Text(
-            "Choose a mode, press Play, drag to turn. The shapes are exaggerated and swing all at "
-            "the same slow pace; the slider changes by how much. The machine stands at home."
+            "Choose a mode, press Play, drag to rotate. The shapes are exaggerated and all move "
+            "at the same slow pace; the slider changes the magnification. The machine is at home."
         ),
         _shapes(study),
         *energy_blocks(study),
@@ -208,10 +208,10 @@ def _left_open(study: WholeStudy) -> tuple[str, ...]:
     ours = {which: study.named[which].frequencies for which in SETS}
     return (
         (
-            "Which tilt: the thesis draws the mode and the drawing is not at hand. Eq. 65 makes it "
-            "a stiffness along x, so it is read as a tilt about y. A tilt about x would depend "
-            "less on the posture, but at 62.4 kN·m/rad it would need the bearings of a pin 17 mm "
-            "apart, where a shaft and a strut share 140 to 220 mm."
+            "Which tilt: the thesis draws the mode, but the drawing is not available. Eq. 65 "
+            "makes it a stiffness along x, so it is interpreted as a tilt about y. A tilt about "
+            "x would depend less on the posture, but at 62.4 kN·m/rad it would need the bearings "
+            "of a pin 17 mm apart, where a shaft and a strut share 140 to 220 mm."
         ),
         (
             "Measured tilt and strut modes together: one factor on the bearings of the preloading "
@@ -220,15 +220,15 @@ def _left_open(study: WholeStudy) -> tuple[str, ...]:
         ),
         (
             "Measured tilt and ball screw mode on one machine: drives soft enough for 238.6 Hz "
-            f"take the tilt to {ours['ball screw'][TILT]:.1f} Hz."
+            f"lower the tilt to {ours['ball screw'][TILT]:.1f} Hz."
         ),
         (
-            "The granite's twist parts into two modes with the strut assembly; the one that holds "
-            f"more of it, {100 * study.named['numerical'].shares[TWISTING]:.0f} %, is shown. With "
-            "the measured machine's softer bearings that is the upper one, at "
+            "The granite's twist splits into two modes with the strut assembly; the one with the "
+            f"larger part of it, {100 * study.named['numerical'].shares[TWISTING]:.0f} %, is "
+            "shown. With the measured machine's softer bearings that is the upper one, at "
             f"{ours['measured'][TWISTING]:.0f} Hz."
         ),
-        f"Rigid-body modes: the thesis's shapes are in pictures only; {_beside()}.",
+        f"Rigid-body modes: the thesis shows the shapes only in pictures; {_beside()}.",
     )
 
 

@@ -40,6 +40,7 @@ from strutwork.reports.content import (
 from strutwork.reports.data_files import DataFile, json_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import MINUS, fixed, micro, percent, significant
+from strutwork.reports.pivot import Entry, pivoted
 
 MAP, FITS = "planar-stiffness.csv", "table-6-fits.json"
 
@@ -53,18 +54,17 @@ def stiffness_chapter() -> Chapter:
             "Each strut with its bearings is a spring k_i (eq. 51); blocks and guides are rigid. "
             "The thesis's J⁻ᵀ K J⁻¹ puts these springs at the drives, along z, which makes a "
             "leaning strut stiffer by 1/u_z². Corrected, K = Σ a aᵀ/c with a a strut's line at "
-            "the tool tip and c = 1/k_i + u_x²/k_tr + u_z²/k_screw: what the structure of this "
-            "report gives to 1e-9. The thesis's term in k_tr is right."
+            "the tool tip and c = 1/k_i + u_x²/k_tr + u_z²/k_screw: the structure of this report "
+            "gives the same to 1e-9. The thesis's term in k_tr is right."
         ),
         _facts(found),
         _maps(found),
         Text(
             f"k_i = {micro(STRUT_STIFFNESS)} N/µm is calibrated: with it the flat part of the map "
             "lies at 150 N/µm, the highest tick of Fig. 29-(a), which prints no value. The "
-            "stiffness is 1/C_xx at the tool tip, tilt and z free to follow. The computed one in "
-            "Table 6 is "
-            "the entire structure with the bearings that are calibrated to the thesis's numerical "
-            "frequencies and to its K_y of 35 N/µm at home."
+            "stiffness is 1/C_xx at the tool tip, with tilt and z free to follow. The computed "
+            "one in Table 6 is that of the entire structure with the bearings calibrated to the "
+            "thesis's numerical frequencies and to its K_y of 35 N/µm at home."
         ),
         _table_6(rows),
         _fits_table(fits),
@@ -131,40 +131,28 @@ def _maps(found: xr.Dataset) -> Row:
 
 
 def _table_6(rows: tuple[PublishedRow, ...]) -> Table:
-    lines: list[list[str | Cell]] = []
     size = len(rows) // len(READINGS)
-    printed, swapped = rows[:size], rows[size:]
-    for one, other in zip(printed, swapped, strict=True):
-        lines.append(
-            [
-                one.row.removesuffix(", as printed").replace("-", MINUS),
-                one.quantity,
-                significant(one.computed),
-                *_beside(one),
-                *_beside(other),
-            ]
+    entries = [
+        Entry(
+            [one.row.removesuffix(", as printed").replace("-", MINUS)],
+            one.quantity,
+            [significant(one.computed), _beside(one), _beside(other)],
         )
-    groups = ("as printed", "last two rows swapped")
-    return Table(
+        for one, other in zip(rows[:size], rows[size:], strict=True)
+    ]
+    return pivoted(
         "Table 6 of the thesis, measured stiffness, beside the computed values at the tool tip, "
         "N/µm: "
         "not reproducible",
-        (
-            *texts("place", "along"),
-            *numbers("computed"),
-            *(
-                Column(head, "", True, group)
-                for group in groups
-                for head in ("published", "difference")
-            ),
-        ),
-        lines,
+        texts("place"),
+        numbers("computed", "as printed", "last two rows swapped"),
+        entries,
         file_name(TABLE_6.key),
     )
 
 
-def _beside(row: PublishedRow) -> tuple[str, Cell]:
-    return significant(row.published), Cell(percent(row.difference_percent, 0), "poor")
+def _beside(row: PublishedRow) -> Cell:
+    return Cell(significant(row.published), "poor", percent(row.difference_percent, 0))
 
 
 def _fits_table(fits: tuple[ColumnFit, ...]) -> Table:
@@ -199,13 +187,13 @@ def _shown(stiffness: float) -> str:
 def _verdict(fits: tuple[ColumnFit, ...]) -> str:
     null = fits[0].rms
     return (
-        "Table 6 was measured at the spindle housing after a dead zone of 2 to 4 µm; where on it "
-        "is not published. In x and z together no model comes nearer than one constant a column, "
-        f"whose residuals are {', '.join(fixed(v or 0.0, 2) for v in null)} and which knows "
-        "nothing of the machine. Section 9.2.1 calls the stiffness at x = −50 mm, b = −30° small, "
-        "where the table prints its largest numbers: as if the last two rows had changed places; "
-        f"that is not proven. {_swap(fits)} What can be said is the trend: soft at the two corners "
-        "where the struts come near a common point."
+        "Table 6 was measured at the spindle housing after a dead zone of 2 to 4 µm; the place "
+        "on it is not published. In x and z together no model is closer than one constant per "
+        f"column, whose residuals are {', '.join(fixed(v or 0.0, 2) for v in null)} and which "
+        "does not depend on the machine. Section 9.2.1 calls the stiffness at x = −50 mm, b = "
+        "−30° small, where the table prints its largest numbers: as if the last two rows had "
+        f"changed places; that is not proven. {_swap(fits)} Only the trend is certain: the "
+        "machine is soft at the two corners where the struts come near a common point."
     )
 
 

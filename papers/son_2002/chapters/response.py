@@ -16,9 +16,9 @@ def response_chapter(study: WholeStudy) -> Chapter:
     softest = min(elastic.least, key=lambda one: one.value)
     blocks: list[Block] = [
         Note(
-            "Damping is assumed: 1 % of critical in every mode; the thesis prints none. Peaks are "
-            "as high as that number makes them. Tool against the floor, bearings as in the "
-            "thesis's finite element model."
+            "Damping is assumed: 1 % of critical in every mode; the thesis prints none. It "
+            "decides the height of the peaks. The response is that of the tool relative to the "
+            "floor, with bearings as in the thesis's finite element model."
         ),
         *([Note(some.validity)] if some.validity else []),
         response_figure(some),
@@ -30,8 +30,8 @@ def response_chapter(study: WholeStudy) -> Chapter:
             "work move together. Beyond the mounts' modes it is "
             f"{significant(softest.value / 1e6)} N/µm along {softest.output.direction} at "
             f"{significant(softest.frequency)} Hz, the strut assembly's. The bands end at "
-            f"{BAND[1]:g} Hz, to which the reduced granite holds. The minima are those of the "
-            "continuous curve, not of drawn points."
+            f"{BAND[1]:g} Hz, up to which the reduced granite is accurate. The minima are those "
+            "of the continuous curve, not of drawn points."
         ),
     ]
     return Chapter(

@@ -30,11 +30,11 @@ OURS = "assumed"
 NOTES = (
     (
         "Lengths, sections, stiffnesses and masses are assumed: the thesis shows these machines "
-        "as skeletons and prints no dimension of one. Nothing in this table is a prediction of a "
-        "printed number."
+        "as skeletons and prints none of their dimensions. Nothing in this table is a prediction "
+        "of a printed number."
     ),
     (
-        "A–C stands at home with the tool tilted by 30° about x: the thesis turns its surface for "
+        "At home the tool of A–C is tilted by 30° about x; the thesis rotates its surface for "
         "the same reason (section 4.4.1)."
     ),
     (
@@ -52,18 +52,18 @@ def heads_chapter() -> Chapter:
         "Where does a head lose a direction?",
         (
             Text(
-                "Two rotary axes at rates of size one turn the tool's axis one way at speed 1 and "
-                "the other way at |sin a| with axes C and A, at |cos b| with A and B (section "
-                "2.1.2, eqs 9 and 10). Where that is zero the tool can be tilted one way only, and "
-                "near it a rotary axis must turn faster than the tool by the inverse. With the "
-                "tool upright, in the middle of the work, A–C loses a direction; A–B loses it "
-                "with the tool level."
+                "Two rotary axes at rates of size one rotate the tool's axis in one direction at "
+                "speed 1 and in the other at |sin a| with axes C and A, at |cos b| with A and B "
+                "(section 2.1.2, eqs 9 and 10). Where that is zero the tool can be tilted in one "
+                "direction only, and near it a rotary axis must rotate faster than the tool by "
+                "the inverse. With the tool upright, in the middle of the work, A–C loses a "
+                "direction; A–B loses it with the tool level."
             ),
             _speeds_figure(found),
             _speeds_table(found),
             Text(
-                "Found from the joints alone, without the formulas; the two differ by "
-                f"{max(h.apart for h in found):.0e} at most. The spindle is driven as well, so "
+                "The values follow from the joints alone, without the formulas; the two differ "
+                f"by {max(h.apart for h in found):.0e} at most. The spindle is driven as well, so "
                 "that such a pose is a serial singularity of the entire machine too."
             ),
             _home_table(found),
@@ -90,7 +90,7 @@ def _speeds_figure(found: tuple[Head, ...]) -> Figure:
     colours = list(AXIS_COLOURS.values())
     return Figure(
         "axis-speeds",
-        "How fast the tool's axis turns in its slower direction, at rotary rates of size one.",
+        "Speed of the tool's axis in its slower direction, at rotary rates of size one.",
         curves(
             np.degrees(found[0].tilt),
             [
@@ -121,7 +121,10 @@ def _speeds_table(found: tuple[Head, ...]) -> Table:
     for head in found:
         columns += numbers("least speed", "rate of the axes", group=HEADS[head.axes])
     return Table(
-        "Least speed of the tool's axis, and what it asks of the rotary axes", columns, rows, SPEEDS
+        "Least speed of the tool's axis, and the rates it demands of the rotary axes",
+        columns,
+        rows,
+        SPEEDS,
     )
 
 
@@ -156,12 +159,12 @@ def flat_chapter() -> Chapter:
     rows = flat_rows()
     return Chapter(
         "flat-surface",
-        "Who turns back over a flat surface?",
+        "Which drives reverse over a flat surface?",
         (
             Text(
-                "The simplest task of chapter 4: a flat surface, the tool's direction held. A "
-                "drive is at a reversal singularity where it stands still whichever way the tool "
-                "goes; there it turns back on almost every path."
+                "This is the simplest task of chapter 4: a flat surface with the tool's "
+                "direction held. A drive is at a reversal singularity where it stands still "
+                "whichever way the tool moves; there it reverses on almost every path."
             ),
             Table(
                 "Reversal singularities, flat surface and tool held",
@@ -171,7 +174,7 @@ def flat_chapter() -> Chapter:
             ),
             Text(
                 "A Cartesian machine's slides follow the surface's coordinates one to one, "
-                f"whatever its head: looked for over ±{significant(1e3 * HALF)} mm."
+                f"whatever its head; the search covers ±{significant(1e3 * HALF)} mm."
             ),
         ),
         (

@@ -12,6 +12,7 @@ from strutwork.reports.content import Block, Chapter, Column, Figure, Note, Row,
 from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from strutwork.reports.figures.scaling import deflection_powers, frequency_powers, stiffness_powers
 from strutwork.reports.numbers import fixed, micro, share, significant
+from strutwork.reports.pivot import Entry, pivoted
 from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents
 from strutwork.studies.scale import ScaleStudy
 
@@ -35,13 +36,13 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
     blocks: list[Block] = [
         Text(
             "Chapter 3 of the thesis: a structure all of whose lengths are L times as large is L "
-            "times as stiff (eqs 14 and 15), and its natural frequencies are divided by L "
-            "(eq. 24). That takes joints whose stiffness grows with L as well; roller bearings of "
-            "a catalogue grow with L^0.8, which section 3.3 takes for L, and a machine that keeps "
-            "its bearings has stiffer and stiffer struts between the same joints. At L = 1 the "
-            "slope of the stiffness is 1 − s (1 − a), s the joints' share in the deflection and "
-            "a the exponent of their stiffness; that of a frequency −1 − s (1 − a)/2, s their "
-            "share in the mode's strain energy."
+            "times as stiff (eqs 14 and 15), and its natural frequencies are divided by L (eq. "
+            "24). That requires joints whose stiffness grows with L as well; roller bearings of "
+            "a catalogue grow with L^0.8, which section 3.3 takes for L, and a machine that "
+            "keeps its bearings has stiffer and stiffer struts between the same joints. At L = 1 "
+            "the slope of the stiffness is 1 − s (1 − a), s the joints' share in the deflection "
+            "and a the exponent of their stiffness; that of a frequency −1 − s (1 − a)/2, s "
+            "their share in the mode's strain energy."
         ),
         Text(_finding(moving, whole)),
         Row(
@@ -49,8 +50,8 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
                 Figure(
                     "size-stiffness",
                     "Stiffness at the tool against size, rails held, 1/Cᵢᵢ. Both axes are "
-                    "logarithmic: a power is a straight line, and its exponent stands behind its "
-                    "name.",
+                    "logarithmic: a power is a straight line, and its exponent is given after "
+                    "its name.",
                     stiffness_powers(moving),
                     "Lines of the stiffness in x, y and z over the size, for three laws of joints.",
                     FILE,
@@ -71,7 +72,7 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
         Figure(
             "size-frequency-whole",
             "Frequencies of the machine on its granite against size, counted from the lowest at "
-            "every size; the first six, in which the granite moves on its mounts, are left out.",
+            "every size; the first six, in which the granite moves on its mounts, are omitted.",
             frequency_powers(whole, tuple(k for k in SHOWN if k < whole.frequencies.shape[-1])),
             "Lines of four frequencies over the size, for three laws of the joints.",
             FILE,
@@ -85,11 +86,11 @@ def scale_chapter(moving: ScaleStudy | None = None, whole: ScaleStudy | None = N
             "a similar machine. n is 3 for motors of similar shape and 3.5 for the industrial "
             "brushless motors of the thesis; with n = 1 the deflection is the same at any size."
         ),
-        _removal(both),
+        *_removal(both),
         Figure(
             "size-deflection",
-            "Deflection in x at constant removal rate, rails held, beside that of the machine's "
-            "own size. Above 1 the machine of that size cuts less precisely.",
+            "Deflection in x at constant removal rate, rails held, relative to that at the "
+            "machine's own size. Above 1 the machine of that size cuts less precisely.",
             deflection_powers(moving),
             "Lines of the deflection over the size for three laws of joints and three drives.",
             FILE,
@@ -119,11 +120,11 @@ def _finding(moving: ScaleStudy, whole: ScaleStudy) -> str:
     slower, slowest = (fixed(float(moving.frequency_law(i).exponent[0]), 2) for i in (1, 2))
     return (
         f"The calibrated machine at home, {micro(float(k))} N/µm in x and {significant(float(f))} "
-        f"Hz with the rails held. With similar joints its exponents are 1 and −1 within "
+        "Hz with the rails held. With similar joints its exponents are 1 and −1 within "
         f"{significant(error, 1)}. Its bearings give {share(float(moving.joint_share[0]))} of the "
-        f"deflection in x and {share(float(moving.joint_share[1]))} in y: with roller bearings the "
-        f"stiffness in x goes with L^{rollers} and the lowest frequency with L^{slower}, with the "
-        f"same bearings with L^{same} and L^{slowest}. A larger machine wants larger bearings."
+        f"deflection in x and {share(float(moving.joint_share[1]))} in y: with roller bearings "
+        f"the stiffness in x varies as L^{rollers} and the lowest frequency with L^{slower}, with "
+        f"the same bearings with L^{same} and L^{slowest}. A larger machine needs larger bearings."
     )
 
 
@@ -157,22 +158,28 @@ def _exponents(both: dict[str, ScaleStudy]) -> Table:
     )
 
 
-def _removal(both: dict[str, ScaleStudy]) -> Table:
+def _removal(both: dict[str, ScaleStudy]) -> tuple[Text, Table]:
     rows = [
         row
         for name, study in both.items()
         for i, law in enumerate(study.laws)
         for row in removal_rows(f"{name}, {law}", study.removal(i), _power)
     ]
-    return Table(
-        "Exponents of the size at constant removal rate, drives' force ~ Lⁿ (eqs 19 to 23)",
-        (
-            *texts("machine and joints"),
-            *numbers("n", "feed", "cutting force"),
-            *(Column(a, "", True, "deflection") for a in "xyz"),
+    # feed and force follow from n alone
+    given = {n: f"L^{feed} and L^{force}" for _, n, feed, force, *_ in rows}
+    rates = "; ".join(f"for n = {n} with {powers}" for n, powers in given.items())
+    return (
+        Text(
+            "At constant removal rate, with drives' force ~ Lⁿ, feed and cutting force go "
+            f"{rates}, whatever the joints (eqs 19 to 23)."
         ),
-        rows,
-        "size.json",
+        pivoted(
+            "Exponents of the deflection at constant removal rate, drives' force ~ Lⁿ",
+            texts("machine and joints"),
+            numbers(*"xyz"),
+            [Entry([name], f"n = {n}", some) for name, n, _, _, *some in rows],
+            "size.json",
+        ),
     )
 
 

@@ -12,7 +12,7 @@ from strutwork.papers.son_2002.figures.whole_machine import whole_machine_view
 from strutwork.papers.son_2002.published import FIGURE_29_TICK, MACHINE, STIFFNESS
 from strutwork.papers.son_2002.whole_study import WholeStudy
 from strutwork.papers.tables import assumed
-from strutwork.reports.content import Block, Column, Fact, Facts, Figure, Row, Table, Text
+from strutwork.reports.content import Block, Column, Fact, Facts, Figure, Points, Row, Table, Text
 from strutwork.reports.data_files import DataFile, json_file, netcdf_file
 from strutwork.reports.figures.curves import heat
 from strutwork.reports.numbers import fixed, micro, significant
@@ -27,16 +27,16 @@ def whole_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
     weight = study.masses["whole"] - study.masses["moving"]
     blocks: list[Block] = [
         Text(
-            "The complete machine is one structure: the granite, a solid, on four elastic mounts; "
-            "three rails on its vertical plate; blocks, struts as beams, pins in two bearings "
-            "each, and the spindle housing. It stands at any pose of the plane; the granite is "
-            "reduced once to the footings of its mounts and rails."
+            "The complete machine is one structure: the granite, a solid, on four elastic "
+            "mounts; three rails on its vertical plate; blocks, struts as beams, pins in two "
+            "bearings each, and the spindle housing. It can take any pose of the plane; the "
+            "granite is reduced once to the footings of its mounts and rails."
         ),
         Facts(
             (
                 Fact("Granite", fixed(weight, 0), "kg", "from its dimensions and 3000 kg/m³"),
                 Fact(
-                    "What moves",
+                    "Moving mass",
                     significant(study.masses["moving"]),
                     "kg",
                     "struts and housing; calibrated, the thesis's 7.1 kg of spindle as 6 % of it "
@@ -50,7 +50,7 @@ def whole_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
                     f"reduced to {6 * len(whole.granite.nodes)}",
                 ),
                 Fact(
-                    "Reduction holds to",
+                    "Reduction is accurate to",
                     "400",
                     "Hz",
                     "to 1e-4 of a frequency; retained modes to "
@@ -60,9 +60,9 @@ def whole_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
         ),
         Figure(
             "drawing-whole-machine",
-            "The complete MIT-SS-1 at home. The granite is drawn as it is computed, with its "
-            "cells; drag to turn, scroll to zoom, names show under the pointer. Without the "
-            "work table.",
+            "The complete MIT-SS-1 at home. The granite is drawn with the cells of its mesh; "
+            "drag to rotate, scroll to zoom, names appear under the pointer. The work table is "
+            "omitted.",
             whole_machine_view(whole),
             "Three-dimensional drawing: an L of granite on four mounts, three rails on its plate, "
             "struts, spindle housing and tool before them.",
@@ -114,17 +114,17 @@ def calibrated_blocks(study: WholeStudy) -> tuple[list[Block], list[DataFile]]:
         )
     blocks: list[Block] = [
         Text(
-            "The maps above have rigid guides and one spring a strut, the structure of eq. 51. "
-            "The machine whose modes follow has radial and axial bearing stiffness and masses "
-            "calibrated to frequencies and to the stiffness at home (see Calibration); its maps, "
-            "1/Cᵢᵢ at the tool tip with other directions free to follow:"
+            "The maps above are for rigid guides and one spring per strut, the structure of eq. "
+            "51. The machine whose modes follow has radial and axial bearing stiffness and "
+            "masses calibrated to frequencies and to the stiffness at home (see Calibration); "
+            "its maps, 1/Cᵢᵢ at the tool tip with other directions free to follow:"
         ),
         Row(tuple(figures), 320),
         _at_home(study),
         Text(
-            "On its granite the tool moves against the floor mostly because the mounts are soft; "
-            "tool and work go together in that, so the rails' stiffness is what a cut feels, "
-            "with what the granite bends besides. The work table is not in the model."
+            "On its granite the tool moves relative to the floor mostly because the mounts are "
+            "soft; tool and work move together, so the stiffness on held rails acts in a cut, "
+            "together with the bending of the granite. The work table is not in the model."
         ),
     ]
     maps = {
@@ -157,14 +157,17 @@ def _at_home(study: WholeStudy) -> Table:
         ]
     )
     return Table(
-        "Stiffness at the tool tip at home; x and y of the thesis are among what was calibrated on",
+        (
+            "Stiffness at the tool tip at home; x and y of the thesis are among the targets of "
+            "the calibration"
+        ),
         (Column("", "", False), *(Column(f"K{axis * 2}", "N/µm") for axis in AXES)),
         rows,
         STIFFNESS_FILE,
     )
 
 
-def whole_assumptions(whole: MitSS1Whole) -> Table:
+def whole_assumptions(whole: MitSS1Whole) -> Points:
     """What the entire machine assumes, with the sources."""
     frame, machine = whole.frame, whole.machine
     mm = 1e3
@@ -232,7 +235,7 @@ def whole_assumptions(whole: MitSS1Whole) -> Table:
             ["Damping of every mode", "1 %", "assumed; the thesis prints none"],
             [
                 "Work table; masses of blocks, screws, motors",
-                "left out",
+                "omitted",
                 "not published; the table's own modes lie above 400 Hz (section 9.2.2)",
             ],
         ],

@@ -85,7 +85,7 @@ def test_rows_of_the_table() -> None:
     # layout and ratios were chosen with every case in view, so no case is predicted
     assert {r.status for r in fitted} == {"calibrated"}
     others = [r for r in fitted if " I " not in r.row]
-    assert all("with this case in view too" in r.note for r in others)
+    assert all("to match this case too" in r.note for r in others)
     # fitted to Case I alone, the rest within 5 %: the reconstruction's own transfer is 4.1 %
     assert max(abs(r.difference_percent) for r in others) < 5.0
     assert len(others) == 24

@@ -158,7 +158,7 @@ def test_nodes_that_stand_elsewhere_are_refused() -> None:
     moved = placed.placement.positions.copy()
     moved[1, 0] += 1e-3
     aside = placed.structure.at(Placement(moved, placed.placement.frames, np.zeros(0)))
-    with pytest.raises(ModelError, match="superelement column: its nodes stand"):
+    with pytest.raises(ModelError, match="superelement column: its nodes are"):
         element.stiffness(aside)
 
 
