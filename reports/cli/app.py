@@ -38,6 +38,7 @@ COMMANDS = {
     "map": f"{_HERE}.map_command:map_command",
     "modes": f"{_HERE}.app:modes",
     "frf": f"{_HERE}.app:frf",
+    "lobes": f"{_HERE}.lobes_command:lobes",
     "compare": f"{_HERE}.app:compare",
     "tolerance": f"{_HERE}.app:tolerance",
     "scale": f"{_HERE}.app:scale",
