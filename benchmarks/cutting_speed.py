@@ -40,6 +40,9 @@ DOCUMENT = DOCUMENTS / "performance-cutting.md"
 #: Steps of the semi-discretisation per tooth period.
 STEPS = 40
 
+#: The spectral map, to 1e-6, is at least so many times as fast.
+FASTER = 2.0
+
 #: Radial immersions.
 IMMERSIONS = (0.05, 0.1, 0.5, 1.0)
 
@@ -64,7 +67,7 @@ def semi_discretized(process: Milling, speeds: int, depths: int) -> Array:
 
 
 def row(immersion: float, speeds: int, depths: int) -> tuple[str, float]:
-    """Points per second of both at one immersion, as a line, and the exact rate."""
+    """Points per second of both at one immersion, as a line, and their ratio."""
     tip, process = mill_tip(2), mill(immersion)
     exact = chart_of(tip, process, 3, 3)
     cut = mill_cut(process, 2)
@@ -78,12 +81,15 @@ def row(immersion: float, speeds: int, depths: int) -> tuple[str, float]:
     few = max(2, speeds // 10), max(2, depths // 10)
     slow = rate(lambda: semi_discretized(process, *few), few[0] * few[1], 3)
     line = f"| {immersion:g} | {fast:,.0f} | {slow:,.0f} | {fast / slow:.1f} | {off:.1e} |"
-    return line, fast
+    return line, fast / slow
 
 
-def table(speeds: int, depths: int, poses: int) -> str:
-    """The page."""
+def table(speeds: int, depths: int, poses: int, *, timed: bool) -> str:
+    """The page; ratios are required where it is timed."""
     measured = [row(immersion, speeds, depths) for immersion in IMMERSIONS]
+    if timed:
+        least = min(ratio for _, ratio in measured)
+        require(least > FASTER, f"the spectral map is {least:.1f} times as fast")
     tip, process = mill_tip(2), mill(0.5)
     helical = rate(
         lambda: chart_of(tip, mill(0.5, helix=np.pi / 6.0), max(2, speeds // 10), depths),
@@ -118,7 +124,7 @@ def table(speeds: int, depths: int, poses: int) -> str:
             *(line for line, _ in measured),
             "",
             f"With a helix of 30° at immersion 0.5: {helical:,.0f} points per second, since the",
-            "map is assembled anew at every depth.",
+            "map is assembled again at every depth.",
             "",
             "| at immersion 0.5 | per second |",
             "|---|---:|",
@@ -132,7 +138,7 @@ def table(speeds: int, depths: int, poses: int) -> str:
 def main() -> None:
     """Measure, print and perhaps write the table."""
     arguments = parsed(parser(__doc__, DOCUMENT))
-    text = table(4, 4, 20) if arguments.smallest else table(50, 40, 400)
+    text = table(4, 4, 20, timed=False) if arguments.smallest else table(50, 40, 400, timed=True)
     shown(text, DOCUMENT, arguments)
 
 

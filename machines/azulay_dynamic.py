@@ -269,6 +269,10 @@ def dynamic_machine(name: str, which: DynamicSet = "calibrated") -> VibratingLeg
     return VibratingLegs(base=base, platform=_CALIBRATED_PLATFORM, tool_offset=_CALIBRATED_OFFSET)
 
 
+def _apparent(machine: Callable[[], ThreeLegs]) -> ThreeLegs:
+    return machine().apparent()
+
+
 def models_for_statics_and_vibration(
     name: str, machine: Callable[[], ThreeLegs]
 ) -> tuple[Variant, ...]:
@@ -287,7 +291,7 @@ def models_for_statics_and_vibration(
             "apparent",
             "links clamped in the platform, carriages that do not rotate: as the paper's static "
             "tables suggest",
-            lambda: machine().apparent(),
+            partial(_apparent, machine),
         ),
         *(
             Variant(which, words, partial(dynamic_machine, name, which))

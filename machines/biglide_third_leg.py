@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import radians
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -165,5 +164,5 @@ def models_by_legs(report: str) -> tuple[Variant, ...]:
     words = "a third drive across the plane rotates the tool"
     return (
         Variant("plane", "two drives, the tool does not rotate", Biglide),
-        Variant("third-leg", words, BiglideThirdLeg, MappingProxyType(turning), report),
+        Variant("third-leg", words, BiglideThirdLeg, turning, report),
     )

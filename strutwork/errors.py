@@ -63,6 +63,18 @@ class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
 
 
+class StudyError(StrutworkError):
+    """Chunks of a study that could not be computed; the message says what is kept, and where."""
+
+
+class ClusterError(StrutworkError):
+    """A cluster that does not answer, lost its workers, or has other versions than this process."""
+
+
+class StudyWarning(UserWarning):
+    """A study goes on, or can go on, although something in it failed or was interrupted."""
+
+
 class UnverifiedWarning(UserWarning):
     """A number failed its own check and was withheld, while the others stand."""
 

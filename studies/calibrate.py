@@ -13,8 +13,11 @@ from scipy.optimize import least_squares
 
 from strutwork.errors import ModelError, NumericalError, StrutworkError
 from strutwork.studies.calibration_problem import Model, Parameter, Problem, Target
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.description import content_key
 from strutwork.studies.identifiability import Identifiability, identifiability
 from strutwork.studies.progress import Lines, Progress
+from strutwork.studies.run import Chunk, Run
 
 Array = NDArray[Any]
 
@@ -187,29 +190,27 @@ def calibrate(
     chosen, wanted = tuple(parameters), tuple(targets)
     _check(chosen, wanted, starts)
     problem = Problem(model, chosen, wanted, step)
-    tell = progress or Lines("calibration", "starts")
+    points = _starts(chosen, starts, seed)
+
+    def evaluate(chunk: Chunk) -> Arrays:
+        own = Problem(model, chosen, wanted, step)
+        cost, end, why = _searched(own, points[chunk.start])
+        count = np.array([own.evaluations])
+        return {"cost": cost, "end": end, "why": why, "evaluations": count}
+
     costs, ends, failures = np.full(starts, np.inf), np.full((starts, len(chosen)), np.nan), []
-    tell(0, starts)
-    for i, point in enumerate(_starts(chosen, starts, seed)):
-        try:
-            found = least_squares(
-                problem.residuals,
-                point,
-                jac=problem.slopes,
-                bounds=problem.bounds,
-                x_scale="jac",
-                xtol=1e-6,
-                ftol=1e-6,
-                gtol=1e-9,
-                max_nfev=60,
-            )
-        except ModelError:
-            raise
-        except StrutworkError as error:
-            failures.append(f"start {i}: {error}")
-        else:
-            costs[i], ends[i] = found.cost, found.x
-        tell(i + 1, starts)
+    # a model may keep what it made last: starts run beside one another in other processes alone
+    run = Run(workers=1, progress=progress or Lines("calibration", "starts"))
+    for chunk, part in run.chunks(
+        evaluate,
+        starts,
+        1,
+        lambda: content_key("calibration", model, chosen, wanted, step, points),
+    ):
+        i = chunk.start
+        costs[i], ends[i] = part["cost"][0], part["end"][0]
+        problem.evaluations += int(part["evaluations"][0])
+        failures += [f"start {i}: {why}" for why in part["why"].tolist()]
     if not np.isfinite(costs).any():
         raise NumericalError(
             "calibration",
@@ -218,6 +219,28 @@ def calibrate(
         )
     best = ends[_nearest(costs, ends, np.array([p.scaled(p.start) for p in chosen]))]
     return _result(problem, best, costs, ends, seed, threshold, tuple(failures))
+
+
+def _searched(problem: Problem, point: Array) -> tuple[Array, Array, Array]:
+    """Cost (1,), end (1, p) of a search from a start, and why there is none."""
+    try:
+        found = least_squares(
+            problem.residuals,
+            point,
+            jac=problem.slopes,
+            bounds=problem.bounds,
+            x_scale="jac",
+            xtol=1e-6,
+            ftol=1e-6,
+            gtol=1e-9,
+            max_nfev=60,
+        )
+    except ModelError:
+        raise
+    except StrutworkError as error:
+        nothing = np.full((1, len(point)), np.nan)
+        return np.array([np.inf]), nothing, np.array([str(error)])
+    return np.array([found.cost]), found.x[None], np.array([], dtype=np.str_)
 
 
 def assess(

@@ -188,6 +188,25 @@ def study_key(
     return digest.hexdigest()
 
 
+def content_key(study: str, *inputs: object) -> str:
+    """Hash of a study that is made of no named machine, the code included.
+
+    Parameters
+    ----------
+    study : str
+        Which study.
+    *inputs : dataclasses, mappings, arrays and plain values
+        Everything that its numbers depend on.
+    """
+    content = {
+        "study": study,
+        "inputs": [plain(value) for value in inputs],
+        "versions": versions(),
+        "code": source_digest(*_CODE),
+    }
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+
+
 def attributes(study: str, machine: Machine) -> dict[str, str]:
     """Global attributes of a study's dataset.
 

@@ -74,6 +74,8 @@ class Remaining:
     """
 
     end: float | None = field(default=None, init=False)
+    #: Units per second so far.
+    rate: float = field(default=0.0, init=False)
     _begun: float | None = field(default=None, init=False, repr=False)
     _first: int = field(default=0, init=False, repr=False)
     _done: int = field(default=0, init=False, repr=False)
@@ -92,6 +94,7 @@ class Remaining:
         elif done > self._done:
             each = (now - self._begun) / (done - self._first)
             self._done, self.end = done, now + each * (total - done)
+            self.rate = 1.0 / max(each, 1e-9)
         return None if self.end is None else max(0.0, self.end - now)
 
 
@@ -135,6 +138,7 @@ class Lines:
         if finished:
             text += f", done in {elapsed:.0f} s"
         elif left is not None:
+            text += f", {self._left.rate:.3g} per s"
             text += f", about {left:.0f} s left" if left >= 0.5 else f", {LONGER}"
         stream = sys.stderr if self.stream is None else self.stream
         stream.write(visible(text) + "\n")

@@ -15,8 +15,11 @@ from strutwork.errors import ModelError, NumericalError
 from strutwork.fea import modes
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import PlacedStructure, axis_stiffness_free, compliance_budget, tool_compliance
+from strutwork.studies.chunks import Arrays
 from strutwork.studies.dataset_units import LabelledUnits, unit_attributes, unit_coordinate
+from strutwork.studies.description import content_key
 from strutwork.studies.removal_rate import ACTUATOR_EXPONENTS, RemovalExponents, removal_exponents
+from strutwork.studies.run import Chunk, Run
 from strutwork.studies.similarity import ROLLERS, SIMILAR, UNSCALED, JointScaling, scaled
 
 Array = NDArray[Any]
@@ -279,15 +282,43 @@ def scale_study(
             f"some poses have {rigid} rigid-body modes and some have fewer.",
             "Study them one by one.",
         )
-    each = [[scaled(placed, float(size), law) for size in sizes] for law in laws]
-    stiffness = [[axis_stiffness_free(tool_compliance(p)) for p in line] for line in each]
-    frequencies = np.array(
-        [[modes(p, count + rigid).frequencies[..., rigid:] for p in line] for line in each],
-        dtype=float,
+
+    def evaluate(chunk: Chunk) -> Arrays:
+        law, size = divmod(chunk.start, len(sizes))
+        some = scaled(placed, float(sizes[size]), laws[law])
+        return {
+            "stiffness": axis_stiffness_free(tool_compliance(some))[None],
+            "frequency": modes(some, count + rigid).frequencies[None, ..., rigid:],
+        }
+
+    # one at a time here: of a large solid two sizes at once would take twice the memory
+    run = Run(workers=1, inputs=lambda c: f"size {sizes[c.start % len(sizes)]:.6g}")
+    parts = [
+        part
+        for _, part in run.chunks(
+            evaluate, len(laws) * len(sizes), 1, lambda: _key(placed, sizes, laws, count)
+        )
+    ]
+    shape = (len(laws), len(sizes))
+    stiffness, frequencies = (
+        np.concatenate([part[name] for part in parts], dtype=float).reshape(
+            *shape, *parts[0][name].shape[1:]
+        )
+        for name in ("stiffness", "frequency")
     )
     if frequencies.shape[-1] < count or not np.all(np.isfinite(frequencies)):
         raise ModelError("scale", f"has fewer than {count} modes.", "Request fewer frequencies.")
-    return ScaleStudy(tuple(laws), sizes, np.array(stiffness), frequencies, joint_share(placed))
+    return ScaleStudy(tuple(laws), sizes, stiffness, frequencies, joint_share(placed))
+
+
+def _key(placed: PlacedStructure, sizes: Array, laws: Sequence[JointScaling], count: int) -> str:
+    place = placed.placement
+    return content_key(
+        "scale",
+        placed.structure,
+        {"positions": place.positions, "frames": place.frames, "values": place.values},
+        {"sizes": sizes, "laws": list(laws), "count": count},
+    )
 
 
 def joint_share(placed: PlacedStructure) -> Array:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -83,24 +84,16 @@ def stiffness_map(
     ModelError
         No rolls, or a machine whose model is wrong.
     """
-    filters = filters or Filters()
-    points = points or hemisphere(machine)
-    turns = np.atleast_1d(np.asarray(roll_angles() if rolls is None else rolls, dtype=float))
-    if turns.ndim != 1 or not turns.size or not np.all(np.isfinite(turns)):
-        raise ModelError("rolls", "are none, or not finite.", "Give a list of angles, rad.")
-    evaluator = Evaluator(machine, filters).prepared()
-
-    def evaluate(chunk: Chunk) -> Arrays:
-        return _best_rolls(evaluator(points.poses(chunk.items, turns)), turns)
-
+    asked = map_function(machine, points, rolls, filters)
+    points, turns = asked.points, asked.rolls
     size = max(1, CHUNK // len(turns))
-    settings = {"filters": filters, "chunk": size}
+    settings = {"filters": asked.evaluator.filters, "chunk": size}
     run = Run(workers, executor, folder, progress)
     arrays: Arrays = {}
     words: Counter[str] = Counter()
     examples: dict[str, str] = {}
     for chunk, part in run.chunks(
-        evaluate,
+        asked,
         len(points),
         size,
         lambda: study_key(
@@ -113,7 +106,73 @@ def stiffness_map(
         words.update(dict(zip(part.pop("reasons").tolist(), counts.tolist(), strict=True)))
         fill(arrays, chunk, part, len(points))
     arrays["position"], arrays["normal"] = points.position, points.normal
-    return _dataset(evaluator, arrays, turns, {w: n for w, n in words.items() if n}, examples)
+    return asked.dataset(arrays, {w: n for w, n in words.items() if n}, examples)
+
+
+@dataclass(frozen=True)
+class MapFunction:
+    """What a stiffness map asks of a chunk of its points.
+
+    Parameters
+    ----------
+    evaluator : Evaluator
+    points : CheckPoints
+    rolls : (r,)
+        rad.
+    """
+
+    evaluator: Evaluator
+    points: CheckPoints
+    rolls: Array
+
+    def __call__(self, chunk: Chunk) -> Arrays:
+        """Arrays of the chunk's points."""
+        return _best_rolls(self.evaluator(self.points.poses(chunk.items, self.rolls)), self.rolls)
+
+    def dataset(
+        self, arrays: Arrays, words: Mapping[str, int], examples: Mapping[str, str]
+    ) -> xr.Dataset:
+        """The map of points whose arrays are given.
+
+        Parameters
+        ----------
+        arrays : dict of str to (points, ...)
+            Of the chunks, one behind the other, with position and normal.
+        words : mapping of str to int
+            Candidates dropped, by reason.
+        examples : mapping of str to str
+            What was said of the first of them.
+        """
+        return _dataset(self.evaluator, arrays, self.rolls, words, examples)
+
+
+def map_function(
+    machine: Machine,
+    points: CheckPoints | None = None,
+    rolls: ArrayLike | None = None,
+    filters: Filters | None = None,
+) -> MapFunction:
+    """That of a machine, with everything made that threads share.
+
+    Parameters
+    ----------
+    machine : Machine
+    points : CheckPoints, optional
+    rolls : (r,), optional
+        rad.
+    filters : Filters, optional
+        All as `stiffness_map`.
+
+    Raises
+    ------
+    ModelError
+        As `stiffness_map`.
+    """
+    turns = np.atleast_1d(np.asarray(roll_angles() if rolls is None else rolls, dtype=float))
+    if turns.ndim != 1 or not turns.size or not np.all(np.isfinite(turns)):
+        raise ModelError("rolls", "are none, or not finite.", "Give a list of angles, rad.")
+    evaluator = Evaluator(machine, filters or Filters()).prepared()
+    return MapFunction(evaluator, points or hemisphere(machine), turns)
 
 
 def stiffest_roll(found: Evaluated, rolls: int) -> tuple[NDArray[np.intp], NDArray[np.int8]]:

@@ -84,6 +84,8 @@ def survey(
     """
     model.require_tool()
     count = len(grid)
+    task = grid.task()
+    run = Run(workers, executor, folder, progress, lambda chunk: _spans(task, chunk.items))
     # what the threads share, and what is wrong whatever the pose, comes before the work
     moved(model, {d: values[:1] for d, values in grid.axes.items()})
     _ = model.structure.segments, model.structure.vertex_of_node
@@ -91,14 +93,12 @@ def survey(
         foresee(lambda some: _asked(model, some, answers), grid, workers).require(
             "workspace",
             "Take fewer points along a direction.",
-            LONGEST if folder is None and executor is None else None,
+            LONGEST if run.bounded else None,
         )
-    task = grid.task()
 
     def evaluate(chunk: Chunk) -> Arrays:
         return _asked(model, {d: v[chunk.items] for d, v in task.items()}, answers)
 
-    run = Run(workers, executor, folder, progress)
     arrays: Arrays = {}
     words = [""]
     for chunk, part in run.chunks(evaluate, count, CHUNK, lambda: survey_key(model, grid, answers)):
@@ -115,6 +115,12 @@ def survey(
             "Move the grid into the machine's reach.",
         )
     return _dataset(model, grid, answers, arrays, words)
+
+
+def _spans(task: Mapping[str, Array], items: slice) -> str:
+    """Task coordinates of some poses, as in "x -0.1 to 0.1", m and rad."""
+    spans = {d: (float(v[items].min()), float(v[items].max())) for d, v in task.items()}
+    return ", ".join(f"{d} {a:.6g} to {b:.6g}" for d, (a, b) in spans.items())
 
 
 def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> Arrays:

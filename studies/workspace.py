@@ -25,9 +25,11 @@ from strutwork.kinematics.margin_grid import (
 )
 from strutwork.kinematics.regions import Regions, regions
 from strutwork.studies.dataset_units import unit_attributes
+from strutwork.studies.executor import place
 from strutwork.studies.foresee import Foreseen
 from strutwork.studies.level_set import LevelSet, apart, level_set
 from strutwork.studies.progress import Progress
+from strutwork.studies.spread_margin import Spread
 from strutwork.studies.workspace_margin import MachineMargin
 
 Array = NDArray[Any]
@@ -230,9 +232,16 @@ def workspace(
     directions, values = tuple(axes), tuple(np.asarray(v, dtype=float) for v in axes.values())
     check_axes(directions, values)
     foresee(margin, values)
-    margin.told = progress
+    margin.told = progress if margin.follows else None
+    # poses that are followed from one another are no chunks
+    somewhere = not margin.follows and (place().executor or place().folder) is not None
     grid = margin_grid(
-        directions, values, margin, halvings=halvings, at_once=margin.follows, told=progress
+        directions,
+        values,
+        Spread(margin, progress) if somewhere else margin,
+        halvings=halvings,
+        at_once=margin.follows or somewhere,
+        told=progress,
     )
     # what is asked of it later is no part of this grid
     margin.told = None

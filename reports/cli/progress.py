@@ -83,11 +83,20 @@ class LeftColumn(ProgressColumn):
         return Text(f"{left:.0f} s left" if left >= 0.5 else LONGER)
 
 
+class _Rate(ProgressColumn):
+    """How many are done per second."""
+
+    def render(self, task: Task) -> Text:
+        """Empty until something is done."""
+        return Text(f"{task.speed:.3g} per s" if task.speed else "")
+
+
 def _bars() -> Bars:
     columns = (
         TextColumn("{task.description}", markup=False),
         BarColumn(),
         MofNCompleteColumn(),
+        _Rate(),
         LeftColumn(),
     )
     return Bars(*columns, console=progress_console(), transient=True)

@@ -13,6 +13,7 @@ from typer.core import TyperGroup
 
 from strutwork.names import visible
 from strutwork.reports.cli.manner import speaking
+from strutwork.reports.cli.placing import placed
 
 #: Base of what typer raises for wrong usage, wherever its release keeps it.
 USAGE_ERROR: type[Any] = typer.BadParameter.__mro__[1]
@@ -27,16 +28,22 @@ class Made(Mapping[str, Any]):
         Where each stands, "MODULE:FUNCTION".
     silent : collection of str
         Those that print no tables.
+    elsewhere : collection of str
+        Those whose studies may be computed elsewhere.
     """
 
-    def __init__(self, places: Mapping[str, str], silent: Collection[str]) -> None:
-        self._places, self._silent = places, silent
+    def __init__(
+        self, places: Mapping[str, str], silent: Collection[str], elsewhere: Collection[str]
+    ) -> None:
+        self._places, self._silent, self._elsewhere = places, silent, elsewhere
         self._made: dict[str, Any] = {}
 
     def __getitem__(self, name: str) -> Any:
         if name not in self._made:
             module, _, function = self._places[name].partition(":")
             work = getattr(import_module(module), function)
+            if name in self._elsewhere:
+                work = placed(work)
             one = typer.Typer(add_completion=False)
             one.command(name)(work if name in self._silent else speaking(work))
             self._made[name] = typer.main.get_command(one)
@@ -52,13 +59,14 @@ class Made(Mapping[str, Any]):
 class Commands(TyperGroup):
     """The commands; what they say of wrong usage acts on no terminal."""
 
-    #: Where each command stands, and those that print no tables.
+    #: Where each command is, those that print no tables, and those that may run elsewhere.
     places: ClassVar[Mapping[str, str]] = {}
     silent: ClassVar[Collection[str]] = ()
+    placed: ClassVar[Collection[str]] = ()
 
     def __init__(self, *args: Any, **extra: Any) -> None:
         super().__init__(*args, **extra)
-        self.commands: Any = Made(self.places, self.silent)
+        self.commands: Any = Made(self.places, self.silent, self.placed)
 
     def make_context(self, *args: Any, **extra: Any) -> Any:
         """Read the options before the command."""

@@ -55,7 +55,7 @@ def test_no_benchmark_is_forgotten() -> None:
 
 
 #: Those that take longest even so; nightly, where their usual sizes run too.
-LONG = {"solid_speed", "static_speed", "tolerance_speed"}
+LONG = {"executor_speed", "solid_speed", "static_speed", "tolerance_speed"}
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ from strutwork.studies.run import Chunk, Run, fill
 KEY = "0123456789abcdef" * 4
 
 
-class InterruptError(Exception):
+class InterruptError(BaseException):
     """Stands for the user's Ctrl-C in the middle of a study."""
 
 
@@ -187,7 +187,7 @@ def test_long_work_speaks_seldom() -> None:
         lines(done, seconds)
     # at PATIENCE, then every INTERVAL, and the end
     due = [int(PATIENCE), int(PATIENCE + INTERVAL), int(PATIENCE + 2 * INTERVAL)]
-    expected = [f"map: {d} of 40 poses, about {40 - d} s left" for d in due]
+    expected = [f"map: {d} of 40 poses, 1 per s, about {40 - d} s left" for d in due]
     assert stream.getvalue().splitlines() == [*expected, "map: 40 of 40 poses, done in 40 s"]
 
 
