@@ -60,6 +60,12 @@ class Lobes:
         depth = float(self.depth[line, family])
         return depth, float(self.frequencies[line]) if np.isfinite(depth) else float("nan")
 
+    @property
+    def at_edge(self) -> bool:
+        """Whether the absolute limit stands at an end of the band, beyond which it may be less."""
+        line = int(np.argmin(self.depth.min(axis=1)))
+        return line in (0, len(self.frequencies) - 1)
+
     def curve(self, family: int, waves: int) -> tuple[Array, Array]:
         """One lobe: speeds in rpm (f,) and depths in m (f,); infinite where it has none.
 

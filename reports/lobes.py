@@ -156,6 +156,12 @@ def target_lobes(
             f"have no limiting depth between {lines[0]:g} and {lines[-1]:g} Hz.",
             "The directions of the cut do not meet a mode; check --axis and --feed.",
         )
+    if found.at_edge:
+        raise ModelError(
+            "lobes",
+            f"have their least depth at the end of the band, {absolute[1]:g} Hz.",
+            "Ask for higher speeds, so that the band is wider.",
+        )
     limits = found.at(speeds)
     exact, note = None, f"Note: {stop}" if stop else ""
     if isinstance(damping, Damping) and not damping.structural:

@@ -181,6 +181,14 @@ def test_a_response_that_limits_nothing_has_no_absolute_depth() -> None:
     assert np.isnan(frequency)
 
 
+def test_an_absolute_limit_at_the_end_of_the_band_is_seen() -> None:
+    """The least depth is at 253 Hz."""
+    ends = {270.0: False, 252.5: True}
+    for end, edge in ends.items():
+        lobes = zero_order_lobes(one_mode().receptance(np.linspace(200.0, end, 500)), Turning(1e9))
+        assert lobes.at_edge == edge
+
+
 def test_zero_order_lobes_refuse_process_damping() -> None:
     process = replace(mill(0.5), damping=ProcessDamping(1e4))
     with pytest.raises(ModelError, match="leave process damping out"):
