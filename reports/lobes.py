@@ -171,8 +171,8 @@ def target_lobes(
         exact = depth_limits(modes, process, speeds, deep, min(0.5 * absolute[0], deep))
     else:
         note = (
-            f"Only zero-order limits are computed: the damping ({damping}) is not viscous by modes. "
-            "Exact limits need a modal ratio or Rayleigh damping, and joints without dashpots."
+            f"Only zero-order limits are computed: the damping ({damping}) is not viscous by "
+            "modes. Exact limits need a modal ratio or Rayleigh damping, and joints without dashpots."
         )
     pockets: tuple[Pocket, ...] = ()
     if len(speeds) >= 3 and (exact is not None or np.all(np.isfinite(limits.depth))):
