@@ -47,6 +47,7 @@ __all__ = [
 
 #: Rooms, entered when somebody asks for one: importing strutwork stays quick.
 _ROOMS = (
+    "cutting",
     "fea",
     "kinematics",
     "machines",

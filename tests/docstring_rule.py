@@ -27,6 +27,7 @@ PACKAGES = (
     "fea",
     "overconstraint",
     "machines",
+    "cutting",
     "studies",
 )
 
@@ -49,7 +50,7 @@ SHAPE = re.compile(
 )
 
 _SYMBOL = (
-    r"(?:mm|µm|nm|km|m|kN|mN|µN|N|mrad|µrad|rad|deg|°|kHz|Hz|kg|ms|s|kPa|MPa|GPa|Pa|J|kJ|W|K|°C|%|1)"
+    r"(?:mm|µm|nm|km|m|kN|mN|µN|N|mrad|µrad|rad|rpm|deg|°|kHz|Hz|kg|ms|s|kPa|MPa|GPa|Pa|J|kJ|W|K|°C|%|1)"
     r"(?:[²³⁴⁵⁶]|⁻[¹²³])?"
 )
 _PRODUCT = rf"(?:{_SYMBOL}|√{_SYMBOL})(?:·{_SYMBOL})*"

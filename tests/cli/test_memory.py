@@ -83,6 +83,10 @@ def test_a_small_model_keeps_the_ceiling(command: str) -> None:
     [
         ("tolerance", "mit-ss1"),
         ("frf", "mit-ss1", "--input", "TCP:x", "--modal-ratio", "0.01"),
+        (
+            *("lobes", "mit-ss1", "--modal-ratio", "0.02", "--tool", "diameter=20mm,teeth=4"),
+            *("--material", "aluminium-7075-t6", "--speeds", "2000..12000:11"),
+        ),
         ("map", "mit-ss1"),
         ("scale", "mit-ss1"),
         ("report", "mit-ss1", "-o", "{folder}"),
