@@ -39,6 +39,9 @@ CSV = "comparison.csv"
 #: Sentences on the cover.
 MOST = 8
 
+#: Title of a machine that stands at the head of the page, characters; else its name does.
+LONGEST = 60
+
 _TONES: dict[Verdict, Tone] = {
     "A better": "poor",
     "B better": "good",
@@ -114,7 +117,11 @@ def comparison_page(found: DesignComparison) -> Page:
     again = f"strutwork compare {shlex.join(names)} --html FILE" if found.named else ""
     settings = {"marked from": f"{found.threshold:g} %", "machines stand": found.where}
     closing = closing_chapter(" beside ".join(names), settings, found.to_dict(), chapters, again)
-    title = f"{found.a.title} beside {found.b.title}"
+    titles = [
+        design.title if len(design.title) <= LONGEST else name
+        for design, name in zip((found.a, found.b), names, strict=True)
+    ]
+    title = " beside ".join(titles)
     subtitle = f"A is {names[0]}, B is {names[1]}; {found.where}"
     return page_of(title, subtitle, (*chapters, closing))
 
@@ -217,7 +224,8 @@ def _line(row: Row, placed: Sequence[str]) -> list[str | Cell]:
 
 
 def _place(value: Value) -> Cell:
-    return Cell(value.why, "quiet") if value.why else Cell(value.at)
+    # the cover has the remedy as well
+    return Cell(value.why.partition(". ")[0], "quiet") if value.why else Cell(value.at)
 
 
 def _csv(found: DesignComparison) -> DataFile:
