@@ -172,7 +172,8 @@ def target_lobes(
     else:
         note = (
             f"Only zero-order limits are computed: the damping ({damping}) is not viscous by "
-            "modes. Exact limits need a modal ratio or Rayleigh damping, and joints without dashpots."
+            "modes. Exact limits need a modal ratio or Rayleigh damping, and joints without "
+            "dashpots."
         )
     pockets: tuple[Pocket, ...] = ()
     if len(speeds) >= 3 and (exact is not None or np.all(np.isfinite(limits.depth))):
