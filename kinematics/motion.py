@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -50,6 +51,8 @@ class Moved:
         Steps made.
     bodies : BodyPoses
         Of the moving bodies, (..., b, 3) and (..., b, 3, 3).
+    walk : Walk or None
+        The way, for what begins beside it; kept of a few poses.
     """
 
     placement: Placement
@@ -58,6 +61,7 @@ class Moved:
     error: Array
     steps: NDArray[np.intp]
     bodies: BodyPoses
+    walk: Walk | None = field(default=None, repr=False, compare=False)
 
     def __repr__(self) -> str:
         found = self.placement.reachable
@@ -133,6 +137,22 @@ class Motion:
         """The legs, where the tool's pose fixes each by itself: poses are then found leg by leg."""
         return leg_system(self.joints)
 
+    def with_joints_of(self, linkage: Linkage) -> Motion:
+        """The same motion for a linkage whose joints differ in stiffness, damping or limits alone.
+
+        What was derived stays: none of it depends on them.
+
+        Parameters
+        ----------
+        linkage : Linkage
+            Of the same bodies, joints and free, locked and elastic directions.
+        """
+        if linkage is self.linkage:
+            return self
+        made = copy(self)
+        object.__setattr__(made, "linkage", linkage)
+        return made
+
     @property
     def home_pose(self) -> Poses:
         """The tool at home.
@@ -151,6 +171,7 @@ class Motion:
         tool: Poses | None = None,
         task: Mapping[str, ArrayLike] | None = None,
         joints: Mapping[tuple[str, str], ArrayLike] | None = None,
+        beside: Moved | None = None,
     ) -> Moved:
         """Move from home to a batch of targets, all at once.
 
@@ -172,6 +193,9 @@ class Motion:
         joints : mapping of (joint, direction) to (...), optional
             Joint coordinates, m or rad, driven or not. Where more are given than freedoms, they
             must agree.
+        beside : Moved, optional
+            Where a machine that hardly differs from this one was moved by the same targets, one
+            batch axis: the way begins there. Legs that are found one by one do without.
 
         Returns
         -------
@@ -190,7 +214,12 @@ class Motion:
         if tool is not None and not joints and self.legs is not None:
             walk = LegWalk(self.joints, self.rotation, wanted, self.legs)
         else:
-            walk = Walk(self.joints, self.rotation, wanted)
+            like = None if beside is None else beside.walk
+            walk = Walk(self.joints, self.rotation, wanted, like=like)
+            if beside is not None:
+                found = beside.bodies
+                walk.bodies = BodyPoses(found.position.copy(), found.rotation.copy())
+                walk.coordinates = beside.placement.values - self.home_values
         # rows of one piece at a time: those of a million targets would take tens of gigabytes
         for first in range(0, wanted.poses, PIECE):
             walk.go(np.arange(first, min(first + PIECE, wanted.poses)))
@@ -302,6 +331,7 @@ class Motion:
                 bodies.position.reshape(*batch, *bodies.position.shape[1:]),
                 bodies.rotation.reshape(*batch, *bodies.rotation.shape[1:]),
             ),
+            walk if isinstance(walk, Walk) and wanted.poses <= PIECE else None,
         )
 
     def _turns(self, bodies: BodyPoses) -> Array:

@@ -14,7 +14,7 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
 from strutwork.kinematics.coupling import ties_of
 from strutwork.machines.limits import joint_limits
-from strutwork.machines.model import Damping, Model, ModelWarning
+from strutwork.machines.model import Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
 from strutwork.machines.model_checks import check_tables, ground_name, support_name
 from strutwork.machines.model_couplings import couplings_of
@@ -24,7 +24,13 @@ from strutwork.machines.model_motion_tables import (
     task_of,
     workspace_of,
 )
-from strutwork.machines.model_parts import beams_of, joint_of, masses_of, springs_of
+from strutwork.machines.model_parts import (
+    beams_of,
+    damping_of,
+    joint_of,
+    masses_of,
+    springs_of,
+)
 from strutwork.machines.model_schema import ModelTable
 from strutwork.msa import Beam, Structure
 from strutwork.msa.unjoined import in_words, unjoined_nodes
@@ -113,7 +119,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         nodes=nodes,
         joints=tuple(joint.name for joint in joints),
         supports={node: joint.name for node, joint in supports.items()},
-        damping=_damping(tables),
+        damping=damping_of(tables),
         tolerances=tolerances,
         tolerance_costs=costs,
         force_limits=limits,
@@ -252,19 +258,3 @@ def _supports(tables: ModelTable) -> dict[str, Joint]:
         )
         for node, held in fixed.items()
     }
-
-
-def _damping(tables: ModelTable) -> Damping | None:
-    table = tables.damping
-    if table is None:
-        return None
-    given = [name for name in type(table).model_fields if getattr(table, name) is not None]
-    if len(given) != 1:
-        found = " and ".join(given) if given else "nothing"
-        raise ModelError(
-            "damping",
-            f"has {found}.",
-            "Give exactly one of modal_ratio, loss_factor and rayleigh.",
-        )
-    rayleigh = None if table.rayleigh is None else (table.rayleigh.alpha, table.rayleigh.beta)
-    return Damping(table.modal_ratio, table.loss_factor, rayleigh)

@@ -63,7 +63,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "youngs_modulus": "Young's modulus",
         "poissons_ratio": "Poisson's ratio; or the shear modulus",
         "shear_modulus": "shear modulus; or Poisson's ratio",
-        "density": "needed only where mass is needed",
+        "density": "density; needed only where mass is needed",
         "loss_factor": "structural loss factor η, used where the file has no damping",
     },
     "RodTable": {"shape": "a solid circle", "diameter": "diameter"},

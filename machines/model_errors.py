@@ -17,7 +17,13 @@ if TYPE_CHECKING:
 _LISTED = 10
 
 
-def model_error(error: ValidationError, data: dict[str, Any], source: str) -> ModelError:
+def model_error(
+    error: ValidationError,
+    data: dict[str, Any],
+    source: str,
+    schema: type[BaseModel] = ModelTable,
+    page: str = "docs/model-file.md",
+) -> ModelError:
     """Turn what pydantic found into one error that names the fields.
 
     Parameters
@@ -27,6 +33,10 @@ def model_error(error: ValidationError, data: dict[str, Any], source: str) -> Mo
         The content that was validated; gives the names of list entries.
     source : str
         The file, named when there are several problems.
+    schema : type of BaseModel
+        What the content was validated by.
+    page : str
+        Where its keys are described.
 
     Returns
     -------
@@ -34,7 +44,8 @@ def model_error(error: ValidationError, data: dict[str, Any], source: str) -> Mo
         A UnitError when only quantities are wrong.
     """
     found = [
-        _problem(details, data) for details in error.errors(include_url=False, include_input=True)
+        _problem(details, data, schema, page)
+        for details in error.errors(include_url=False, include_input=True)
     ]
     if len(found) == 1:
         kind, field, problem, remedy = found[0]
@@ -46,7 +57,9 @@ def model_error(error: ValidationError, data: dict[str, Any], source: str) -> Mo
     return kind(source, f"has {len(found)} problems:\n" + "\n".join(lines))
 
 
-def _problem(details: ErrorDetails, data: dict[str, Any]) -> tuple[type[ModelError], str, str, str]:
+def _problem(
+    details: ErrorDetails, data: dict[str, Any], schema: type[BaseModel], page: str
+) -> tuple[type[ModelError], str, str, str]:
     kind, context, found = details["type"], details.get("ctx", {}), details["input"]
     loc = tuple(details["loc"])
     field = _path(loc, data)
@@ -57,11 +70,11 @@ def _problem(details: ErrorDetails, data: dict[str, Any]) -> tuple[type[ModelErr
         case "missing":
             problem, remedy = "is missing.", "Add it."
         case "extra_forbidden":
-            problem, remedy = "is not a known key.", _nearest(loc)
+            problem, remedy = "is not a known key.", _nearest(loc, schema, page)
         case "tuple_type" | "list_type":
             problem = f"is {shown(found)} where a list is expected."
             remedy = "Write it in brackets [ ]."
-            if len(loc) == 1 and _is_array_of_tables(str(loc[0])):
+            if len(loc) == 1 and _is_array_of_tables(str(loc[0]), schema):
                 remedy = f"Write [[{loc[0]}]] with two brackets."
         case "dict_type" | "model_type" | "model_attributes_type":
             problem = f"is {shown(found)} where a table is expected."
@@ -100,16 +113,16 @@ def _path(loc: tuple[int | str, ...], data: dict[str, Any]) -> str:
     return path
 
 
-def _is_array_of_tables(key: str) -> bool:
-    return get_args(ModelTable.model_fields[key].annotation)[-1:] == (Ellipsis,)
+def _is_array_of_tables(key: str, schema: type[BaseModel]) -> bool:
+    return get_args(schema.model_fields[key].annotation)[-1:] == (Ellipsis,)
 
 
-def _nearest(loc: tuple[int | str, ...]) -> str:
+def _nearest(loc: tuple[int | str, ...], schema: type[BaseModel], page: str) -> str:
     """Remedy for an unknown key: the nearest key that its table knows."""
-    top = ModelTable.model_fields
+    top = schema.model_fields
     known = list(top) if len(loc) == 1 else sorted(_keys(top[str(loc[0])].annotation))
     question = meant(str(loc[-1]), known).rstrip()
-    return question or "Remove it, or check its spelling in docs/model-file.md."
+    return question or f"Remove it, or check its spelling in {page}."
 
 
 def _keys(annotation: Any) -> set[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import stat
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -47,7 +48,23 @@ def read_model(path: str | Path) -> Model:
     ModelWarning
         poissons_ratio and shear_modulus of a material that contradict one another.
     """
-    return parse_model(_text(Path(path)), str(path), Path(path).parent)
+    return parse_model(file_text(Path(path)), str(path), Path(path).parent)
+
+
+def read_tables(path: str | Path) -> ModelTable:
+    """Read the tables of a model file, checked one by one; nothing is built from them.
+
+    Parameters
+    ----------
+    path : str or Path
+        As `read_model`.
+
+    Raises
+    ------
+    ModelError, UnitError
+        As `read_model`, but for what depends on several tables.
+    """
+    return parse_tables(file_text(Path(path)), str(path))
 
 
 def parse_model(text: str, source: str = "model", folder: Path | None = None) -> Model:
@@ -61,35 +78,101 @@ def parse_model(text: str, source: str = "model", folder: Path | None = None) ->
     folder : Path, optional
         Where the names of solids' files begin; by default the working directory.
     """
+    tables = parse_tables(text, source)
+    with stage(f"builds the model of {source}"):
+        return build_model(tables, Path() if folder is None else folder)
+
+
+def parse_tables(text: str, source: str = "model") -> ModelTable:
+    """The tables in the text of a model file, checked one by one.
+
+    Parameters
+    ----------
+    text : str
+    source : str
+        Named in messages.
+
+    Raises
+    ------
+    ModelError, UnitError
+        As `read_tables`.
+    """
+    return checked_tables(toml_of(text, source), source)
+
+
+def checked_tables(data: dict[str, Any], source: str = "model") -> ModelTable:
+    """Tables as TOML holds them, checked one by one.
+
+    Parameters
+    ----------
+    data : dict
+        Quantities as numbers in SI or texts with a unit.
+    source : str
+        Named in messages.
+
+    Raises
+    ------
+    ModelError, UnitError
+        As `read_tables`.
+    """
     try:
-        data = tomllib.loads(text)
+        return ModelTable.model_validate(data)
+    except ValidationError as error:
+        raise model_error(error, data, source) from None
+
+
+def toml_of(text: str, source: str, page: str = "docs/model-file.md") -> dict[str, Any]:
+    """The content of a TOML file.
+
+    Parameters
+    ----------
+    text : str
+    source : str
+        Named in messages.
+    page : str
+        Where the file is described.
+
+    Raises
+    ------
+    ModelError
+        It is no TOML.
+    """
+    try:
+        return tomllib.loads(text)
     except RecursionError:
         raise ModelError(source, "is nested too deeply.", "Write plain tables.") from None
     # tomllib reports an integer of thousands of digits as a plain ValueError
     except ValueError as error:
         raise ModelError(
-            source, f"is not TOML: {error}.", "Correct the line, or see docs/model-file.md."
+            source, f"is not TOML: {error}.", f"Correct the line, or see {page}."
         ) from None
-    try:
-        tables = ModelTable.model_validate(data)
-    except ValidationError as error:
-        raise model_error(error, data, source) from None
-    with stage(f"builds the model of {source}"):
-        return build_model(tables, Path() if folder is None else folder)
 
 
-def _text(path: Path) -> str:
+def file_text(path: Path, what: str = "model file") -> str:
+    """The text of a small file in UTF-8.
+
+    Parameters
+    ----------
+    path : Path
+    what : str
+        What it should be, for messages.
+
+    Raises
+    ------
+    ModelError
+        It is missing, no file, too large, not to be read, or not UTF-8.
+    """
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):
-            what = "a directory" if stat.S_ISDIR(status.st_mode) else "not an ordinary file"
-            raise ModelError(str(path), f"is {what}.", "Name a model file.")
+            kind = "a directory" if stat.S_ISDIR(status.st_mode) else "not an ordinary file"
+            raise ModelError(str(path), f"is {kind}.", f"Name a {what}.")
         if status.st_size > MAX_BYTES:
             raise ModelError(
                 str(path),
                 f"has {status.st_size / 1e6:.0f} MB, more than the {MAX_BYTES / 1e6:.0f} MB a "
-                "model file may have.",
-                "Check that it is a model file.",
+                f"{what} may have.",
+                f"Check that it is a {what}.",
             )
         content = path.read_bytes()
     except FileNotFoundError:

@@ -12,6 +12,7 @@ from strutwork.kinematics import DIRECTIONS, Joint
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.drives import Drive
 from strutwork.machines.limits import SLACK, joint_limits_of
+from strutwork.machines.model_motion_schema import WorkspaceTable
 from strutwork.machines.model_parts import by_direction, unknown
 from strutwork.machines.model_schema import ModelTable
 
@@ -93,11 +94,26 @@ def workspace_of(tables: ModelTable, task: Sequence[str]) -> TaskGrid | None:
     ModelError
         A direction that is none of the task's, an empty range, too many poses.
     """
-    if tables.workspace is None:
-        return None
+    return None if tables.workspace is None else grid_of_table(tables.workspace, task)
+
+
+def grid_of_table(table: WorkspaceTable, task: Sequence[str] = ()) -> TaskGrid:
+    """The poses of one table.
+
+    Parameters
+    ----------
+    table : WorkspaceTable
+    task : sequence of str
+        Directions that it may name; empty for all.
+
+    Raises
+    ------
+    ModelError
+        As `workspace_of`.
+    """
     axes: dict[str, np.ndarray[tuple[int], np.dtype[np.float64]]] = {}
     for direction in DIRECTIONS:
-        span = getattr(tables.workspace, direction)
+        span = getattr(table, direction)
         if span is None:
             continue
         if task and direction not in task:

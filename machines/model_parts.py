@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Joint
 from strutwork.kinematics.joint import JOINT_TYPES
-from strutwork.machines.model import ModelWarning
+from strutwork.machines.model import Damping, ModelWarning
 from strutwork.machines.model_schema import (
     BodyTable,
     BoxTable,
@@ -278,3 +278,30 @@ def _center(tables: ModelTable, body: BodyTable) -> NDArray[np.float64]:
     if body.center_of_mass is not None:
         return np.array(body.center_of_mass)
     return np.asarray(np.mean([tables.nodes[n] for n in body.nodes], axis=0))
+
+
+def damping_of(tables: ModelTable) -> Damping | None:
+    """Damping of the whole structure.
+
+    Parameters
+    ----------
+    tables : ModelTable
+
+    Raises
+    ------
+    ModelError
+        None of its kinds, or several.
+    """
+    table = tables.damping
+    if table is None:
+        return None
+    given = [name for name in type(table).model_fields if getattr(table, name) is not None]
+    if len(given) != 1:
+        found = " and ".join(given) if given else "nothing"
+        raise ModelError(
+            "damping",
+            f"has {found}.",
+            "Give exactly one of modal_ratio, loss_factor and rayleigh.",
+        )
+    rayleigh = None if table.rayleigh is None else (table.rayleigh.alpha, table.rayleigh.beta)
+    return Damping(table.modal_ratio, table.loss_factor, rayleigh)

@@ -71,12 +71,40 @@ def walked(
     wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
     if not wanted and not coordinates:
         coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
+    return brought(model, wanted, coordinates)
+
+
+def brought(
+    model: Model,
+    wanted: Mapping[str, ArrayLike],
+    coordinates: Mapping[Coordinate, ArrayLike],
+    beside: Moved | None = None,
+) -> Moved:
+    """Move a machine from home by its joints alone, with what is to be held named.
+
+    Parameters
+    ----------
+    model : Model
+    wanted : mapping of direction to (...)
+        Of the tool, m and rad; other directions are left to the joints.
+    coordinates : mapping of (joint, direction) to (...)
+        Joint coordinates, m and rad.
+    beside : Moved, optional
+        Where a machine that hardly differs was brought.
+
+    Raises
+    ------
+    ModelError
+        As `Motion.move`.
+    """
     whole = len(wanted) == len(DIRECTIONS) and not coordinates
     if whole and all(np.isfinite(v).all() for v in wanted.values()):
         # the same way, and a pose of the tool may go leg by leg in compiled code; what is not
         # finite is named by its direction below
         return model.motion.move(tool=_poses(model, wanted))
-    return model.motion.move(task=wanted or None, joints=coordinates or None)
+    return model.motion.move(
+        task=dict(wanted) or None, joints=dict(coordinates) or None, beside=beside
+    )
 
 
 def moved(

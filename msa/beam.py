@@ -129,9 +129,7 @@ def beam_axes(
             "Move one of its nodes, or replace the beam by a joint.",
         )
     x = span / length[..., None]
-    along_z = np.hypot(x[..., :1], x[..., 1:2]) < 1e-6
-    default = np.where(along_z, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
-    up = np.where(np.isnan(orientation), default, orientation)
+    up = np.where(np.isnan(orientation), default_up(x), orientation)
     z = up - (up * x).sum(-1, keepdims=True) * x
     height = np.linalg.norm(z, axis=-1, keepdims=True)
     flat = height <= 1e-9 * np.linalg.norm(up, axis=-1, keepdims=True)
@@ -143,6 +141,18 @@ def beam_axes(
         )
     z = z / height
     return length, np.stack([x, np.cross(z, x), z], axis=-2)
+
+
+def default_up(x: Array) -> Array:
+    """Vectors in the local x-z plane of beams that name none, (..., 3): z, or y of one along z.
+
+    Parameters
+    ----------
+    x : (..., 3)
+        Unit vectors along the beams, no unit.
+    """
+    along_z = np.hypot(x[..., :1], x[..., 1:2]) < 1e-6
+    return np.where(along_z, np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0]))
 
 
 def _first(names: Sequence[str], bad: NDArray[np.bool_]) -> str:

@@ -39,7 +39,7 @@ def local_mass(length: Array, properties: Array, inertia: Array) -> Array:
     -------
     mass : (..., 12, 12)
     """
-    mass = np.zeros((*length.shape, 12, 12))
+    mass = np.zeros((*length.shape, 12, 12), dtype=length.dtype)
     per_length, polar, about_y, about_z = inertia
     for i, value in ((0, per_length), (3, polar)):
         mass[..., i, i] = mass[..., i + 6, i + 6] = value * length / 3.0
@@ -52,7 +52,7 @@ def local_mass(length: Array, properties: Array, inertia: Array) -> Array:
         phi = shear / length**2
         dofs = np.array([v, r, v + 6, r + 6])
         signs = np.array([1.0, sign, 1.0, sign])
-        block = np.zeros((*length.shape, 4, 4))
+        block = np.zeros((*length.shape, 4, 4), dtype=length.dtype)
         for point, weight in zip((points + 1) / 2, weights / 2, strict=True):
             x = point
             shape = np.stack(
@@ -82,9 +82,17 @@ def local_mass(length: Array, properties: Array, inertia: Array) -> Array:
     return mass
 
 
-def _lumped(length: Array, inertia: Array) -> Array:
-    """Half the mass at either end, no rotary inertia but about the axis, (..., 12, 12)."""
-    mass = np.zeros((*length.shape, 12, 12))
+def lumped_mass(length: Array, inertia: Array) -> Array:
+    """Half the mass at either end and no rotary inertia, local axes, (..., 12, 12).
+
+    Parameters
+    ----------
+    length : (...)
+        m.
+    inertia : (4, ...)
+        As `local_mass` takes it: kg/m and kg·m.
+    """
+    mass = np.zeros((*length.shape, 12, 12), dtype=length.dtype)
     for i in (0, 1, 2, 6, 7, 8):
         mass[..., i, i] = inertia[0] * length / 2.0
     return mass
@@ -138,7 +146,7 @@ def segment_mass(placed: PlacedStructure) -> Array:
     local = local_mass(span, properties[:, beam], inertia[:, beam])
     lumped = np.array([b.mass == "lumped" for b in structure.beams])[beam]
     if lumped.any():
-        local = np.where(lumped[:, None, None], _lumped(span, inertia[:, beam]), local)
+        local = np.where(lumped[:, None, None], lumped_mass(span, inertia[:, beam]), local)
     mass = to_global(axes[..., beam, :, :], local)
     offsets = placed.segment_offsets
     if not np.any(offsets):

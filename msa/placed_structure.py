@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import Placement
-from strutwork.msa.beam import beam_axes, local_stiffness, to_global
+from strutwork.msa.beam import beam_axes, default_up, local_stiffness, to_global
 from strutwork.msa.rigid_map import rigid_map, turned_back
 from strutwork.msa.springs import Spring
 from strutwork.msa.stiffening import Stiffening
@@ -124,14 +124,31 @@ class PlacedStructure:
         """`arms` in extended precision, (..., n, 3), m."""
         return self._arms(self.positions.astype(np.longdouble))
 
-    def _geometry(self, start: Array, end: Array) -> tuple[Array, Array]:
-        s = self.structure
-        up = np.full(start.shape, np.nan)
-        for i, beam in enumerate(s.beams):
+    def _orientations(self, shape: tuple[int, ...]) -> Array:
+        """What the beams say of their x-z planes, (..., b, 3); NaN where nothing."""
+        up = np.full(shape, np.nan)
+        for i, beam in enumerate(self.structure.beams):
             if isinstance(beam.orientation, str):
                 up[..., i, :] = self.frame(beam.orientation, f"beam {beam.name}")[..., :, 2]
             elif beam.orientation is not None:
                 up[..., i, :] = beam.orientation
+        return up
+
+    @cached_property
+    def beam_upright(self) -> Array:
+        """A vector in the local x-z plane of every beam, global axes, (..., b, 3), no unit."""
+        _, axes = self.beam_geometry
+        up, turns = self._orientations(axes.shape[:-1]), self.beam_turns
+        if turns is None:
+            return np.where(np.isnan(up), default_up(axes[..., 0, :]), up)
+        turns = np.broadcast_to(turns, axes.shape)
+        up = np.where(np.isnan(up), default_up(turned_back(turns, axes[..., 0, :])), up)
+        joint = np.array([isinstance(b.orientation, str) for b in self.structure.beams])
+        return np.where(joint[:, None], up, (turns @ up[..., None])[..., 0])
+
+    def _geometry(self, start: Array, end: Array) -> tuple[Array, Array]:
+        s = self.structure
+        up = self._orientations(start.shape)
         names, turns = [b.name for b in s.beams], self.beam_turns
         if turns is None:
             return beam_axes(start, end, up, names)

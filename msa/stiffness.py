@@ -212,6 +212,29 @@ def axis_stiffness_blocked(compliance: Array) -> Array:
     return result.reshape(compliance.shape[:-1])
 
 
+def movable_inverse(compliance: Array) -> Array:
+    """Stiffness of the motions that the tool can make, C⁻¹ where C has an inverse, (..., 6, 6).
+
+    In N/m, N and N·m/rad; zero across motions that locked joints hold. Missing (NaN) where the
+    compliance is.
+
+    Parameters
+    ----------
+    compliance : (..., 6, 6)
+        At the tool, m/N, 1/N, rad/(N·m).
+    """
+    compliance = np.asarray(compliance, dtype=float)
+    flat, known = _flat(compliance)
+    result = np.full(flat.shape, np.nan)
+    unsure = np.zeros(len(flat), dtype=bool)
+    unsure[known] = doubtful(scaled(flat[known])[0])
+    sure = known & ~unsure
+    result[sure] = _inverse(flat[sure])
+    found = _Spectrum.of(flat[unsure])
+    result[unsure] = found.inverse * found.scale[:, :, None] * found.scale[:, None, :]
+    return result.reshape(compliance.shape)
+
+
 @dataclass(frozen=True)
 class StiffnessEllipsoid:
     """Principal translational stiffness at the tool.

@@ -1,35 +1,20 @@
-"""A frequency band wide enough that the modes inside it explain the static compliance."""
+"""A frequency band wide enough that the modes inside it explain the static compliance, in words."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
-from strutwork.fea import ModalRatio, Port, modal_model
-from strutwork.fea.modal import STATIC_SHARE
+from strutwork.fea import Port
 from strutwork.msa import PlacedStructure
 from strutwork.reports.numbers import share, significant
+from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import MODES
-
-#: How many times as high as it starts out the end of a band may come.
-FARTHEST = 10.0
-
-#: The band starts at this part of the first frequency.
-BELOW = 20.0
-
-#: The band ends this much above the last mode that it needs.
-ROOM = 1.1
 
 
 def covering_band(
     placed: PlacedStructure, ports: Sequence[Port], count: int = MODES
 ) -> tuple[tuple[float, float] | None, str]:
-    """A band from well below the first elastic mode to twice the last of `count`, or higher.
-
-    It is extended until the modes inside carry 99 % of each port's static compliance. What motions
-    without mass give way has no resonance and is not counted. The band ends at `FARTHEST` times its
-    first end at the latest.
+    """The band of `strutwork.studies.covering_band`, and what it leaves out.
 
     Parameters
     ----------
@@ -50,32 +35,13 @@ def covering_band(
     ModelError
         No mass, or a port that cannot move.
     """
-    model = modal_model(placed, ports, ModalRatio(0.0))
-    massive = model.square[0] > 0
-    natural = 1.0 / np.sqrt(model.square[0][massive]) / (2.0 * np.pi)
-    if not len(natural):
+    band = band_of(placed, ports, count)
+    if band is None:
         return None, ""
-    order = np.argsort(natural)
-    natural, compliance = natural[order], (model.residues[0] ** 2)[:, massive][:, order]
-    band = (float(natural[0]) / BELOW, 2.0 * float(natural[:count][-1]))
-    whole = compliance.sum(axis=1, keepdims=True)
-    carried = np.cumsum(compliance, axis=1) / np.where(whole > 0, whole, 1.0)
-    needed = [
-        float(natural[np.argmax(part >= STATIC_SHARE)])
-        for part, all_ in zip(carried, whole[:, 0], strict=True)
-        if all_ > 0
-    ]
-    limit = FARTHEST * band[1]
-    end = max([band[1], *(ROOM * f for f in needed)])
-    if end <= limit:
-        return (band[0], end), ""
-    inside = natural <= limit
-    short = [
-        f"{port} {share(float(part[inside].max(initial=0.0)))}"
-        for port, part, all_ in zip(ports, carried, whole[:, 0], strict=True)
-        if all_ > 0 and part[inside].max(initial=0.0) < STATIC_SHARE
-    ]
-    return (band[0], limit), (
-        f"The band ends at {significant(limit)} Hz. The modes in it carry this share of the "
+    if not band.short:
+        return (band.low, band.high), ""
+    short = [f"{port} {share(part)}" for port, part in band.short]
+    return (band.low, band.high), (
+        f"The band ends at {significant(band.high)} Hz. The modes in it carry this share of the "
         f"static compliance: {', '.join(short)}; the rest belongs to higher modes."
     )

@@ -22,20 +22,26 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.kinematics.task_surfaces import Plane
 from strutwork.machines.model import Model
 from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
+from strutwork.msa.part_numbers import PartNumbers, same_numbers
 from strutwork.names import visible
 from strutwork.reports.answers import Source, answer
 from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
 from strutwork.reports.model_check import ModelCheck, check_model
-from strutwork.reports.model_damping import model_damping
 from strutwork.reports.model_solution import ModelSolution, solve_model
+from strutwork.reports.survey_words import least
 from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
+from strutwork.studies.dimension import dimensions
+from strutwork.studies.gradient import gradient
 from strutwork.studies.machine_modes import MachineModes, machine_modes
+from strutwork.studies.model_damping import model_damping
+from strutwork.studies.parametric import Parametric
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.reversal_study import ReversalStudy, reversal_study
 from strutwork.studies.standard_motion import StandardMotion, standard_motion
 from strutwork.studies.survey import survey
+from strutwork.studies.tangents import Tangents
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_margin import MachineMargin, interference_of
 
@@ -152,6 +158,32 @@ class Subject:
             [Stiffness()],
             progress=self._told("stiffness over the workspace"),
         )
+
+    @answer
+    def first_changes(self) -> tuple[xr.Dataset, ...]:
+        """Gradients of the least stiffness along each axis, each at its pose; none without paths.
+
+        A machine that was moved since it was read has none: its file describes it elsewhere.
+        """
+        named = str(self.file) if self.file is not None else self.name
+        try:
+            machine = Parametric.of(named)
+        except StrutworkError:
+            return ()
+        if not _alike(machine.model(), self.model):
+            return ()
+        parameters = dimensions(machine)
+        if not parameters:
+            return ()
+        tangents = Tangents.of(machine.model, parameters)
+        found, free = [], self.stiffness_survey["stiffness_free"]
+        for axis in "xyz":
+            values = free.sel(direction=axis).to_numpy()
+            if tangents.parameters and np.isfinite(values).any():
+                worst = least(self.stiffness_survey, np.where(np.isfinite(values), values, np.nan))
+                task = {d: [v] for d, v in worst.task.items()}
+                found.append(gradient(tangents, (), [f"stiffness_{axis}"], task))
+        return tuple(found)
 
     @property
     def damping(self) -> AnyDamping | None:
@@ -354,3 +386,10 @@ class Subject:
 
     def _told(self, part: str) -> Progress:
         return silent if self.progress is None else self.progress(part)
+
+
+def _alike(one: Model, other: Model) -> bool:
+    """Whether two models stand at the same place and have the same parts."""
+    return np.array_equal(one.placement.positions, other.placement.positions) and same_numbers(
+        PartNumbers.of(one.structure), PartNumbers.of(other.structure)
+    )

@@ -35,8 +35,8 @@ from strutwork.machines.model import Model
 from strutwork.msa import LoadCase, PlacedStructure
 from strutwork.names import choices
 from strutwork.reports.data_files import csv_file
-from strutwork.reports.model_damping import model_damping
 from strutwork.reports.preload_note import WATCHED, warn_of_preload
+from strutwork.studies.model_damping import model_damping
 
 Array = NDArray[Any]
 

@@ -27,10 +27,12 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from strutwork.reports.build import WrittenReport
+    from strutwork.reports.designs.result import DesignComparison
     from strutwork.reports.model_check import ModelCheck
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
     from strutwork.studies.answers import Answer
+    from strutwork.studies.parameter import Parameter
     from strutwork.studies.tolerance_result import ToleranceStudy
 
 Array = NDArray[Any]
@@ -40,12 +42,14 @@ QUESTIONS = (
     "assembly_forces",
     "at",
     "check",
+    "compare",
     "frequency_response",
     "modes",
     "plot",
     "report",
     "solve",
     "stiffness",
+    "study",
     "survey",
 )
 
@@ -173,6 +177,38 @@ class Machine(Model):
         """
         return self._subject.check
 
+    def compare(
+        self,
+        other: Machine,
+        pose: Mapping[str, float | str] | None = None,
+        *,
+        around: Mapping[str, ArrayLike] | None = None,
+        **options: Any,
+    ) -> DesignComparison:
+        """Both machines, this one as A, question by question, with the differences marked.
+
+        Parameters
+        ----------
+        other : Machine
+        pose : mapping of direction to float or str, optional
+            Where both stand, m and rad as for `at`; each at home else.
+        around : mapping of direction to (n,), optional
+            Poses relative to the home of each, m and rad; else those that both workspaces contain.
+        **options
+            Of `strutwork.reports.designs.comparison.compare_designs`: threshold, damping, progress.
+
+        Raises
+        ------
+        ModelError, UnreachableError
+            The same machine twice; a pose that one of them cannot take.
+        """
+        from strutwork.reports.designs.comparison import compare_standing
+
+        a, b = ((m.source or m.title or "machine", m) for m in (self, other))
+        task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
+        grid = None if around is None else _grid(around)
+        return compare_standing(a, b, task, {}, around=grid, **options)
+
     def solve(self) -> ModelSolution:
         """Displacements and forces under every load case.
 
@@ -228,7 +264,7 @@ class Machine(Model):
         StrutworkError
             No tool, no damping; else as `strutwork.fea.frequency_response`.
         """
-        from strutwork.reports.model_damping import model_damping
+        from strutwork.studies.model_damping import model_damping
 
         damping = model_damping(self)
         if damping is None:
@@ -280,12 +316,44 @@ class Machine(Model):
         from strutwork.studies.answers import Stiffness
         from strutwork.studies.survey import survey
 
-        grid = (
-            self._subject.grid
-            if over is None
-            else TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})
-        )
+        grid = self._subject.grid if over is None else _grid(over)
         return survey(self, grid, answers or [Stiffness()], **options)
+
+    def study(
+        self, parameters: Mapping[str, Any] | Sequence[Parameter], *answers: Any, **options: Any
+    ) -> xr.Dataset:
+        """Vary numbers of the machine and ask each machine that comes of it.
+
+        Parameters
+        ----------
+        parameters : mapping of path to values
+            Beside a path of `strutwork.studies.Parametric.paths` a list of values, or a pair for a
+            range; SI, or texts with units.
+        *answers : str or Answer
+            "stiffness" where there is none; "vibration", "assembly", "accuracy", "transmission",
+            "mass", or those of a survey.
+        **options
+            Of `strutwork.studies.study.Study.of` (sample, count, seed, workspace, reductions) and
+            of `strutwork.studies.study.Study.run` (workers, progress, folder, executor); `out` and
+            `resume` as `strutwork.studies.study_store.run_to_file`.
+
+        Returns
+        -------
+        xarray.Dataset
+
+        Raises
+        ------
+        ModelError
+            The machine was changed or moved since it was loaded; else as `Study`.
+        """
+        from strutwork.studies.study import Study
+        from strutwork.studies.study_store import run_to_file
+
+        running = ("workers", "progress", "folder", "executor", "resume")
+        how = {k: options.pop(k) for k in running if k in options}
+        out = options.pop("out", None)
+        study = Study.of(self, parameters, *answers, **options)
+        return study.run(**how) if out is None else run_to_file(study, out, **how)
 
     def report(self, folder: Path | str | None = None) -> WrittenReport:
         """Write the report with all that applies to the machine.
@@ -341,3 +409,7 @@ def _coordinate(direction: str, value: float | str) -> float:
     if not isinstance(value, str):
         return float(value)
     return quantity(value, ANGLE if direction.startswith("r") else LENGTH, direction)
+
+
+def _grid(over: Mapping[str, ArrayLike]) -> TaskGrid:
+    return TaskGrid({d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in over.items()})

@@ -14,6 +14,8 @@ from strutwork.studies.dynamic import dynamic_stiffness, frequency_responses
 from strutwork.studies.dynamic_map import Vibration, dynamic_map
 from strutwork.studies.executor import Executor, Threads, default_executor
 from strutwork.studies.filters import Filters, PoseStatus
+from strutwork.studies.parameter import Parameter
+from strutwork.studies.parametric import Parametric
 from strutwork.studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
 from strutwork.studies.progress import Lines, Progress
 from strutwork.studies.removal_rate import RemovalExponents, removal_exponents
@@ -29,6 +31,9 @@ from strutwork.studies.statistics import (
     summary,
 )
 from strutwork.studies.stiffness_map import stiffness_map
+from strutwork.studies.study import Study
+from strutwork.studies.study_file import read_study
+from strutwork.studies.study_store import read_result, run_to_file
 from strutwork.studies.sweep import sweep
 from strutwork.studies.tolerance_result import ToleranceStudy
 from strutwork.studies.tolerance_study import StudyOptions, tolerance_study
@@ -46,6 +51,8 @@ __all__ = [
     "Filters",
     "JointScaling",
     "Lines",
+    "Parameter",
+    "Parametric",
     "PoseStatus",
     "PoseValue",
     "PowerLaw",
@@ -53,6 +60,7 @@ __all__ = [
     "RemovalExponents",
     "ScaleStudy",
     "Statistics",
+    "Study",
     "StudyOptions",
     "Summary",
     "Threads",
@@ -70,7 +78,10 @@ __all__ = [
     "plane_map",
     "power_law",
     "read_netcdf",
+    "read_result",
+    "read_study",
     "removal_exponents",
+    "run_to_file",
     "scale_study",
     "scaled",
     "statistics",

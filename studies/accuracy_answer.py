@@ -66,20 +66,28 @@ class VolumetricAccuracy:
     def columns(self) -> tuple[Column, ...]:
         """At worst, as a root of the sum of squares, its deviation, and who contributes."""
         return (
-            Column("worst_case", UNIT, "largest displacement to either side", ("direction",)),
+            Column(
+                "worst_case",
+                UNIT,
+                "largest displacement to either side",
+                ("direction",),
+                "largest",
+            ),
             Column(
                 "root_sum_square",
                 UNIT,
                 "root of the sum of the squares of the worst effects of the sources",
                 ("direction",),
+                "largest",
             ),
             Column(
                 "standard_deviation",
                 UNIT,
                 "standard deviation by the distributions of the sources",
                 ("direction",),
+                "largest",
             ),
-            Column("largest_displacement", "m", "largest in any direction of space"),
+            Column("largest_displacement", "m", "largest in any direction of space", (), "largest"),
             Column(
                 "contribution",
                 "m",

@@ -51,12 +51,15 @@ class Column:
     meaning : str
     dims : tuple of str
         Beside the poses.
+    worst : "least" or "largest" or ""
+        Which value over poses is the worst; empty where none is worse than another.
     """
 
     name: str
     unit: str | LabelledUnits
     meaning: str
     dims: tuple[str, ...] = ()
+    worst: str = ""
 
 
 class Answer(Protocol):
@@ -92,12 +95,14 @@ class Stiffness:
             "N/m for x y z; N m/rad for rx ry rz",
             "stiffness with the other directions free to follow, 1/C_ii",
             ("direction",),
+            "least",
         ),
         Column(
             "stiffness_blocked",
             "N/m for x y z; N m/rad for rx ry rz",
             "stiffness with the other directions blocked, (C^-1)_ii",
             ("direction",),
+            "least",
         ),
     )
     coordinates: Mapping[str, tuple[Any, ...]] = field(
@@ -142,12 +147,13 @@ class Vibration:
     def columns(self) -> tuple[Column, ...]:
         """Frequencies, minima and where they are."""
         return (
-            Column("natural_frequency", "Hz", "natural frequency", ("mode",)),
+            Column("natural_frequency", "Hz", "natural frequency", ("mode",), "least"),
             Column(
                 "least_dynamic_stiffness",
                 "N/m",
                 "least driving-point dynamic stiffness 1/|H_ii| in the band",
                 ("axis",),
+                "least",
             ),
             Column("least_at", "Hz", "frequency of the least dynamic stiffness", ("axis",)),
         )
@@ -219,6 +225,7 @@ class Assembly:
                 LabelledUnits("N, N m, m or rad", tuple(q.unit for q in self.quantities)),
                 "largest size that the tolerances allow",
                 ("quantity",),
+                "largest",
             ),
         )
 

@@ -41,6 +41,7 @@ class Transmission:
             "condition",
             "1",
             "largest over smallest velocity of the tool for drive rates of size one",
+            worst="largest",
         ),
     )
 

@@ -23,6 +23,7 @@ def closing_chapter(
     settings: Mapping[str, Any],
     content: Mapping[str, Any],
     chapters: Sequence[Chapter],
+    command: str | None = None,
 ) -> Chapter:
     """What made the report and what lies beside it.
 
@@ -36,6 +37,8 @@ def closing_chapter(
         Plain values that the tables show rounded; goes to `report.json` with the rest.
     chapters : sequence of Chapter
         Those before, whose files are listed.
+    command : str, optional
+        What makes the page again; empty for nothing that is known, that of a report else.
     """
     made_with = versions() | {"plotly": plotly_version}
     file = json_file(
@@ -49,11 +52,12 @@ def closing_chapter(
         if value != target
     }
     files = [f for chapter in chapters for f in chapter.files] + [file]
+    again = _command(target) if command is None else f"by `{command}` " if command else ""
     return Chapter(
         "files",
         "Versions, settings and data files",
         (
-            Text(f"Made on {_today()} {_command(target)}with {_versions(made_with)}."),
+            Text(f"Made on {_today()} {again}with {_versions(made_with)}."),
             *((Text(_settings(rows)),) if rows else ()),
             Text("Files beside this page; they contain every plotted number, unrounded."),
             Links(tuple((f.name, f.what) for f in files)),

@@ -9,6 +9,7 @@ import numpy as np
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model_poses import at_pose
 from strutwork.msa import compliance_budget
+from strutwork.reports.chapters.first_changes import first_changes
 from strutwork.reports.content import Block, Chapter, Column, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, netcdf_file
 from strutwork.reports.figures.slices import slice_figure
@@ -85,7 +86,10 @@ def write(subject: Subject) -> Chapter:
         heads = (Column("poses excluded", "", False), Column("poses"), Column("share"))
         blocks.append(Table("Poses that the machine cannot reach", heads, lost, f"{STEM}.csv"))
         blocks.append(Note("Such poses are blank in the maps and excluded from the extremes."))
+    more, own = first_changes(subject)
+    blocks.extend(more)
     files = (
+        *own,
         netcdf_file(f"{STEM}.nc", "stiffness over the workspace, NetCDF", found),
         DataFile(
             f"{STEM}.csv",

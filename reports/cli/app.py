@@ -37,12 +37,14 @@ COMMANDS = {
     "solve": f"{_HERE}.app:solve",
     "map": f"{_HERE}.map_command:map_command",
     "modes": f"{_HERE}.app:modes",
-    "frf": f"{_HERE}.frf_command:frf",
+    "frf": f"{_HERE}.app:frf",
     "lobes": f"{_HERE}.lobes_command:lobes",
-    "compare": f"{_HERE}.app:compare",
+    "compare": f"{_HERE}.compare_command:compare",
+    "correlate": f"{_HERE}.correlate_command:correlate",
     "tolerance": f"{_HERE}.app:tolerance",
     "scale": f"{_HERE}.app:scale",
     "accuracy": f"{_HERE}.accuracy_command:accuracy",
+    "gradient": f"{_HERE}.gradient_command:gradient",
     "move": f"{_HERE}.move_command:move",
     "workspace": f"{_HERE}.workspace_command:workspace",
     "new": f"{_HERE}.new_command:new",
@@ -50,12 +52,12 @@ COMMANDS = {
     "schema": f"{_HERE}.schema_command:schema",
     "singularities": f"{_HERE}.singularities_command:singularities",
     "trajectory": f"{_HERE}.trajectory_command:trajectory",
+    "study": f"{_HERE}.study_command:study",
     "report": f"{_HERE}.report_command:report",
 }
 
 #: Those that print no tables, and take neither --csv nor --verbose.
 SILENT = ("new", "report", "schema")
-
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
 PLACED = ("accuracy", "map", "scale", "workspace")
@@ -183,36 +185,64 @@ def modes(
     )
 
 
-def compare(
-    computed: Annotated[str, typer.Argument(metavar="COMPUTED", help="A universal file (UFF).")],
-    measured: Annotated[str, typer.Argument(metavar="MEASURED", help="A universal file (UFF).")],
-    window: Annotated[
-        float, typer.Option(help="Largest difference of a pair, as a share of the frequency.")
-    ] = 0.3,
-    least: Annotated[float, typer.Option(help="Least MAC of a pair.")] = 0.5,
-    doublet: Annotated[
-        float,
-        typer.Option(help="Neighbouring modes within this share of the frequency are one span."),
-    ] = 0.01,
-    unit: Annotated[
-        list[str] | None,
+def frf(
+    target: Target,
+    given: Annotated[
+        str,
         typer.Option(
-            metavar="LABEL=UNIT",
-            help='Unit of an unknown axis label, as in --unit "EU=mm/s^2". Repeatable.',
+            "--input", callback=typed, metavar="NODE:DIR", help="Where the force acts, as in TCP:x."
+        ),
+    ],
+    low: Annotated[
+        float | None,
+        typer.Option(
+            "--from",
+            help="Start of the band, Hz; by default, the band is chosen to cover the response.",
         ),
     ] = None,
+    high: Annotated[float | None, typer.Option("--to", help="End of the band, Hz.")] = None,
+    output: Annotated[
+        str | None,
+        typer.Option(
+            "--output",
+            callback=typed,
+            metavar="NODE:DIR",
+            help="Where the motion is computed; the input by default.",
+        ),
+    ] = None,
+    pose: Pose = None,
+    joint: JointAt = None,
+    lines: Annotated[
+        int, typer.Option(min=2, max=1_000_000, help="Number of frequency lines, evenly spaced.")
+    ] = 1000,
+    out: Annotated[
+        str | None,
+        typer.Option(
+            "--out", "-o", metavar="DIR", help="Write it to this folder as UFF-58 and CSV."
+        ),
+    ] = None,
+    modal_ratio: Ratio = None,
+    loss_factor: Loss = None,
+    preload: Preload = None,
     json: Json = False,
 ) -> None:
-    """Compare computed modes and responses with measured ones."""
-    from strutwork.reports.cli import compare as work
+    """Compute a frequency response, and the exact least dynamic stiffness in its band."""
+    from strutwork.reports.cli import frf as work
+    from strutwork.reports.cli.subject import where
 
+    if (low is None) != (high is None):
+        raise typer.BadParameter("give both --from and --to, or neither for an automatic band.")
     work.run(
-        computed,
-        measured,
-        window=window,
-        least=least,
-        doublet=doublet,
-        units=unit or (),
+        target,
+        given,
+        output,
+        None if low is None or high is None else (low, high),
+        lines,
+        out,
+        at=where(pose, joint),
+        modal_ratio=modal_ratio,
+        loss_factor=loss_factor,
+        preload=preload,
         json=json,
     )
 

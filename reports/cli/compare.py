@@ -1,99 +1,117 @@
-"""`strutwork compare`: computed modes and responses against measured ones."""
+"""`strutwork compare`: two machines, question by question."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from pathlib import Path
+
+from rich.text import Text
 
 from strutwork.errors import ModelError
-from strutwork.fea.compare_files import compare_files
-from strutwork.fea.comparison import Comparison
-from strutwork.fea.uff_read import read_universal
+from strutwork.fea import Damping, LossFactor, ModalRatio
+from strutwork.machines.load import load
+from strutwork.names import visible
+from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.subject import Where
+from strutwork.reports.designs.comparison import compare_standing
+from strutwork.reports.designs.quantities import QUESTIONS
+from strutwork.reports.designs.result import DesignComparison, unanswered
+from strutwork.reports.designs.row import Verdict
+from strutwork.reports.grid_words import grid_of_words
+
+#: Colours never say more than the words that they are of.
+STYLES: dict[Verdict, str] = {
+    "A better": "bold red",
+    "B better": "bold green",
+    "differs": "bold",
+    "not compared": "dim",
+}
 
 
 def run(
-    computed: str,
-    measured: str,
+    names: tuple[str, str],
+    at: Where,
+    around: list[str] | None,
+    threshold: float,
+    html: str | None,
     *,
-    window: float,
-    least: float,
-    doublet: float,
-    units: Sequence[str],
+    modal_ratio: float | None,
+    loss_factor: float | None,
     json: bool,
 ) -> None:
-    """Compare two universal files and print what they have in common, and what was left out."""
-    given = dict(_unit(text) for text in units)
-    files = read_universal(computed, given), read_universal(measured, given)
-    with shown("responses") as started:
-        found = compare_files(
-            *files, window=window, least=least, doublet=doublet, progress=started("compare")
+    """Compare two machines and print their differences."""
+    damping = _damping(modal_ratio, loss_factor)
+    grid = grid_of_words(around, "--around") if around else None
+    a, b = (load(name) for name in names)
+    with shown() as started:
+        found = compare_standing(
+            (names[0], a),
+            (names[1], b),
+            at.task,
+            at.joints,
+            around=grid,
+            threshold=threshold,
+            damping=damping,
+            progress=started,
         )
+    page = None if html is None else found.report(Path(html))
     if json:
-        print_json(found.to_dict())
-    else:
-        _print(found)
+        print_json(found.to_dict() | {"report": None if page is None else str(page)})
+        return
+    _print(found)
+    if page is not None:
+        console().print(f"Report: {visible(str(page))}", markup=False, soft_wrap=True)
 
 
-def _unit(text: str) -> tuple[str, str]:
-    label, mark, unit = text.partition("=")
-    if not (mark and label.strip() and unit.strip()):
+def _damping(modal_ratio: float | None, loss_factor: float | None) -> Damping | None:
+    if modal_ratio is not None and loss_factor is not None:
         raise ModelError(
-            f"--unit {text}", "is not LABEL=UNIT.", 'Write it as in --unit "EU=mm/s^2".'
+            "damping", "is given as a modal ratio and as a loss factor.", "Give one of them."
         )
-    return label.strip(), unit.strip()
+    if modal_ratio is not None:
+        return ModalRatio(modal_ratio)
+    return None if loss_factor is None else LossFactor(loss_factor)
 
 
-def _print(found: Comparison) -> None:
+def _print(found: DesignComparison) -> None:
     out = console()
-    if found.modes:
-        spans = any(p.group > 1 for p in found.modes)
-        rows = [
-            (
-                p.computed + 1,
-                p.measured + 1,
-                p.computed_frequency,
-                p.measured_frequency,
-                f"{p.difference_percent:+.2f}",
-                _percent(p.computed_damping),
-                _percent(p.measured_damping),
-                f"{p.mac:.3f}",
-                *([f"{p.group} modes" if p.group > 1 else ""] if spans else []),
+    for mark, design in (("A", found.a), ("B", found.b)):
+        out.print(f"{mark}: {visible(design.name)}, {design.title}", soft_wrap=True)
+    for question in QUESTIONS:
+        rows = found.of(question.key)
+        if not MANNER.whole:
+            rows = tuple(
+                row for row in rows if (row.a.known or row.b.known) and row.verdict != "equal"
             )
-            for p in found.modes
-        ]
-        # every word fits its column at 80 characters: a table folds its headings anywhere
-        columns = [
-            "no.",
-            "no. in test",
-            "Hz",
-            "Hz in test",
-            "off, %",
-            "ζ, %",
-            "ζ in test, %",
-            "MAC",
-        ]
-        out.print(table("Paired modes", columns + ["span of"] * spans, rows, names=0))
-    for what, rest in (("computed", found.only_computed), ("measured", found.only_measured)):
-        if rest:
-            frequencies = ", ".join(f"{f:.4g}" for f in rest)
-            out.print(f"Only {what}, Hz: {frequencies}", markup=False)
-    if found.functions:
+            if question.key == "counts" or not rows:
+                continue
+        places = MANNER.whole and any(v.at or v.why for row in rows for v in (row.a, row.b))
+        heads = ["quantity", "unit", "A", "B", "B − A", "verdict"]
+        heads += ["A: where, or why not", "B: where, or why not"] if places else []
         lines = [
             (
-                f.output,
-                f"{f.input} {f.run}".rstrip(),
-                f"{f.found.frac:.3f}",
-                f"{f.found.scale:.4f}" + (" (end of search)" if f.found.at_limit else ""),
-                f"{f.found.scaled_frac:.3f}",
+                row.quantity.name,
+                row.shown_unit,
+                row.a.shown(row.quantity.unit),
+                row.b.shown(row.quantity.unit),
+                row.shown_difference,
+                Text(row.verdict, STYLES.get(row.verdict, "")),
+                *((row.a.at or row.a.why, row.b.at or row.b.why) if places else ()),
             )
-            for f in found.functions
+            for row in rows
         ]
-        columns = ["output", "input", "FRAC", "best frequency scale", "FRAC at it"]
-        out.print(table("Responses", columns, lines, names=2))
+        out.print(table(found.title_of(question), heads, lines, names=2))
+        if any(row.quantity.better for row in rows):
+            out.print(question.criterion, style="dim", soft_wrap=True)
+    for line in unanswered(found):
+        out.print(line, soft_wrap=True)
     for note in found.notes:
-        out.print(f"Note: {note}.", markup=False)
-
-
-def _percent(ratio: float | None) -> str:
-    return "" if ratio is None else f"{100 * ratio:.3g}"
+        out.print(note, soft_wrap=True)
+    out.print(
+        f"Marked from a difference of {found.threshold:g} % of A. {found.summary}.",
+        style="bold",
+        soft_wrap=True,
+    )
+    if not MANNER.whole:
+        out.print("--verbose shows every row, also equal ones, with the pose or the part of each.")

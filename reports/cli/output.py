@@ -81,7 +81,7 @@ class Rows(Table):
         writer = RowWriter(out)
         writer.writerow([visible(c) or ("value" if i else "name") for i, c in enumerate(columns)])
         for row in rows:
-            writer.writerow([visible(v) if isinstance(v, str) else v for v in row])
+            writer.writerow([_plain(v) for v in row])
 
 
 def table(
@@ -96,8 +96,21 @@ def table(
             Text(visible(column)), justify="left" if i < names else "right", overflow="fold"
         )
     for row in rows:
-        made.add_row(*(Text(visible(show(entry))) for entry in row))
+        made.add_row(*(_shown(entry) for entry in row))
     return made
+
+
+def _shown(entry: object) -> Text:
+    """A cell of a table; a text with a style keeps it."""
+    if isinstance(entry, Text):
+        return Text(visible(entry.plain), entry.style)
+    return Text(visible(show(entry)))
+
+
+def _plain(entry: object) -> object:
+    """A cell of a CSV file."""
+    text = entry.plain if isinstance(entry, Text) else entry
+    return visible(text) if isinstance(text, str) else text
 
 
 def print_table(

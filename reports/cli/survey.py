@@ -19,10 +19,10 @@ from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.survey_output import print_kept, written
 from strutwork.reports.covering_band import covering_band
 from strutwork.reports.grid_words import grid_of_words
-from strutwork.reports.model_damping import model_damping
 from strutwork.reports.survey_words import grid_text, largest, least
 from strutwork.studies.answers import Answer, Stiffness, Vibration
 from strutwork.studies.dynamic import ONE_PERCENT
+from strutwork.studies.model_damping import model_damping
 from strutwork.studies.survey import survey
 
 

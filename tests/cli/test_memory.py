@@ -90,8 +90,9 @@ def test_a_small_model_keeps_the_ceiling(command: str) -> None:
         ("map", "mit-ss1"),
         ("scale", "mit-ss1"),
         ("report", "mit-ss1", "-o", "{folder}"),
+        ("compare", "mit-ss1", "hexel-hexapod"),
         (
-            "compare",
+            "correlate",
             "tests/cases/uff/frf_computed.uff",
             "tests/cases/uff/frf_computed.uff",
         ),

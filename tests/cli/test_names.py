@@ -78,7 +78,7 @@ def test_every_command_takes_the_longest_names(
     assert function.output[0] == fitted_names([f"{LONG}1"])[f"{LONG}1"]
 
     compared = strutwork(
-        "compare", tmp_path / "model-modes.uff", tmp_path / "model-modes.uff", "--json"
+        "correlate", tmp_path / "model-modes.uff", tmp_path / "model-modes.uff", "--json"
     )
     assert len(compared.result["modes"]) == 2
 
@@ -240,7 +240,7 @@ def test_names_of_files_that_are_no_utf8(tmp_path: Path) -> None:
         data = json.loads(run.stdout)
         assert Path(data["report"]) == page
     universal = folder + b"/\xfe/\xff m-modes.uff"
-    assert shell("compare", universal, universal).returncode == 0
+    assert shell("correlate", universal, universal).returncode == 0
     missing = shell("check", folder + b"/\xfc\x1b.toml")
     assert missing.returncode == 1
     assert rb"\xfc\x1b.toml: does not exist" in missing.stderr

@@ -108,7 +108,7 @@ def test_a_universal_file_is_an_ordinary_file(
     path = tmp_path / "x.uff"
     SPECIAL[kind](path)
     other = Path(__file__).parents[1] / "cases" / "uff" / "computed.uff"
-    run = strutwork("compare", *((other, path) if second else (path, other)))
+    run = strutwork("correlate", *((other, path) if second else (path, other)))
     assert run.status == 1
     assert str(path) in run.err
     assert "ordinary file" in run.err
@@ -117,7 +117,7 @@ def test_a_universal_file_is_an_ordinary_file(
 def test_huge_files_are_refused_by_their_size(strutwork: Program, tmp_path: Path) -> None:
     for name, most, command in (
         ("x.toml", model_file.MAX_BYTES, ("check",)),
-        ("x.uff", uff_read.MAX_BYTES, ("compare", tmp_path / "x.uff")),
+        ("x.uff", uff_read.MAX_BYTES, ("correlate", tmp_path / "x.uff")),
     ):
         with (tmp_path / name).open("wb") as file:
             file.truncate(most + 1_000_000)

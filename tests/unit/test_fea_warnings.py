@@ -24,8 +24,8 @@ from strutwork.fea import (
 from strutwork.fea.least_stiffness import least_dynamic_stiffness
 from strutwork.machines.model_file import parse_model, read_model
 from strutwork.msa import LoadCase
-from strutwork.reports.model_damping import model_damping
 from strutwork.reports.vibration import Target, target_modes, target_response
+from strutwork.studies.model_damping import model_damping
 from tests.model_files import SAMPLE, put, sample, toml
 from tests.unit.test_fea_idle import with_block
 

@@ -16,7 +16,7 @@ from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
 from strutwork.machines.model_poses import at_pose
 from strutwork.reports.cli.survey import _vibration
-from strutwork.reports.model_damping import model_damping
+from strutwork.studies.model_damping import model_damping
 from strutwork.studies.survey import survey
 from tests.cli.conftest import Program, strutwork
 from tests.model_files import put, toml

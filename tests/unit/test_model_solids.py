@@ -35,7 +35,7 @@ from strutwork.meshes.surfaces import write_surface
 from strutwork.msa import Material, tool_compliance
 from strutwork.msa.mass import mass_properties
 from strutwork.reports.model_check import check_model
-from strutwork.reports.model_damping import model_damping
+from strutwork.studies.model_damping import model_damping
 from strutwork.units import LENGTH, quantity
 from tests.model_files import Content, drop, put, toml
 from tests.solid_models import brick, column, from_file, model_of

@@ -26,7 +26,8 @@ from strutwork.machines.schema_file import (
 
 ROOT = Path(__file__).parents[2]
 COMMITTED = ROOT / "docs" / "schema" / FILE_NAME
-EXAMPLES = [*sorted((ROOT / "examples").glob("**/*.toml"))]
+# files of studies are no model files
+EXAMPLES = [f for f in sorted((ROOT / "examples").glob("**/*.toml")) if f.parent.name != "studies"]
 CASES = [*sorted((ROOT / "tests" / "cases" / "models").glob("*.toml"))]
 
 

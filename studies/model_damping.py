@@ -15,6 +15,12 @@ def model_damping(model: Model, given: Damping | None = None) -> AnyDamping | No
     The materials' loss factors act where no damping of the whole is given, which would hold
     them already. None where nothing damps.
 
+    Parameters
+    ----------
+    model : Model
+    given : Damping, optional
+        In the place of the file's.
+
     Warns
     -----
     ModelWarning

@@ -1,0 +1,147 @@
+"""A model anew from tables of which some changed: what they leave alone is taken over."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from strutwork.kinematics import DIRECTIONS, Joint, Linkage
+from strutwork.machines.limits import joint_limits
+from strutwork.machines.model import Model
+from strutwork.machines.model_builder import build_model
+from strutwork.machines.model_cases import load_cases
+from strutwork.machines.model_motion_tables import drives_of, workspace_of
+from strutwork.machines.model_parts import beams_of, damping_of, joint_of, masses_of, springs_of
+from strutwork.machines.model_schema import JointTable, ModelTable
+from strutwork.machines.model_tolerances import model_tolerances
+from strutwork.msa import Structure
+
+#: Tables whose numbers move no node and turn no joint.
+LIGHT = frozenset(
+    {
+        *("title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
+        *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
+        *("force_limits", "workspace", "drives", "damping"),
+    }
+)
+
+#: Of a joint, what its stiffness, damping or limits state.
+_OF_FORCE = frozenset({"stiffness", "damping", "limits", "matrix"})
+
+_ELASTIC = frozenset({"materials", "sections", "beams"})
+_HEAVY = frozenset({"bodies", "masses"})
+_CASES = frozenset({"gravity", "loads", "line_loads", "settlements", "misfits"})
+_TOLERANCES = frozenset({"tolerances", "force_limits"})
+
+
+def rebuilt_model(
+    model: Model, before: ModelTable, after: ModelTable, folder: Path = Path()
+) -> Model:
+    """The model of tables that differ in numbers from those of another model.
+
+    Where nodes, axes, the set of elastic directions and the division of beams stay, so do the
+    placement and how the machine moves: nothing is closed or factorised again.
+
+    Parameters
+    ----------
+    model : Model
+        Of `before`.
+    before, after : ModelTable
+        What is the same object in both has not changed.
+    folder : Path
+        Where names of solids' and shapes' files begin.
+
+    Raises
+    ------
+    ModelError
+        As `strutwork.machines.model_builder.build_model`; a geometry that does not close.
+    """
+    differ = frozenset(
+        name
+        for name in ModelTable.model_fields
+        if getattr(before, name) is not getattr(after, name)
+    )
+    if not differ:
+        return model
+    joints = _joints(model, before, after) if "joints" in differ else ()
+    if not differ <= LIGHT or joints is None or _reshaped(before, after, differ):
+        return build_model(after, folder)
+    linkage = _linkage(model.structure.linkage, joints)
+    own = linkage.joints[: len(model.joints)]
+    supports = {
+        node: linkage.joints[linkage.joint_index[name]] for node, name in model.supports.items()
+    }
+    structure = model.structure
+    new: dict[str, Any] = {}
+    if differ & (_ELASTIC | _HEAVY | {"joints", "springs"}):
+        new["structure"] = Structure(
+            linkage,
+            beams_of(after) if differ & _ELASTIC else structure.beams,
+            springs_of(after) if "springs" in differ else structure.springs,
+            structure.rigid,
+            masses_of(after) if differ & _HEAVY else structure.masses,
+            structure.elements,
+        )
+    if "joints" in differ:
+        new["limits"] = joint_limits(linkage)
+    if differ & _CASES:
+        follows = {(linkage.joints[t.joint].name, DIRECTIONS[t.direction]) for t in linkage.ties}
+        new["cases"] = load_cases(after, own, supports, follows)
+    if differ & _TOLERANCES:
+        toleranced = model_tolerances(after, own, supports)
+        new |= {
+            "tolerances": toleranced.tolerances,
+            "tolerance_costs": toleranced.costs,
+            "force_limits": toleranced.limits,
+        }
+    if "workspace" in differ:
+        new["workspace"] = workspace_of(after, model.task)
+    if "drives" in differ:
+        new["drives"] = drives_of(after, {j.name: j for j in own})
+    if "damping" in differ:
+        new["damping"] = damping_of(after)
+    made = replace(model, **new)
+    if "motion" in model.__dict__:
+        # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
+        made.__dict__["motion"] = model.motion.with_joints_of(linkage)
+    if "structure" in new:
+        # lengths and orientations of beams: now, not at the first solve
+        _ = made.placed
+    else:
+        made.__dict__["placed"] = model.placed
+    return made
+
+
+def _joints(model: Model, before: ModelTable, after: ModelTable) -> tuple[Joint, ...] | None:
+    """The joints anew, None where one locks, frees or turns otherwise than before."""
+    made = list(model.structure.linkage.joints)
+    for i, (old, new) in enumerate(zip(before.joints, after.joints, strict=True)):
+        if old is new:
+            continue
+        if any(
+            getattr(old, name) != getattr(new, name)
+            for name in JointTable.model_fields
+            if name not in _OF_FORCE
+        ):
+            return None
+        joint = joint_of(new)
+        if joint.states != made[i].states:
+            return None
+        made[i] = joint
+    return tuple(made)
+
+
+def _linkage(linkage: Linkage, joints: tuple[Joint, ...]) -> Linkage:
+    return replace(linkage, joints=joints) if joints else linkage
+
+
+def _reshaped(before: ModelTable, after: ModelTable, differ: frozenset[str]) -> bool:
+    """Whether beams are divided otherwise, or a solid is of another material."""
+    if "beams" in differ and any(
+        old.elements != new.elements for old, new in zip(before.beams, after.beams, strict=True)
+    ):
+        return True
+    changed = {n for n, m in after.materials.items() if m is not before.materials[n]}
+    used = {name for s in after.solids for name in (s.material, *(s.materials or {}).values())}
+    return bool(changed & used)

@@ -1,0 +1,1 @@
+"""Two machines asked the same questions, row by row, with the differences marked."""

@@ -1,0 +1,98 @@
+"""Where a machine stands at the poses of a study, and at home."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.kinematics import DIRECTIONS, Placement
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.model import Model
+from strutwork.machines.model_poses import moved
+from strutwork.studies.filters import PoseStatus
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """A machine at p poses, home being the last.
+
+    Parameters
+    ----------
+    placement : Placement
+        At the g poses that count.
+    good : (g,)
+        Their numbers.
+    status : (p,)
+        Codes of `PoseStatus`.
+    reasons : tuple of p str
+        Why a pose does not count; empty where it does.
+    """
+
+    placement: Placement
+    good: NDArray[np.intp]
+    status: NDArray[np.int8]
+    reasons: tuple[str, ...]
+
+
+@dataclass
+class Stand:
+    """Places machines at the same poses; those whose joints move alike share one placement.
+
+    Parameters
+    ----------
+    grid : TaskGrid or None
+        None: home alone.
+    """
+
+    grid: TaskGrid | None
+    _kept: tuple[Any, Any, Standing] | None = field(default=None, init=False, repr=False)
+
+    def __call__(self, model: Model) -> Standing:
+        """The machine at all poses.
+
+        Parameters
+        ----------
+        model : Model
+
+        Raises
+        ------
+        ModelError
+            A direction in which its tool cannot move.
+        """
+        kept = self._kept
+        if kept is not None and kept[0] is model.motion.joints and kept[1] == model.limits:
+            return kept[2]
+        made = self._placed(model)
+        if model.closed_form is None:
+            # a machine's own formulas may depend on numbers that its joints do not show
+            self._kept = (model.motion.joints, model.limits, made)
+        return made
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"grid": self.grid, "_kept": None}
+
+    def _placed(self, model: Model) -> Standing:
+        motion = model.motion
+        axes = {} if self.grid is None else self.grid.task()
+        names = tuple(axes) or tuple(motion.rest())
+        if not names:
+            # nothing moves
+            one = model.placement[None]
+            return Standing(one, np.zeros(1, dtype=np.intp), np.zeros(1, dtype=np.int8), ("",))
+        home = dict(zip(DIRECTIONS, motion.task_of(motion.home_pose), strict=True))
+        task = {d: np.append(axes.get(d, np.empty(0)), home[d]) for d in names}
+        _, placement = moved(model, task)
+        ranged = np.asarray(placement.status) > len(placement.reasons) - len(model.limits)
+        status = np.where(
+            placement.reachable,
+            PoseStatus.GOOD,
+            np.where(ranged, PoseStatus.JOINT_RANGE, PoseStatus.UNREACHABLE),
+        ).astype(np.int8)
+        good = np.flatnonzero(placement.reachable)
+        words = tuple(placement.reason(i) for i in range(len(status)))
+        return Standing(placement[good], good, status, words)

@@ -1,0 +1,103 @@
+"""Reading a study file: a machine, what is varied, what is asked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.model_errors import model_error
+from strutwork.machines.model_file import file_text, toml_of
+from strutwork.machines.model_motion_tables import grid_of_table
+from strutwork.machines.naming import is_machine
+from strutwork.studies.parameter import Parameter
+from strutwork.studies.parametric import Parametric
+from strutwork.studies.question import Asked, Question, asked
+from strutwork.studies.sample import Sample
+from strutwork.studies.study import Study
+from strutwork.studies.study_schema import ParameterTable, StudyTable
+
+#: Where the file is described.
+PAGE = "docs/how-to/study.md"
+
+
+def read_study(path: str | Path) -> Study:
+    """Read a study file.
+
+    Parameters
+    ----------
+    path : str or Path
+        TOML; its tables are those of docs/how-to/study.md. The model file that it names lies
+        beside it or below it, or has a full path.
+
+    Raises
+    ------
+    ModelError, UnitError
+        The file or the model cannot be read, a key is unknown or wrong, or as `Study`.
+    """
+    place = Path(path)
+    data = toml_of(file_text(place, "study file"), str(path), PAGE)
+    if "nodes" in data:
+        raise ModelError(
+            str(path),
+            "is a model file, not a study file.",
+            f'A study file names it: machine = "{place.name}". See {PAGE}.',
+        )
+    try:
+        tables = StudyTable.model_validate(data)
+    except ValidationError as error:
+        raise model_error(error, data, str(path), StudyTable, PAGE) from None
+    source = tables.machine
+    if source.endswith(".toml") or not is_machine(source):
+        source = str(place.parent / source)
+    machine = Parametric.of(source)
+    grid = _grid(tables, machine)
+    default = ("home",) if grid is None else ("worst", "mean", "home")
+    return Study(
+        machine,
+        tuple(_parameter(i, table) for i, table in enumerate(tables.parameters)),
+        Sample(tables.sample.kind or "", tables.sample.count, tables.sample.seed),
+        tuple(_question(tables, name) for name in tables.answers),
+        grid,
+        tables.reductions or default,
+    )
+
+
+def _parameter(number: int, table: ParameterTable) -> Parameter:
+    if bool(table.values) == (table.range is not None):
+        what = "both values and range" if table.values else "neither values nor range"
+        raise ModelError(
+            f"parameters[{number}]",
+            f"has {what}.",
+            'Give values = [...], or range = ["LOW", "HIGH"].',
+        )
+    low, high = table.range or (None, None)
+    return Parameter(
+        table.path,
+        table.values,
+        low,
+        high,
+        table.points,
+        table.relative,
+        table.log,
+        table.name or "",
+    )
+
+
+def _question(tables: StudyTable, name: str) -> Question:
+    question = asked(name)
+    if name != "vibration":
+        return question
+    return Asked(name, tables.vibration.band, tables.vibration.count)
+
+
+def _grid(tables: StudyTable, machine: Parametric) -> TaskGrid | None:
+    """Poses: the file's, else the machine's own; an empty table is home alone."""
+    if tables.workspace is None:
+        return machine.origin.model.workspace
+    if not any(getattr(tables.workspace, d) is not None for d in DIRECTIONS):
+        return None
+    return grid_of_table(tables.workspace)

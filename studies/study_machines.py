@@ -1,0 +1,217 @@
+"""The machines of a study: each is made, placed and asked, and what is kept of its poses."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import StrutworkError
+from strutwork.machines.model import Model
+from strutwork.studies.answers import Column
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.filters import PoseStatus
+from strutwork.studies.parameter import Varied
+from strutwork.studies.parametric import Parametric
+from strutwork.studies.question import Question
+from strutwork.studies.run import Chunk
+from strutwork.studies.standing import Stand
+
+Array = NDArray[Any]
+
+#: What may be kept of the poses of a machine.
+REDUCTIONS = ("worst", "best", "mean", "home", "poses")
+#: What is kept of an answer that no pose changes.
+MACHINE = "machine"
+
+#: What became of a machine.
+SOLVED, FAILED, NO_POSE = np.int8(0), np.int8(1), np.int8(2)
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One of the arrays of a study.
+
+    Parameters
+    ----------
+    name : str
+        As in the dataset.
+    question : str
+        Whose answer it is.
+    column : Column
+    reduction : str
+    shape : tuple of int
+        For one machine.
+    """
+
+    name: str
+    question: str
+    column: Column
+    reduction: str
+    shape: tuple[int, ...]
+
+    @property
+    def column_shape(self) -> tuple[int, ...]:
+        """At one pose."""
+        return self.shape[1:] if self.reduction == "poses" else self.shape
+
+
+@dataclass(frozen=True)
+class Machines:
+    """Makes and asks the machines of a study, chunk by chunk; may be sent to other processes.
+
+    Parameters
+    ----------
+    machine : Parametric
+    varied : tuple of k Varied
+    values : (n, k)
+        Of the parameters, each in its unit, any unit.
+    questions : tuple of Question
+    stand : Stand
+    reductions : tuple of str
+    """
+
+    machine: Parametric
+    varied: tuple[Varied, ...]
+    values: Array
+    questions: tuple[Question, ...]
+    stand: Stand
+    reductions: tuple[str, ...]
+
+    def model(self, number: int) -> Model:
+        """One machine.
+
+        Parameters
+        ----------
+        number : int
+            Of its row.
+
+        Raises
+        ------
+        ModelError
+            It cannot be.
+        """
+        changes: dict[str, float | str] = {}
+        for parameter, value in zip(self.varied, self.values[number].tolist(), strict=True):
+            changes |= parameter.changes(value)
+        return self.machine.model(changes)
+
+    @cached_property
+    def kept(self) -> tuple[Kept, ...]:
+        """The arrays of the study, in order."""
+        model = self.machine.origin.model
+        asked = [(q.name, q.of(model)) for q in self.questions]
+        names = [c.name for _, answer in asked for c in answer.columns]
+        found = []
+        for question, answer in asked:
+            for column in answer.columns:
+                # accuracy and assembly forces both have a worst case
+                twice = names.count(column.name) > 1
+                name = f"{question}_{column.name}" if twice else column.name
+                shape = tuple(len(answer.coordinates[d]) for d in column.dims)
+                found += [
+                    Kept(
+                        name if reduction in ("poses", MACHINE) else f"{name}_{reduction}",
+                        question,
+                        column,
+                        reduction,
+                        (self.poses - 1, *shape) if reduction == "poses" else shape,
+                    )
+                    for reduction in self._of_column(column)
+                ]
+        return tuple(found)
+
+    @property
+    def poses(self) -> int:
+        """Poses at which each machine is asked, home being the last."""
+        return 1 if self.stand.grid is None else len(self.stand.grid) + 1
+
+    def _of_column(self, column: Column) -> tuple[str, ...]:
+        """What is kept of an answer: none is the worst where no value is worse than another."""
+        if column.name == "mass":
+            # one number a machine, wherever it stands
+            return (MACHINE,)
+        if self.stand.grid is None:
+            return ("home",)
+        return tuple(r for r in self.reductions if column.worst or r not in ("worst", "best"))
+
+    def __call__(self, chunk: Chunk) -> Arrays:
+        """Arrays of some machines; the reasons of those that cannot be among them.
+
+        Parameters
+        ----------
+        chunk : Chunk
+        """
+        count = chunk.stop - chunk.start
+        found: Arrays = {"status": np.full(count, FAILED), "reason": np.zeros(count, np.int32)}
+        found["poses_kept"] = np.zeros(count, np.int32)
+        for kept in self.kept:
+            found[kept.name] = np.full((count, *kept.shape), np.nan)
+            if kept.reduction == "worst" and self.poses > 1:
+                found[f"{kept.name}_pose"] = np.full((count, *kept.shape), -1, np.int32)
+        if "poses" in self.reductions:
+            missing = np.int8(PoseStatus.UNSOLVED)
+            found["pose_status"] = np.full((count, self.poses - 1), missing)
+        words = [""]
+        for i in range(count):
+            try:
+                why = self._ask(chunk.start + i, i, found)
+            except StrutworkError as error:
+                why = " ".join(f"{error.part}: {error.problem}".split())
+            if why not in words:
+                words.append(why)
+            found["reason"][i] = words.index(why)
+        return found | {"reasons": np.array(words[1:], dtype=str)}
+
+    def _ask(self, number: int, row: int, found: Arrays) -> str:
+        """Fill the row of one machine; why it has no numbers, empty where it has."""
+        model = self.model(number)
+        standing = self.stand(model)
+        status = standing.status.copy()
+        reasons = [r for r in standing.reasons if r]
+        if standing.good.size:
+            placed = model.structure.at(standing.placement)
+            answers: dict[str, dict[str, Array]] = {}
+            for question in self.questions:
+                values, outcome = question.of(model)(placed)
+                answers[question.name] = values
+                reasons += [outcome.reason(int(i)) for i in np.flatnonzero(~outcome.solved)]
+                status[standing.good[~outcome.solved]] = PoseStatus.UNSOLVED
+            for kept in self.kept:
+                every = np.full((self.poses, *kept.column_shape), np.nan)
+                every[standing.good] = answers[kept.question][kept.column.name]
+                self._keep(kept, every, row, found)
+        good = status == PoseStatus.GOOD
+        found["poses_kept"][row] = np.count_nonzero(good[:-1])
+        if "pose_status" in found:
+            found["pose_status"][row] = status[:-1]
+        found["status"][row] = SOLVED if good.any() else NO_POSE
+        return "" if good.any() else Counter(reasons).most_common(1)[0][0]
+
+    def _keep(self, kept: Kept, every: Array, row: int, found: Arrays) -> None:
+        """Keep of all poses (p, ...) what the study asks for; home is the last of them."""
+        poses, out = every[:-1], found[kept.name]
+        match kept.reduction:
+            case "home":
+                out[row] = every[-1]
+            case "poses":
+                out[row] = poses
+            case "mean":
+                some = np.isfinite(poses).any(axis=0)
+                count = np.maximum((~np.isnan(poses)).sum(axis=0), 1)
+                out[row] = np.where(some, np.nansum(poses, axis=0) / count, np.nan)
+            case "machine":
+                some = every[~np.isnan(every)]
+                out[row] = some[0] if some.size else np.nan
+            case reduction:
+                least = (kept.column.worst == "least") == (reduction == "worst")
+                filled = np.where(np.isnan(poses), np.inf if least else -np.inf, poses)
+                at = (np.argmin if least else np.argmax)(filled, axis=0)
+                value = np.take_along_axis(poses, at[None], axis=0)[0]
+                out[row] = value
+                if reduction == "worst":
+                    found[f"{kept.name}_pose"][row] = np.where(np.isnan(value), -1, at)

@@ -1,0 +1,206 @@
+"""The result of a study on disk: written whole, gone on with, never put over another's."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+from strutwork.csv_rows import RowWriter
+from strutwork.errors import ModelError, OutputError
+from strutwork.files import write_error, write_whole
+from strutwork.names import visible
+from strutwork.staging import staging
+from strutwork.studies.dataset_files import write_netcdf
+from strutwork.studies.executor import Executor
+from strutwork.studies.progress import Progress
+from strutwork.studies.study import Study
+from strutwork.studies.study_table import study_columns
+
+ENDINGS = (".nc", ".zarr")
+
+
+def run_to_file(
+    study: Study,
+    path: str | Path,
+    *,
+    resume: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    executor: Executor | None = None,
+) -> xr.Dataset:
+    """Run a study into a file; what was finished before an interruption is kept beside it.
+
+    Parameters
+    ----------
+    study : Study
+    path : str or Path
+        Ends in .nc for NetCDF or .zarr for Zarr; a CSV of the machines is written beside it.
+    resume : bool
+        Go on from what was finished; a result that is complete is read.
+    workers, progress, executor
+        As `Study.run`.
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Raises
+    ------
+    ModelError
+        Another ending; the file holds something else, the result of another study or of other code;
+        finished parts are there and `resume` is not given; as `Study.run`.
+    OutputError
+        The file cannot be written: finished parts stay.
+    """
+    place = Path(path)
+    if place.suffix not in ENDINGS:
+        raise ModelError(
+            str(path), "names no kind of file.", "End it in .nc for NetCDF or .zarr for Zarr."
+        )
+    there = _there(place, study)
+    if there is not None and resume:
+        return there
+    parts = parts_of(study, place)
+    if not resume and parts.is_dir() and any(parts.iterdir()):
+        raise ModelError(
+            str(parts),
+            "holds finished parts of this study, which was interrupted.",
+            "Give --resume (resume=True) to go on from them, or remove the folder.",
+        )
+    found = study.run(workers=workers, progress=progress, folder=parts, executor=executor)
+    write_result(place, found)
+    _write_csv(place.with_suffix(".csv"), found)
+    shutil.rmtree(parts, ignore_errors=True)
+    if parts.parent.is_dir() and not any(parts.parent.iterdir()):
+        parts.parent.rmdir()
+    return found
+
+
+def parts_of(study: Study, path: Path) -> Path:
+    """Folder of what is finished of a study, until its result is written.
+
+    Parameters
+    ----------
+    study : Study
+    path : Path
+        Of its result.
+    """
+    return path.with_name(f"{path.name}.parts") / study.key[:16]
+
+
+def write_result(path: Path, dataset: xr.Dataset) -> Path:
+    """Write a study as NetCDF or Zarr, by the ending; whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+        Ends in .nc or .zarr.
+    dataset : xarray.Dataset
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    ModelError
+        Zarr is not installed.
+    """
+    if path.suffix == ".nc":
+        return write_netcdf(path, dataset)
+    _require_zarr(path)
+    target = path.resolve()
+    try:
+        if target.exists() and not target.is_dir():
+            raise OutputError(str(path), "cannot be written (it is a file).", "Name a folder.")
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with staging(target.parent) as folder:
+            made = folder / target.name
+            # the older format, which every reader knows
+            dataset.to_zarr(made, mode="w", zarr_format=2, consolidated=True)
+            if target.exists():
+                target.replace(folder / "before")
+            made.replace(target)
+    except OSError as error:
+        raise write_error(path, error) from error
+    return path
+
+
+def read_result(path: str | Path) -> xr.Dataset:
+    """Read the result of a study, all of it.
+
+    Parameters
+    ----------
+    path : str or Path
+        Ends in .nc or .zarr.
+
+    Raises
+    ------
+    ModelError
+        It is missing, or no result of a study.
+    """
+    place = Path(path)
+    if not place.exists():
+        raise ModelError(str(path), "does not exist.", "Check the path.")
+    if place.suffix == ".zarr":
+        _require_zarr(place)
+    try:
+        engine: Any = "zarr" if place.suffix == ".zarr" else "h5netcdf"
+        with xr.open_dataset(place, engine=engine) as file:
+            found = file.load()
+    # libraries raise what they like for a damaged file
+    except Exception as error:
+        raise ModelError(
+            str(path), f"cannot be read ({visible(str(error))}).", "Write it again."
+        ) from error
+    if "study_key" not in found.attrs:
+        raise ModelError(str(path), "is no result of a study.", "Name one that a study wrote.")
+    return found
+
+
+def _there(path: Path, study: Study) -> xr.Dataset | None:
+    """The result of this study that is there; None where there is no file."""
+    if not path.exists():
+        return None
+    remedy = "Name another file, or remove this one."
+    try:
+        found = read_result(path)
+    except ModelError as error:
+        raise ModelError(str(path), f"is there already and {error.problem}", remedy) from error
+    if found.attrs["study_key"] == study.key:
+        return found
+    if found.attrs.get("inputs_sha256") == study.inputs:
+        raise ModelError(
+            str(path),
+            f"holds the result of this study by other code ({found.attrs.get('source', 'unknown')})"
+            " or other versions of libraries.",
+            remedy,
+        )
+    raise ModelError(
+        str(path), f"holds the result of another study ({found.attrs.get('title', '')}).", remedy
+    )
+
+
+def _write_csv(path: Path, dataset: xr.Dataset) -> Path:
+    """One row a machine."""
+    columns = study_columns(dataset)
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+            writer = RowWriter(file)
+            writer.writerow([c.head for c in columns])
+            writer.writerows(zip(*(c.cells for c in columns), strict=True))
+
+    return write_whole(path, write)
+
+
+def _require_zarr(path: Path) -> None:
+    try:
+        import zarr  # noqa: F401, PLC0415
+    except ImportError:
+        raise ModelError(
+            str(path),
+            "is a Zarr folder, and the library zarr is not installed.",
+            'Install it: pip install "strutwork[cluster]"; or end the name in .nc.',
+        ) from None
