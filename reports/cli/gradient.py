@@ -20,11 +20,11 @@ from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json, table, tell
 from strutwork.reports.cli.subject import where
 from strutwork.reports.first_changes import SMALL, Effect, effects, what_to_change_file
-from strutwork.reports.model_damping import model_damping
 from strutwork.reports.numbers import percent, significant
 from strutwork.studies.dimension import Dimension, dimensions
 from strutwork.studies.gradient import gradient, worst_pose
 from strutwork.studies.gradient_quantities import Vibrating
+from strutwork.studies.model_damping import model_damping
 from strutwork.studies.parametric import Parametric
 
 #: Asked for where nothing is.
