@@ -21,7 +21,7 @@ from strutwork.cutting import (
     depth_limits,
     zero_order_lobes,
 )
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, NumericalError
 from strutwork.fea import Damping, modal_model
 from strutwork.fea.frf import frequency_response
 from strutwork.files import write_whole
@@ -132,8 +132,6 @@ def target_lobes(
     ------
     ModelError
         No damping, no mass, a node that cannot move, nothing that limits the depth.
-    NumericalError
-        Multipliers that do not converge.
     """
     damping = target.require_damping()
     ports = [target.port(f"{node}:{direction}") for direction in "xyz"]
@@ -168,7 +166,10 @@ def target_lobes(
         model = modal_model(target.placed, ports, damping)
         modes = TipModes.from_model(model, 0, frame, 0.5 * band[1])
         deep = _deepest(limits, absolute[0], process) if deepest is None else deepest
-        exact = depth_limits(modes, process, speeds, deep, min(0.5 * absolute[0], deep))
+        try:
+            exact = depth_limits(modes, process, speeds, deep, min(0.5 * absolute[0], deep))
+        except NumericalError as error:
+            note = f"Only zero-order limits are computed. {error}"
     else:
         note = (
             f"Only zero-order limits are computed: the damping ({damping}) is not viscous by "

@@ -49,6 +49,15 @@ def test_a_loss_factor_gives_zero_order_limits_alone(strutwork: Program) -> None
     assert "Only zero-order limits" in run.err
 
 
+def test_exact_limits_that_are_withheld_leave_the_others(strutwork: Program) -> None:
+    """At 5 rpm the teeth are so far apart that the map would be too large."""
+    run = strutwork("lobes", HEAD, *CUT, "--speeds", "5..10:3", "--json")
+    assert run.result["exact_depth"] is None
+    assert all(run.result["zero_order_depth"])
+    assert "Only zero-order limits" in run.err
+    assert "Ask for higher speeds" in run.err
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
