@@ -14,6 +14,7 @@ from strutwork.kinematics import Poses, angle, rotation_y
 from strutwork.kinematics.frames import frame, vector
 from strutwork.machines import biglide_parts as parts
 from strutwork.machines.biglide import PLANE, REACH, Biglide
+from strutwork.machines.biglide import TURNED as TWO_DRIVES_TURNED
 from strutwork.machines.legs import square_root
 from strutwork.machines.variant import Variant
 from strutwork.msa.sections import Section, box, tube
@@ -147,7 +148,7 @@ class BiglideThirdLeg(Biglide):
 
     def _faults(self, poses: Poses) -> dict[str, Array]:
         faults = super()._faults(poses)
-        found = {reason: mask for reason, mask in faults.items() if "turned" not in reason}
+        found = {reason: mask for reason, mask in faults.items() if reason != TWO_DRIVES_TURNED}
         turned = np.abs(poses.rotation[..., 1].real - np.array([0.0, 1.0, 0.0])).max(axis=-1)
         return found | {TURNED: np.broadcast_to(turned > PLANE, poses.position.shape[:-1])}
 

@@ -162,7 +162,7 @@ def questions(subject: Subject) -> list[tuple[str, ...]]:
     groups: list[tuple[str, ...]] = []
     if tool and space:
         groups.append(("workspace", "largest_box"))
-        over = ["stiffness_survey"]
+        over = ["stiffness_survey", "first_changes"]
         if model.tolerances:
             over.append("assembly_survey")
         if model.tolerances or subject.accuracy_answer.errors:

@@ -74,7 +74,7 @@ def range_blocks(ranges: Sequence[JointRange], data: str) -> list[Block]:
     if several:
         blocks[:0] = [
             Text(
-                "Joints whose names differ by their numbers alone stand in one row, with the "
+                "Joints whose names differ only in their numbers stand in one row, with the "
                 "least and the largest of all of them."
             )
         ]

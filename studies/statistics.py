@@ -256,7 +256,7 @@ def summary(
     if not kept.size:
         raise ModelError(
             f"map of {dataset.attrs.get('machine', 'a machine')}",
-            "no pose counts: " + str(dataset.attrs.get("dropped_by_reason", "")),
+            "no valid pose: " + str(dataset.attrs.get("dropped_by_reason", "")),
             "Widen the filters, or move the poses into the workspace.",
         )
     stiffness = dataset[f"stiffness_{meaning}"]

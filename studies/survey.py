@@ -92,7 +92,7 @@ def survey(
     if count > SMALL:
         foresee(lambda some: _asked(model, some, answers), grid, workers).require(
             "workspace",
-            "Take fewer points along a direction.",
+            "Use fewer points along a direction.",
             LONGEST if run.bounded else None,
         )
 

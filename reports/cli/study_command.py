@@ -34,7 +34,7 @@ def study(
         typer.Option("--resume", help="Go on from what an interrupted run had finished."),
     ] = False,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Threads; one a processor by default.")
+        int | None, typer.Option(min=1, help="Threads; one per processor by default.")
     ] = None,
     paths: Annotated[
         bool,

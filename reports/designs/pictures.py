@@ -42,7 +42,7 @@ def drawings(found: DesignComparison) -> tuple[tuple[Figure, ...], DataFile]:
         figures.append(
             Figure(
                 f"machine-{mark.lower()}",
-                f"{mark}: {design.title}, {found.where}. Drag to turn, scroll to zoom.",
+                f"{mark}: {design.title}, {found.where}. Drag to rotate, scroll to zoom.",
                 model_view(model),
                 f"Three-dimensional drawing of machine {mark}.",
                 PICTURE,

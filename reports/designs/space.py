@@ -71,7 +71,7 @@ def space_of(a: Model, b: Model, around: TaskGrid | None = None) -> Space:
             None, None, False, "A machine without a tool has no poses.", missing[0], missing[1]
         )
     if around is not None:
-        return replace(_shared(a, b, around, "those asked for"), asked=True)
+        return replace(_shared(a, b, around, "those requested"), asked=True)
     spaces = [_from_home(m) for m in (a, b)]
     if spaces[0] is None and spaces[1] is None:
         return _cubes(a, b)

@@ -67,7 +67,7 @@ def test_nodes_of_a_joint_move_together(strutwork: Program) -> None:
         (["--worst", "--pose", "z=690mm"], "--worst: cannot stand beside --pose"),
         (["--modal-ratio", "0.1", "--loss-factor", "0.1"], "given twice"),
         (["--of", "joint_force:drive1:z@nothing"], 'unknown load case "nothing"'),
-        (["--pose", "z=5m"], "cannot be taken"),
+        (["--pose", "z=5m"], "cannot be reached"),
     ],
 )
 def test_what_is_wrong_is_named(strutwork: Program, options: list[str], words: str) -> None:

@@ -52,7 +52,7 @@ def test_words_for_people(strutwork: Program) -> None:
     ("words", "said"),
     [
         (("--over", "x=-10mm..10mm"), "gives 1 directions"),
-        ((*OVER, "--surface", "cube:r=1mm"), '"cube:r=1mm" is none'),
+        ((*OVER, "--surface", "cube:r=1mm"), '"cube:r=1mm" is not a surface'),
         ((*OVER, "--orientation", "normal"), "normal to a plane"),
         ((*OVER, "--feed", "z"), '"z" is neither x nor y'),
         (("--over", "x=-9mm..9mm,z=390mm..410mm", "--surface", "sphere:r=1m"), "over x and y"),

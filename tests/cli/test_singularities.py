@@ -95,7 +95,7 @@ def test_a_model_file_ends_in_a_stretched_leg(strutwork: Program) -> None:
         (("--line", "x=0..9mm", "--at", "x=1mm"), "names x twice"),
         (("--line", "x=0..9mm", "--length", "-1mm"), "Give a positive length"),
         (("--plane", "x,y", "--from", "x=0,y=0", "--to", "x=9mm,y=9mm", "--steps", "9999"), "GB"),
-        (("--line", "z=5..9m",), "no pose of the 101 can be taken"),
+        (("--line", "z=5..9m",), "no pose of the 101 can be reached"),
     ],
 )  # fmt: skip
 def test_wrong_lines_and_planes(strutwork: Program, arguments: tuple[str, ...], said: str) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 from strutwork.machines.load import load
 from strutwork.machines.model_poses import at_pose
 from strutwork.reports.chapters import assembly_modes as chapter_of
-from strutwork.reports.content import Facts, Row, Table
+from strutwork.reports.content import Details, Facts, Row, Table
 from strutwork.reports.subject import Subject
 from strutwork.studies.machine_modes import machine_modes
 
@@ -20,8 +20,10 @@ def test_every_mode_is_drawn_and_listed() -> None:
     subject = Subject(load(EXAMPLES / "3-rps.toml"), "3-rps", "3-rps")
     assert not chapter_of.missing(subject)
     chapter = chapter_of.write(subject)
+    folded = [item for b in chapter.blocks if isinstance(b, Details) for item in b.items]
     facts, row, table = (
-        next(b for b in chapter.blocks if isinstance(b, kind)) for kind in (Facts, Row, Table)
+        next(b for b in (*chapter.blocks, *folded) if isinstance(b, kind))
+        for kind in (Facts, Row, Table)
     )
     assert isinstance(facts, Facts)
     assert isinstance(row, Row)

@@ -125,7 +125,7 @@ def test_tripods_band_covers_what_gives_way() -> None:
 
 def test_a_band_says_where_it_stops(monkeypatch: pytest.MonkeyPatch) -> None:
     placed = parse_model(Path("examples/03_tripod.toml").read_text(encoding="utf-8")).placed
-    monkeypatch.setattr("strutwork.reports.covering_band.FARTHEST", 1.5)
+    monkeypatch.setattr("strutwork.studies.covering_band.FARTHEST", 1.5)
     band, stop = covering_band(placed, [Port("TCP", "z")])
     assert band is not None
     assert "The band ends at" in stop

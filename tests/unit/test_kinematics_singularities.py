@@ -233,7 +233,7 @@ def test_bad_input_is_named() -> None:
         singularities_in_plane(family, ([0.0, 1.0], [1.0, 0.0]))
     with pytest.raises(ModelError, match=r"4,000,000 poses.*minutes and .* GB"):
         singularities_in_plane(family, (np.linspace(0, 1, 2000), np.linspace(0, 1, 2000)))
-    with pytest.raises(ModelError, match="no pose of the 4 can be taken"):
+    with pytest.raises(ModelError, match="no pose of the 4 can be reached"):
         singularities_in_plane(family, ([3.0, 4.0], [3.0, 4.0]))
     with pytest.raises(ModelError, match="1 poses"):
         singularities_on_line(moving_biglide(("x",)), [0.0])

@@ -76,7 +76,7 @@ def test_the_delta_moves_without_turning_and_nothing_is_held_twice() -> None:
     turned = Poses.of(np.zeros((2, 3)), np.stack([np.eye(3), rotation_x(1e-3)]))
     placement = machine.place(turned)
     assert placement.reachable.tolist() == [True, False]
-    assert "turned" in placement.reason(1)
+    assert "rotated" in placement.reason(1)
 
 
 def test_the_stroke_is_what_the_cube_needs() -> None:

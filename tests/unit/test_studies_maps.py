@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, StudyWarning
 from strutwork.kinematics import rotation_z
 from strutwork.machines import Alizade3PRPS, Eclipse3PPRS, Glozman3PRRS, Proposed3PPRS
 from strutwork.msa import axis_stiffness_blocked, tool_compliance
@@ -141,7 +141,7 @@ def test_an_interrupted_map_goes_on(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         if 0 < done < total:
             raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(KeyboardInterrupt), pytest.warns(StudyWarning, match="of 3 chunks"):
         stiffness_map(machine, points, ROLLS, workers=1, progress=stop, folder=tmp_path)
     kept = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("chunk-*.npz")}
     assert 0 < len(kept) < 3

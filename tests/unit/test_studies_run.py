@@ -199,9 +199,9 @@ def test_one_long_part_promises_nothing() -> None:
         clock.now = float(second)
         lines(min(second // 2, 2), 3)
     said = stream.getvalue().splitlines()
-    assert said[0] == "report: 1 of 3 steps, about 4 s left"
+    assert said[0] == "report: 1 of 3 steps, 0.5 per s, about 4 s left"
     assert len(said) > 4
-    assert set(said[1:]) == {f"report: 2 of 3 steps, {LONGER}"}
+    assert set(said[1:]) == {f"report: 2 of 3 steps, 0.5 per s, {LONGER}"}
 
 
 def test_time_left_counts_down_between_two_units() -> None:

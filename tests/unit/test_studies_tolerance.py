@@ -182,7 +182,7 @@ def test_nothing_to_study() -> None:
     model = read_model(RAILS)
     with pytest.raises(ModelError, match="tolerances: are none"):
         tolerance_study(model.placed, ())
-    with pytest.raises(ModelError, match="force limits: are none"):
+    with pytest.raises(ModelError, match="force limits: are not given"):
         tolerance_study(
             model.placed, model.tolerances, None, StudyOptions(samples=0, objective="uniform")
         )
