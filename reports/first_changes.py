@@ -93,9 +93,21 @@ def effects(found: xr.Dataset, pose: int = 0) -> list[Effect]:
                 tuple(CHANGE * float(v) for v in elasticity[:, members].sum(axis=1)),
             )
         )
-    return sorted(
-        rows, key=lambda row: -max((abs(s) for s in row.shares if isfinite(s)), default=0)
-    )
+    return sorted(rows, key=lambda row: -largest(row.shares))
+
+
+def largest(shares: Sequence[float]) -> float:
+    """Largest size among changes that are known, no unit, without the digits that rounding decides.
+
+    Equal legs have equal effects: their order is that of the file on every machine.
+
+    Parameters
+    ----------
+    shares : sequence of float
+        As `Effect.shares`.
+    """
+    size = max((abs(s) for s in shares if isfinite(s)), default=0.0)
+    return float(f"{size:.6g}")
 
 
 def _value(values: Sequence[float], unit: str) -> str:

@@ -11,7 +11,13 @@ from strutwork.errors import StrutworkError
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Table, Text
 from strutwork.reports.data_files import DataFile
 from strutwork.reports.figures.effect_bars import effect_bars
-from strutwork.reports.first_changes import SMALL, Effect, effects, what_to_change_file
+from strutwork.reports.first_changes import (
+    SMALL,
+    Effect,
+    effects,
+    largest,
+    what_to_change_file,
+)
 from strutwork.reports.numbers import percent, significant
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import pose_text
@@ -113,7 +119,7 @@ def _together(found: Sequence[xr.Dataset]) -> list[Effect]:
         Effect(names, first.value, tuple(of[names].shares[0] for of in by_axis))
         for names, first in by_axis[0].items()
     ]
-    return sorted(rows, key=lambda row: -max(_size(s) for s in row.shares))
+    return sorted(rows, key=lambda row: -largest(row.shares))
 
 
 def _table(title: str, axes: Sequence[str], rows: Sequence[Effect]) -> Table:
