@@ -90,7 +90,10 @@ def test_gradients_of_chains(machine: Parametric) -> None:
     ]
     parameters = [Dimension.of(machine, name) for name in names]
     quantities = ["stiffness_x", "stiffness_rz", "blocked_stiffness_y", "frequency_1"]
-    found = gap(machine.model, parameters, quantities, step=1e-3)
+    # a step that suits one machine is too long for a softer one: an error of the gradient is in both
+    found = np.minimum(
+        *(gap(machine.model, parameters, quantities, step=step) for step in (1e-3, 3e-4))
+    )
     assert found.max() < 1e-6
 
 
