@@ -60,7 +60,7 @@ COMMANDS = {
 SILENT = ("new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
-PLACED = ("accuracy", "map", "scale", "workspace")
+PLACED = ("accuracy", "map", "scale", "study", "workspace")
 
 
 class Program(Commands):
