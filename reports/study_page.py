@@ -15,6 +15,7 @@ from strutwork.reports.content import Answer, Answers, Chapter, Column, Figure, 
 from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
 from strutwork.reports.figures.study import parallel, rank_bars, scatter
 from strutwork.reports.numbers import count, significant
+from strutwork.reports.study_analysis_page import analysis_chapters
 from strutwork.reports.study_words import machine_words, read_value, reading, title_of
 from strutwork.studies.study import Study
 from strutwork.studies.study_table import (
@@ -55,6 +56,7 @@ def write_study_report(study: Study, found: xr.Dataset, folder: Path) -> Written
         raise ModelError("study", "has no finite answer to show.", "Ask for something else.")
     chapters: tuple[Chapter, ...] = (
         _cover(study, found, parameters, answers),
+        *analysis_chapters(found, answers, MACHINES),
         _effects(study, parameters, answers, answer_columns(found)),
         _machines(study, found, parameters, answers),
     )
