@@ -87,7 +87,7 @@ def _scatter(found: xr.Dataset, answers: Sequence[NumberColumn], machines: str) 
                     ),
                     f"Histogram of {title} over the machines, with its quantiles.",
                     machines,
-                    340,
+                    310,
                 )
             )
     heads = ["answer", "at the means", "mean", "standard deviation", "5 %", "median", "95 %"]
@@ -160,7 +160,7 @@ def _indices(found: xr.Dataset, answers: Sequence[NumberColumn]) -> Chapter:
                     "Two bars for each parameter: its shares of the variance of "
                     f"{title_of(column)}.",
                     INDICES,
-                    190 + 44 * len(shown),
+                    130 + 52 * len(shown),
                 )
             )
         rows += [

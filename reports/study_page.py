@@ -125,12 +125,15 @@ def _cover(
         low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
         name, rank = leading(list(parameters), column.values)
         way = f"; it follows {name} most (rank correlation {rank:.2f})" if name else ""
+        # of many parameters the values fill a paragraph
+        many = len(parameters) > DRAWN
+        which = f"machine {row}" if many else machine_words(parameters, row, 3)
         said.append(
             Answer(
                 f"{title_of(column).capitalize()} goes from {read_value(column, low, 3)} to "
                 f"{read_value(column, high, 3)}: the best is ",
                 read_value(column, float(column.values[row]), 3),
-                f" with {machine_words(parameters, row, 3)}{way}.",
+                f" with {which}{way}.",
                 "what-decides",
             )
         )

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from strutwork.reports.figures.study import broken
 from strutwork.reports.figures.theme import INK, PALETTE, axis, layout, rounded
 from strutwork.reports.page import plain
 
@@ -91,7 +92,7 @@ def histogram(
             shapes=shapes,
             xaxis=axis(plain(title)),
             yaxis=axis("machines", range=[0, 1.1 * top]),
-            margin={"l": 60, "r": 16, "t": 34, "b": 100},
+            margin={"l": 60, "r": 16, "t": 34, "b": 60},
         ),
     }
 
@@ -112,7 +113,7 @@ def index_bars(
             "type": "bar",
             "orientation": "h",
             "name": plain(name),
-            "y": [plain(p) for p in parameters],
+            "y": [broken(p) for p in parameters],
             "x": rounded(index, 4),
             "error_x": {
                 "type": "data",
@@ -130,8 +131,8 @@ def index_bars(
         "data": traces,
         "layout": layout(
             barmode="group",
-            xaxis=axis("share of the variance", rangemode="tozero"),
+            xaxis=axis("share of variance", rangemode="tozero"),
             yaxis=axis("", autorange="reversed", type="category"),
-            margin={"l": 60, "r": 16, "t": 34, "b": 110},
+            margin={"l": 60, "r": 16, "t": 34, "b": 60},
         ),
     }
