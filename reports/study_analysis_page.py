@@ -84,6 +84,7 @@ def _scatter(found: xr.Dataset, answers: Sequence[NumberColumn], machines: str) 
                         title,
                         list(zip(names, [*quantiles, middle], strict=True)),
                         [(float(a), float(b)) for a, b in ends],
+                        alone=len(answers) == 1,
                     ),
                     f"Histogram of {title} over the machines, with its quantiles.",
                     machines,
@@ -156,7 +157,7 @@ def _indices(found: xr.Dataset, answers: Sequence[NumberColumn]) -> Chapter:
                 Figure(
                     f"sobol-{i}",
                     f"Sobol indices of {title_of(column)}, with 95 % intervals.",
-                    index_bars([names[k] for k in shown], series),
+                    index_bars([names[k] for k in shown], series, alone=len(answers) == 1),
                     "Two bars for each parameter: its shares of the variance of "
                     f"{title_of(column)}.",
                     INDICES,

@@ -21,6 +21,8 @@ def histogram(
     title: str,
     lines: Sequence[tuple[str, float]],
     bands: Sequence[tuple[float, float]],
+    *,
+    alone: bool = False,
 ) -> dict[str, Any]:
     """How many machines have which value, with quantiles and their intervals.
 
@@ -34,6 +36,8 @@ def histogram(
         Marked, in the unit of the title.
     bands : sequence of (low, high)
         Shaded, in the unit of the title; an end that is not finite leaves one out.
+    alone : bool
+        Whether the figure shows its legend itself: several in a row share one.
     """
     x = np.asarray(values, dtype=float)
     x = x[np.isfinite(x)]
@@ -92,13 +96,16 @@ def histogram(
             shapes=shapes,
             xaxis=axis(plain(title)),
             yaxis=axis("machines", range=[0, 1.1 * top]),
-            margin={"l": 60, "r": 16, "t": 34, "b": 60},
+            margin={"l": 60, "r": 16, "t": 34, "b": 110 if alone else 60},
         ),
     }
 
 
 def index_bars(
-    parameters: Sequence[str], series: Sequence[tuple[str, ArrayLike, ArrayLike]]
+    parameters: Sequence[str],
+    series: Sequence[tuple[str, ArrayLike, ArrayLike]],
+    *,
+    alone: bool = False,
 ) -> dict[str, Any]:
     """Sobol indices of one answer with their intervals.
 
@@ -107,6 +114,8 @@ def index_bars(
     parameters : sequence of k str
     series : sequence of (name, (k,), (k,))
         Indices and half widths of their intervals, no unit.
+    alone : bool
+        Whether the figure shows its legend itself.
     """
     traces = [
         {
@@ -133,6 +142,6 @@ def index_bars(
             barmode="group",
             xaxis=axis("share of variance", rangemode="tozero"),
             yaxis=axis("", autorange="reversed", type="category"),
-            margin={"l": 60, "r": 16, "t": 34, "b": 60},
+            margin={"l": 60, "r": 16, "t": 34, "b": 110 if alone else 60},
         ),
     }
