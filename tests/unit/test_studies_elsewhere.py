@@ -11,6 +11,7 @@ import pytest
 
 from strutwork.kinematics import following
 from strutwork.machines.load import load
+from strutwork.studies import study as study_module
 from strutwork.studies.calibrate import calibrate
 from strutwork.studies.calibration_problem import Parameter, Target
 from strutwork.studies.cluster_work import compute, identity, pickled
@@ -123,11 +124,14 @@ def test_pieces_of_a_trajectory_are_computed_elsewhere(
     assert (there.sent, again.sent) == (4, 0)
 
 
-def test_machines_of_a_study_are_made_elsewhere(tmp_path: Path) -> None:
+def test_machines_of_a_study_are_made_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study_module, "CHUNK_MOST", 4)
     parameter = Varying(
         "joints.ball*.stiffness.*", distribution="normal", scatter="10 %", independent=True
     )
-    study = Study.of("examples/machines/6-ups.toml", [parameter], count=70, workspace={})
+    study = Study.of("examples/machines/6-ups.toml", [parameter], count=8, workspace={})
     expected = study.run(workers=1)
     there, again = Elsewhere(), Elsewhere()
     for executor in (there, again):
