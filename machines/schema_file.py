@@ -65,7 +65,7 @@ def described(
         Of tables that are not in it the model file's count.
     """
     found = top.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
-    tables = {top.__name__: found} | found.pop("$defs", {})
+    tables: dict[str, dict[str, Any]] = {top.__name__: found} | found.pop("$defs", {})
     for name, table in tables.items():
         table.pop("title", None)
         words = descriptions.get(name) or DESCRIPTIONS[name]

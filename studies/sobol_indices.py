@@ -111,7 +111,10 @@ def indices(values: Array, parameters: int, *, second_order: bool, seed: int = 0
         )
     square = np.full((parameters, parameters), np.nan)
     return Indices(
-        *(np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")),
+        np.asarray(found["S1"]),
+        np.asarray(found["S1_conf"]),
+        np.asarray(found["ST"]),
+        np.asarray(found["ST_conf"]),
         np.asarray(found["S2"]) if second_order else square,
         np.asarray(found["S2_conf"]) if second_order else square,
         dropped,
