@@ -37,7 +37,7 @@ class Indices:
     first_confidence, total_confidence : (k,)
         Half widths of their intervals at `LEVEL`, no unit.
     second, second_confidence : (k, k)
-        Of two parameters together, above the diagonal; NaN without second order.
+        Of two parameters together, above the diagonal, no unit; NaN without second order.
     dropped : tuple of int
         Numbers of the blocks that were left out, since a machine of each has no finite answer.
     refused : str
@@ -62,9 +62,10 @@ def indices(values: Array, parameters: int, *, second_order: bool, seed: int = 0
 
     Parameters
     ----------
-    values : (blocks × rows,)
-        In the order of `strutwork.studies.sobol_blocks.block_shares`, any unit; a value that is not
-        finite leaves its block out.
+    values : (n,)
+        Of all points of the blocks in the order of
+        `strutwork.studies.sobol_blocks.block_shares`, any unit; a value that is not finite leaves
+        its block out.
     parameters : int
         k.
     second_order : bool

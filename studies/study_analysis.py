@@ -112,7 +112,7 @@ def _with_indices(
 
 
 def independent(study: Study, values: Array) -> Array:
-    """The answers of machines that were drawn independently of one another: blocks repeat numbers.
+    """Answers of machines drawn independently of one another, (m,): blocks repeat numbers.
 
     Parameters
     ----------
