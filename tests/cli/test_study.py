@@ -137,6 +137,7 @@ def test_scatter_is_said_last_and_in_json(strutwork: Program, file: Path) -> Non
 
 
 def test_indices_are_said_last_and_in_json(strutwork: Program, file: Path) -> None:
+    pytest.importorskip("SALib")
     text = (
         SHORT.replace(
             'values = ["190 GPa", "210 GPa", "230 GPa"]', 'range = ["190 GPa", "230 GPa"]'

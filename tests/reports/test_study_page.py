@@ -6,6 +6,7 @@ import csv
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from strutwork.reports.study_page import main_answers, write_study_report
 from strutwork.studies.parameter import Parameter
@@ -76,6 +77,7 @@ stiffness = { x = 8e8, y = 9e8, z = 2e8, rx = 1e8, ry = 1e8, rz = 1e8 }
 def test_the_page_shows_scatter_and_indices_with_their_data(
     tmp_path: Path, browser: Browser
 ) -> None:
+    pytest.importorskip("SALib")
     parameters = [
         Parameter(f"joints.spring.stiffness.{d}", distribution="normal", scatter="10 %")
         for d in "xz"

@@ -152,6 +152,7 @@ def test_intervals_hold_what_they_promise_and_stay_open_for_few_machines() -> No
 
 def test_blocks_give_scatter_and_indices_at_once() -> None:
     """Scatter is of those machines that are independent of one another."""
+    pytest.importorskip("SALib")
     parameters = [
         Parameter(f"joints.spring.stiffness.{d}", distribution="uniform", scatter="10 %")
         for d in "xz"

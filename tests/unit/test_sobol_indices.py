@@ -20,6 +20,8 @@ from strutwork.studies.study import Study
 from strutwork.studies.study_analysis import analysed
 from strutwork.studies.study_table import answer_columns
 
+pytest.importorskip("SALib")
+
 RPS = Path(__file__).parents[2] / "examples/machines/3-rps.toml"
 
 
