@@ -84,11 +84,13 @@ def expandable(system: System) -> dict[str, str]:
     """
     structure = system.placed.structure
     linkage = structure.linkage
-    # a body of the linkage that holds a beam or an element is named after it: not rigid
+    owner, index = linkage.body_of_node, linkage.node_index
+    # a body that holds a beam or an element is not rigid, and the ground does not move
     rigid = [
         body.name
-        for b, body in enumerate(linkage.bodies)
-        if linkage.body_names.index(body.name) not in structure.flexible_bodies
+        for body in linkage.bodies
+        if owner[index[body.nodes[0]]] >= 0
+        and int(owner[index[body.nodes[0]]]) not in structure.flexible_bodies
     ]
     return (
         dict.fromkeys((*rigid, *(b.name for b in structure.rigid)), "body")
