@@ -148,7 +148,7 @@ class ErrorsTable(Table):
 
     model: CountedTable = CountedTable()
     tool: ToolTable | None = None
-    expansion: Annotated[dict[Name, Coefficient], Field(max_length=MOST)] = {}
+    expansion: Annotated[dict[Name, Coefficient], Field(max_length=MOST, default_factory=dict)]
     time: Moment0 | None = None
     drift: Annotated[tuple[Moment0, ...], Field(max_length=MOMENTS)] = ()
     temperatures: Annotated[tuple[TemperatureTable, ...], Field(max_length=MOST)] = ()
