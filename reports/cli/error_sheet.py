@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import json as json_text
 from collections.abc import Sequence
-from io import StringIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
-from strutwork.files import write_text
+from strutwork.files import write_whole
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.load import load
 from strutwork.machines.model import Model
@@ -21,6 +19,8 @@ from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import subject
 from strutwork.reports.cli.survey_output import print_kept, written
+from strutwork.reports.data_files import csv_file
+from strutwork.reports.error_tables import axis_heads, axis_rows, sheet_heads, sheet_rows
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.survey_words import grid_text, largest
 from strutwork.studies.error_answer import AxisErrors, ErrorSheets, axis_errors
@@ -67,7 +67,8 @@ def _at_pose(model: Model, target: str, errors: str, out: str | None, *, json: b
     result = {"target": target, "model": model.title} | sheet.to_dict() | {"data": []}
     if out is not None:
         path = Path(out) / f"{_stem(target)}-error-sheet.csv"
-        write_text(path, sheet_csv(sheet))
+        table_ = csv_file(path.name, "", sheet_heads(), sheet_rows(sheet))
+        write_whole(path, table_.write)
         result["data"] = [str(path)]
     if json:
         print_json(result)
@@ -77,27 +78,6 @@ def _at_pose(model: Model, target: str, errors: str, out: str | None, *, json: b
 
 def _stem(target: str) -> str:
     return Path(target).stem.replace(":", "-")
-
-
-def sheet_csv(sheet: ErrorSheet) -> str:
-    """One row a part, a cause and the total: known, ± and 95 % of six directions, m and rad."""
-    text = StringIO(newline="")
-    writer = RowWriter(text)
-    heads = [
-        f"{what} {d}, {'rad' if d.startswith('r') else 'm'}"
-        for what in ("known", "plus or minus", "95 % within")
-        for d in DIRECTIONS
-    ]
-    writer.writerow(["cause", "part", *heads])
-    rows = [
-        *((r.cause, r.part, ErrorSheet((r,))) for r in sheet.rows),
-        *((cause, "all", sheet.of(cause)) for cause in sheet.causes),
-        ("all", "all", sheet),
-    ]
-    for cause, part, one in rows:
-        values = np.concatenate([one.mean, one.half_range, one.within()])
-        writer.writerow([cause, part, *(repr(float(v)) for v in values)])
-    return text.getvalue()
 
 
 def _print(sheet: ErrorSheet, result: dict[str, Any]) -> None:
@@ -178,7 +158,8 @@ def _along(target: str, errors: str, axes: list[str], out: str | None, *, json: 
     if out is not None:
         for one in found:
             path = Path(out) / f"{_stem(target)}-errors-along-{one.axis}.csv"
-            write_text(path, axis_csv(one))
+            table_ = csv_file(path.name, "", axis_heads(one), axis_rows(one))
+            write_whole(path, table_.write)
             result["data"].append(str(path))
     if json:
         print_json(result)
@@ -189,19 +170,6 @@ def _along(target: str, errors: str, axes: list[str], out: str | None, *, json: 
         printed.print(_axis_table(one))
     for path in result["data"]:
         printed.print(f"Written: {visible(path)}", markup=False, soft_wrap=True)
-
-
-def axis_csv(one: AxisErrors) -> str:
-    """One row a position: the six errors and their ±, m and rad."""
-    text = StringIO(newline="")
-    writer = RowWriter(text)
-    unit = "rad" if one.axis.startswith("r") else "m"
-    units = ["m"] * 3 + ["rad"] * 3
-    heads = [f"{n}, {u}" for n, u in zip(one.names, units, strict=True)]
-    writer.writerow([f"{one.axis}, {unit}", *heads, *(f"plus or minus {h}" for h in heads)])
-    for at, known, half in zip(one.positions, one.errors, one.half_range, strict=True):
-        writer.writerow([repr(float(v)) for v in (at, *known, *half)])
-    return text.getvalue()
 
 
 def _axis_table(one: AxisErrors) -> Any:
