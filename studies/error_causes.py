@@ -77,7 +77,9 @@ class ErrorCauses:
                 "Add tolerances, gravity, drives with a resolution, or an errors file.",
             )
         rows.sort(key=lambda row: CAUSES.index(row.cause))
-        return ErrorSheet(tuple(rows), tuple(notes), self._drive_forces(), self.known.drift())
+        return ErrorSheet(
+            tuple(rows), tuple(notes), self._drive_forces(), self.known.drift(self.inputs.moments)
+        )
 
     def _varied(self) -> list[ErrorRow]:
         """Tolerances, and the resolution and backlash of drives."""

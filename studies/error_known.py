@@ -223,15 +223,21 @@ class KnownCauses:
         u = nodal_displacements(system.placed, system.elastic_gap_loads(elastic), on_rows)
         return np.asarray(np.einsum("oni,nim->om", self.wanted, u[0]))
 
-    def drift(self) -> tuple[tuple[float, tuple[float, ...]], ...]:
-        """Displacements by the temperatures at the moments of the inputs, m and rad."""
+    def drift(self, moments: Sequence[float]) -> tuple[tuple[float, tuple[float, ...]], ...]:
+        """Displacements by the temperatures at moments, (6,) each, m and rad.
+
+        Parameters
+        ----------
+        moments : sequence of float
+            After the temperatures began to change, s.
+        """
         if not self.inputs.temperatures:
             return ()
         hot = np.array([cause == "thermal" for cause, _ in self._steady[0]], dtype=bool)
         drift = []
-        for time in self.inputs.moments:
+        for time in moments:
             u = (self._responses * self._shares(time))[:, hot].sum(axis=1)
-            drift.append((time, tuple(float(v) for v in u)))
+            drift.append((float(time), tuple(float(v) for v in u)))
         return tuple(drift)
 
 

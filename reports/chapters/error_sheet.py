@@ -26,8 +26,8 @@ from strutwork.studies.survey_files import write_survey
 SHEET, DRIFT, FLOOR = "error-sheet.csv", "error-drift.csv", "error-floor.csv"
 MAP = "error-sheet-survey"
 
-#: Patterns of bars, so that colour is not needed to tell them apart.
-PATTERNS = {"x": "", "y": "/", "z": "."}
+#: Moments at which the drift is drawn.
+MOMENTS = 121
 
 #: Pairs of points that a spectrum is drawn with at most.
 DRAWN = 400
@@ -102,7 +102,7 @@ def _tables(sheet: ErrorSheet) -> list[Block]:
     ]
     picked = [(c, sheet.of(c).worst) for c in sheet.causes]
     bars = [
-        Bars(d, [1e6 * float(w[i]) for _, w in picked], AXIS_COLOURS[d], PATTERNS[d])
+        Bars(d, [1e6 * float(w[i]) for _, w in picked], AXIS_COLOURS[d])
         for i, d in enumerate("xyz")
     ]
     return [
@@ -139,23 +139,23 @@ def _tables(sheet: ErrorSheet) -> list[Block]:
 def _curves(sheet: ErrorSheet, causes: ErrorCauses) -> tuple[list[Block], list[DataFile]]:
     figures: list[Figure] = []
     files: list[DataFile] = []
-    if len(sheet.drift) > 1:
-        minutes = [t / 60 for t, _ in sheet.drift]
-        moved = 1e6 * np.array([u for _, u in sheet.drift])
+    if sheet.drift:
+        last = max(t for t, _ in sheet.drift)
+        drift = causes.known.drift(np.linspace(0.0, last, MOMENTS).tolist())
+        moved = 1e6 * np.array([u for _, u in drift])
         figures.append(
             Figure(
                 "error-drift",
                 "Thermal drift of the tool after the temperatures began to change",
-                curves(minutes, _xyz(moved), ("time, minutes", "displacement, µm")),
-                f"Displacement along x, y and z up to {significant(minutes[-1])} minutes.",
+                curves([t / 60 for t, _ in drift], _xyz(moved), ("time, min", "displacement, µm")),
+                f"Displacement along x, y and z up to {significant(last / 60)} minutes.",
                 DRIFT,
                 360,
             )
         )
         heads = ["time, s", *(f"{d}, {'rad' if d.startswith('r') else 'm'}" for d in DIRECTIONS)]
-        files.append(
-            csv_file(DRIFT, "thermal drift of the tool", heads, [(t, *u) for t, u in sheet.drift])
-        )
+        lines = [(t, *u) for t, u in drift]
+        files.append(csv_file(DRIFT, "thermal drift of the tool", heads, lines))
     found = causes.vibration
     if found is not None:
         total = np.sqrt((found.cumulative**2).sum(axis=0))
