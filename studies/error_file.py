@@ -98,11 +98,11 @@ def _temperature(
     if table.material is not None:
         parts = parts_of(model, table.material)
     else:
-        parts = table.parts if table.part is None else (table.part,)
-    name = table.name or table.material or ", ".join(parts or ())
+        parts = table.parts or () if table.part is None else (table.part,)
+    name = table.name or table.material or ", ".join(parts)
     return temperature_of(
         model,
-        parts or (),
+        parts,
         table.expansion,
         tables.expansion,
         name=name,

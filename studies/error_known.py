@@ -106,8 +106,12 @@ class KnownCauses:
             loads.append(found.loads)
             gaps.append(found.gaps)
             moved.append(found.moved)
-        join = tuple(np.concatenate(x, axis=-1) for x in (loads, gaps, moved))
-        return names, *join
+        return (
+            names,
+            np.concatenate(loads, axis=-1),
+            np.concatenate(gaps, axis=-1),
+            np.concatenate(moved, axis=-1),
+        )
 
     def at_tool(self, wrench: Sequence[float]) -> Array:
         """A wrench between tool and workpiece at the nodes, (1, n, 6, 1), N and N·m.
@@ -200,7 +204,7 @@ class KnownCauses:
     def _stretch(self, u: Array) -> dict[tuple[str, str], float]:
         """Motion of the second node against the first of every joint, joint axes, m and rad."""
         linkage = self.placed.structure.linkage
-        found = {}
+        found: dict[tuple[str, str], float] = {}
         for j, joint in enumerate(linkage.joints):
             first, second = (linkage.node_index[n] for n in joint.between)
             local = self.system.joint_frames[0, j].T @ (u[second] - u[first])

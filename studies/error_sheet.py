@@ -64,7 +64,7 @@ class NormalBall:
             Coefficients c of z in the quantity, any unit.
         """
         size = np.linalg.norm(direction, axis=-1, keepdims=True)
-        return np.divide(direction, size, out=np.zeros_like(direction), where=size > 0)
+        return np.asarray(np.divide(direction, size, out=np.zeros_like(direction), where=size > 0))
 
     def inside(self, uniform: Array) -> Array:
         """Normal points, not cut at the set's surface, (..., d).

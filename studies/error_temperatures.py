@@ -26,7 +26,7 @@ def parts_of(model: Model, material: str) -> tuple[str, ...]:
     ModelError
         No part is made of it.
     """
-    made = {b.name: (b.material.name,) for b in model.structure.beams}
+    made: dict[str, tuple[str, ...]] = {b.name: (b.material.name,) for b in model.structure.beams}
     made |= {s.name: tuple(s.materials) for s in model.solids}
     found = tuple(part for part, materials in made.items() if material in materials)
     if not found:
@@ -65,7 +65,7 @@ def temperature_of(
         An unknown part, or one without a coefficient.
     """
     known = expandable(system_of(model.placed))
-    made = {b.name: (b.material.name,) for b in model.structure.beams}
+    made: dict[str, tuple[str, ...]] = {b.name: (b.material.name,) for b in model.structure.beams}
     made |= {s.name: s.materials for s in model.solids}
     found = []
     for part in parts:

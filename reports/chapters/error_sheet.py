@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Row, Table, Text
@@ -22,6 +25,8 @@ from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_sheet import ErrorSheet
 from strutwork.studies.survey import survey
 from strutwork.studies.survey_files import write_survey
+
+Array = NDArray[Any]
 
 SHEET, DRIFT, FLOOR = "error-sheet.csv", "error-drift.csv", "error-floor.csv"
 MAP = "error-sheet-survey"
@@ -187,7 +192,7 @@ def _curves(sheet: ErrorSheet, causes: ErrorCauses) -> tuple[list[Block], list[D
     return ([Row(tuple(figures), 330)] if figures else []), files
 
 
-def _xyz(values: np.ndarray) -> list[Curve]:  # type: ignore[type-arg]
+def _xyz(values: Array) -> list[Curve]:
     dashes = {"x": "solid", "y": "dash", "z": "dot"}
     return [Curve(d, values[:, i], AXIS_COLOURS[d], dashes[d]) for i, d in enumerate("xyz")]
 
@@ -234,7 +239,7 @@ def _reached(
     subject: Subject,
     inputs: ErrorInputs,
     axis: str,
-    positions: np.ndarray,  # type: ignore[type-arg]
+    positions: Array,
 ) -> AxisErrors | None:
     """Errors along an axis; None where the machine cannot follow it from home."""
     from strutwork.machines.model_poses import moved

@@ -120,7 +120,7 @@ def _print(sheet: ErrorSheet, result: dict[str, Any]) -> None:
         out.print(table("Thermal drift, µm", ["minutes", "x", "y", "z"], drift, names=0))
     if sheet.drive_forces:
         out.print(
-            table("Drives under gravity, N or N·m", ["drive", "force"], _forces(sheet)),
+            table("Drives", ["drive", "force under gravity, N or N·m"], _forces(sheet)),
         )
     for note in sheet.notes:
         out.print(visible(note), markup=False, soft_wrap=True)
@@ -201,7 +201,7 @@ def _over(
     with shown() as started:
         progress = started(f"error sheet of {visible(target)}")
         found = survey(model, grid, [answer], workers=workers, progress=progress)
-    extremes = {}
+    extremes: dict[str, dict[str, Any]] = {}
     for key, _ in MEASURES[1:]:
         for d in DIRECTIONS:
             most = largest(found, found[key].sel(direction=d).to_numpy())

@@ -93,7 +93,7 @@ def test_an_errors_file_prints_the_sheet(strutwork: Program, tmp_path: Path) -> 
     assert len(rows) == 1 + len(run.result["rows"]) + 6 + 1
     said = strutwork("accuracy", GANTRY, "--errors", ERRORS)
     assert "Thermal drift" in said.out
-    assert "Drives under gravity" in said.out
+    assert "force under gravity" in said.out
 
 
 def test_errors_along_an_axis_have_their_names(strutwork: Program, tmp_path: Path) -> None:
