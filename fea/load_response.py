@@ -1,4 +1,4 @@
-"""Response of the tool to loads anywhere that vary in time: cutting, and a floor that moves."""
+"""Response of the tool to loads anywhere that vary in time: cutting, and a ground that moves."""
 
 from __future__ import annotations
 

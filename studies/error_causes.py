@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.coupled import AnyDamping
-from strutwork.fea.floor_vibration import FloorVibration, floor_vibration
+from strutwork.fea.ground_vibration import GroundVibration, ground_vibration
 from strutwork.fea.load_response import load_response
 from strutwork.kinematics import DIRECTIONS, State
 from strutwork.machines.model import Model
@@ -69,7 +69,7 @@ class ErrorCauses:
         notes: list[str] = []
         if vibration is not None:
             notes += [vibration.note] if vibration.note else []
-            rows += self._floor(vibration)
+            rows += self._ground(vibration)
         if not rows:
             raise ModelError(
                 "error sheet",
@@ -124,7 +124,7 @@ class ErrorCauses:
         if found is None:
             raise ModelError(
                 "damping",
-                "is missing, and a periodic force or a vibrating floor needs it.",
+                "is missing, and a periodic force or a vibrating ground needs it.",
                 "Add [damping] with modal_ratio to the model file.",
             )
         return found
@@ -142,24 +142,24 @@ class ErrorCauses:
         return rows
 
     @cached_property
-    def vibration(self) -> FloorVibration | None:
-        """Of the tool by the floor; None where no spectrum is given."""
-        if not self.inputs.floor:
+    def vibration(self) -> GroundVibration | None:
+        """Of the tool by the ground; None where no spectrum is given."""
+        if not self.inputs.ground:
             return None
-        return floor_vibration(
-            self.known.soft, self.inputs.floor, self.damping, self.inputs.against
+        return ground_vibration(
+            self.known.soft, self.inputs.ground, self.damping, self.inputs.against
         )
 
-    def _floor(self, found: FloorVibration) -> list[ErrorRow]:
+    def _ground(self, found: GroundVibration) -> list[ErrorRow]:
         rows = []
-        for spectrum, covariance in zip(self.inputs.floor, found.covariance, strict=True):
+        for spectrum, covariance in zip(self.inputs.ground, found.covariance, strict=True):
             # a root of the covariance, made with rotations at their own scale
             scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
             values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
             root = scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
             rows.append(
                 ErrorRow(
-                    "floor",
+                    "ground",
                     f"along {spectrum.direction}",
                     np.zeros(6),
                     PEAK * root,

@@ -1,4 +1,4 @@
-"""Reading an errors file: temperatures, cutting forces, drives and the floor of a machine."""
+"""Reading an errors file: temperatures, cutting forces, drives and the ground of a machine."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from strutwork.errors import ModelError
-from strutwork.fea.floor_vibration import FloorSpectrum
+from strutwork.fea.ground_vibration import GroundSpectrum
 from strutwork.machines.model import Model
 from strutwork.machines.model_errors import model_error
 from strutwork.machines.model_file import file_text, toml_of
@@ -76,7 +76,7 @@ def parse_errors(text: str, source: str, model: Model) -> ErrorInputs:
         tuple(_temperature(i, t, tables, model) for i, t in enumerate(tables.temperatures)),
         tuple(CuttingForce(t.name, (*t.force, *t.moment), t.frequency) for t in tables.cutting),
         tuple(d for i, t in enumerate(tables.drives) for d in _drives(i, t, model)),
-        tuple(FloorSpectrum(t.direction, t.frequencies, t.density) for t in tables.floor),
+        tuple(GroundSpectrum(t.direction, t.frequencies, t.density) for t in tables.ground),
         against,
         tables.model.tolerances,
         tables.model.gravity,

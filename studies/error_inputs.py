@@ -10,7 +10,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea.floor_vibration import FloorSpectrum
+from strutwork.fea.ground_vibration import GroundSpectrum
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa.structure import Structure
 from strutwork.names import choices
@@ -148,7 +148,7 @@ class ErrorInputs:
     temperatures : tuple of Temperature
     cutting : tuple of CuttingForce
     drives : tuple of DriveError
-    floor : tuple of FloorSpectrum
+    ground : tuple of GroundSpectrum
     against : str or None
         Node of the workpiece; the ground by default.
     geometry, gravity : bool
@@ -162,7 +162,7 @@ class ErrorInputs:
     temperatures: tuple[Temperature, ...] = ()
     cutting: tuple[CuttingForce, ...] = ()
     drives: tuple[DriveError, ...] = ()
-    floor: tuple[FloorSpectrum, ...] = ()
+    ground: tuple[GroundSpectrum, ...] = ()
     against: str | None = None
     geometry: bool = True
     gravity: bool = True

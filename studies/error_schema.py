@@ -122,8 +122,8 @@ class DriveTable(Table):
     angular_servo_stiffness: StiffTurn | None = None
 
 
-class FloorTable(Table):
-    """Vibration of the floor along one direction."""
+class GroundTable(Table):
+    """Vibration of the ground along one direction."""
 
     direction: Literal["x", "y", "z"]
     frequencies: Annotated[tuple[Frequency, ...], Field(max_length=POINTS)]
@@ -154,4 +154,4 @@ class ErrorsTable(Table):
     temperatures: Annotated[tuple[TemperatureTable, ...], Field(max_length=MOST)] = ()
     cutting: Annotated[tuple[CuttingTable, ...], Field(max_length=MOST)] = ()
     drives: Annotated[tuple[DriveTable, ...], Field(max_length=MOST)] = ()
-    floor: Annotated[tuple[FloorTable, ...], Field(max_length=3)] = ()
+    ground: Annotated[tuple[GroundTable, ...], Field(max_length=3)] = ()

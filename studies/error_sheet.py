@@ -25,7 +25,7 @@ from strutwork.overconstraint.unit_sets import UnitSet
 Array = NDArray[Any]
 
 #: The causes, in the order of the sheet.
-CAUSES = ("geometry", "gravity", "thermal", "cutting", "drives", "floor")
+CAUSES = ("geometry", "gravity", "thermal", "cutting", "drives", "ground")
 
 #: Draws of the distribution, and their seed.
 SAMPLES, SEED = 2**15, 2002
@@ -234,7 +234,7 @@ class ErrorSheet:
     def worst(self) -> Array:
         """Largest displacement in each direction, to either side, (6,), m and rad: exact.
 
-        A vibration of the floor counts with `PEAK` standard deviations.
+        A vibration of the ground counts with `PEAK` standard deviations.
         """
         return np.asarray(np.abs(self.mean) + self.half_range)
 

@@ -28,7 +28,7 @@ from strutwork.studies.survey_files import write_survey
 
 Array = NDArray[Any]
 
-SHEET, DRIFT, FLOOR = "error-sheet.csv", "error-drift.csv", "error-floor.csv"
+SHEET, DRIFT, GROUND = "error-sheet.csv", "error-drift.csv", "error-ground.csv"
 MAP = "error-sheet-survey"
 
 #: Moments at which the drift is drawn.
@@ -81,7 +81,7 @@ def _summary(sheet: ErrorSheet, inputs: ErrorInputs) -> list[Block]:
             f"the tool relative to {to} by {significant(1e6 * most)} µm in the worst case. The "
             f"largest causes are {' and '.join(by_size[:2])}. Known displacements add with their "
             "signs; ranges add by their support functions, which makes the worst case exact. A "
-            "vibration of the floor counts with three standard deviations."
+            "vibration of the ground counts with three standard deviations."
         )
     ]
     return [*blocks, *(Note(note) for note in sheet.notes)]
@@ -173,13 +173,13 @@ def _curves(sheet: ErrorSheet, causes: ErrorCauses) -> tuple[list[Block], list[D
         drawn["layout"]["xaxis"]["type"] = "log"
         figures.append(
             Figure(
-                "error-floor",
-                "Cumulative RMS of the tool by the vibration of the floor; a step is a mode",
+                "error-ground",
+                "Cumulative RMS of the tool by the vibration of the ground; a step is a mode",
                 drawn,
                 "Cumulative RMS along x, y and z; in all "
                 + ", ".join(significant(1e6 * float(v)) for v in total[-1, :3])
                 + " µm.",
-                FLOOR,
+                GROUND,
                 360,
             )
         )
@@ -188,7 +188,9 @@ def _curves(sheet: ErrorSheet, causes: ErrorCauses) -> tuple[list[Block], list[D
             *(f"RMS {d}, {'rad' if d.startswith('r') else 'm'}" for d in DIRECTIONS),
         ]
         lines = [(f, *row) for f, row in zip(found.frequencies, total, strict=True)]
-        files.append(csv_file(FLOOR, "cumulative RMS by the vibration of the floor", heads, lines))
+        files.append(
+            csv_file(GROUND, "cumulative RMS by the vibration of the ground", heads, lines)
+        )
     return ([Row(tuple(figures), 330)] if figures else []), files
 
 

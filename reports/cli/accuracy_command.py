@@ -45,7 +45,7 @@ def accuracy(
         str | None,
         typer.Option(
             metavar="FILE",
-            help="Errors file: temperatures, cutting forces, drives and the floor; prints the "
+            help="Errors file: temperatures, cutting forces, drives and the ground; prints the "
             "displacement by cause and part.",
         ),
     ] = None,

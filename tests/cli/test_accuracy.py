@@ -87,7 +87,7 @@ def test_an_errors_file_prints_the_sheet(strutwork: Program, tmp_path: Path) -> 
     known = sum(np.array(row["mean"]) for row in run.result["rows"])
     half = sum(np.array(row["half_range"]) for row in run.result["rows"])
     np.testing.assert_allclose(total, np.abs(known) + half, rtol=1e-9)
-    assert {"gravity", "thermal", "floor"} < set(run.result["causes"])
+    assert {"gravity", "thermal", "ground"} < set(run.result["causes"])
     (path,) = run.result["data"]
     rows = Path(path).read_text(encoding="utf-8").splitlines()
     assert len(rows) == 1 + len(run.result["rows"]) + 6 + 1
@@ -109,13 +109,13 @@ def test_the_sheet_over_a_workspace_has_its_worst_pose(strutwork: Program) -> No
     found = strutwork(*words).result
     assert found["poses_kept"] == 2
     assert set(found["largest"]["causes"]) == {
-        *("geometry", "gravity", "thermal", "cutting", "drives", "floor")
+        *("geometry", "gravity", "thermal", "cutting", "drives", "ground")
     }
 
 
 def test_a_spectrum_that_ends_too_low_is_said(strutwork: Program, tmp_path: Path) -> None:
     file = tmp_path / "low.toml"
-    file.write_text('[[floor]]\ndirection = "x"\nfrequencies = [1, 5]\ndensity = [1e-6, 1e-6]\n')
+    file.write_text('[[ground]]\ndirection = "x"\nfrequencies = [1, 5]\ndensity = [1e-6, 1e-6]\n')
     run = strutwork("accuracy", GANTRY, "--errors", file)
     assert "below the first mode" in " ".join(run.out.split())
 

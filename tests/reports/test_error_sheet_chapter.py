@@ -45,7 +45,7 @@ def test_the_sheet_has_its_numbers_and_files(gantry: Subject) -> None:
     names = {f.name for f in files}
     figures = [b for b in blocks if isinstance(b, Figure)]
     figures += [f for b in blocks if isinstance(b, Row) for f in b.figures]
-    assert {f.key for f in figures} == {"error-causes", "error-drift", "error-floor", "error-map"}
+    assert {f.key for f in figures} == {"error-causes", "error-drift", "error-ground", "error-map"}
     # every figure and table names the file of its numbers
     assert {f.data for f in (*figures, *tables)} <= names
 

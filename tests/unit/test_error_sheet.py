@@ -9,7 +9,7 @@ import pytest
 
 from strutwork.errors import ModelError
 from strutwork.fea import ModalRatio, Port, frequency_response
-from strutwork.fea.floor_vibration import FloorSpectrum, floor_vibration
+from strutwork.fea.ground_vibration import GroundSpectrum, ground_vibration
 from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
@@ -133,11 +133,11 @@ tcp = "A"
 
 @pytest.mark.parametrize("ratio", [0.001, 0.01, 0.1])
 def test_white_noise_shakes_an_oscillator_as_the_closed_form_has_it(ratio: float) -> None:
-    """σ² = S / (8 ζ ω³) relative to the floor, S one-sided per Hz (Crandall and Mark 1963)."""
+    """σ² = S / (8 ζ ω³) relative to the ground, S one-sided per Hz (Crandall and Mark 1963)."""
     model = _oscillator(40.0)
     density = 3e-6
-    spectrum = FloorSpectrum("x", (1e-3, 1e5), (density, density))
-    found = floor_vibration(model.placed, [spectrum], ModalRatio(ratio))
+    spectrum = GroundSpectrum("x", (1e-3, 1e5), (density, density))
+    found = ground_vibration(model.placed, [spectrum], ModalRatio(ratio))
     omega = 2 * np.pi * 40.0
     expected = density / (8 * ratio * omega**3)
     # the band leaves out a share of ζ · 1e-4 or so
@@ -147,12 +147,12 @@ def test_white_noise_shakes_an_oscillator_as_the_closed_form_has_it(ratio: float
     assert np.all(np.diff(found.cumulative[0, :, 0]) >= 0)
 
 
-def test_a_slow_floor_shakes_quasi_statically() -> None:
+def test_a_slow_ground_shakes_quasi_statically() -> None:
     """Far below the mode the relative motion is a / ω₀², for a spectrum that falls as f⁻²."""
     model = _oscillator(400.0)
     f = np.array([1.0, 4.0])
-    spectrum = FloorSpectrum("z", tuple(f), tuple(1e-4 / f**2))
-    found = floor_vibration(model.placed, [spectrum], ModalRatio(0.01))
+    spectrum = GroundSpectrum("z", tuple(f), tuple(1e-4 / f**2))
+    found = ground_vibration(model.placed, [spectrum], ModalRatio(0.01))
     expected = 1e-4 * (1 - 1 / 4) / (2 * np.pi * 400.0) ** 4
     np.testing.assert_allclose(found.covariance[0, 2, 2], expected, rtol=3e-4)
     assert "ends at 4 Hz, below the first mode" in found.note
@@ -186,7 +186,7 @@ def test_totals_are_those_of_the_rows() -> None:
     np.testing.assert_allclose(sheet.deviation**2, sum(r.deviation**2 for r in rows), rtol=1e-12)
     assert np.all(sheet.within() <= sheet.worst)
     assert np.linalg.norm(sheet.largest()) >= sheet.worst[:3].max()
-    assert sheet.causes == ("geometry", "gravity", "thermal", "cutting", "drives", "floor")
+    assert sheet.causes == ("geometry", "gravity", "thermal", "cutting", "drives", "ground")
 
 
 def test_the_workpiece_takes_its_own_motion_away() -> None:
@@ -238,11 +238,11 @@ def test_an_axis_and_a_workspace_have_the_sheets_of_their_poses() -> None:
         ('[[drives]]\njoint = "xx"\ndirection = "z"\nbacklash = "2 um"', 'unknown drive "xx:z"'),
         ('[[drives]]\njoint = "x"\ndirection = "z"', "states no error"),
         (
-            '[[floor]]\ndirection = "x"\nfrequencies = [1, 2]\ndensity = [1e-6, -1e-6]',
+            '[[ground]]\ndirection = "x"\nfrequencies = [1, 2]\ndensity = [1e-6, -1e-6]',
             "out of range",
         ),
-        ('[[floor]]\ndirection = "x"\nfrequencies = [1, 2]\ndensity = [1e-6]', "as many of both"),
-        ('[[floor]]\ndirection = "x"\nfrequencies = [2, 1]\ndensity = [1, 1]', "do not rise"),
+        ('[[ground]]\ndirection = "x"\nfrequencies = [1, 2]\ndensity = [1e-6]', "as many of both"),
+        ('[[ground]]\ndirection = "x"\nfrequencies = [2, 1]\ndensity = [1, 1]', "do not rise"),
         ('[tool]\nagainst = "tabel"', 'unknown node "tabel"'),
         ("[nodes]\nA = [0, 0, 0]", "is a model file"),
     ],
@@ -256,12 +256,12 @@ def test_wrong_numbers_are_refused() -> None:
     with pytest.raises(ModelError, match="backlash -1e-06"):
         DriveError("x", "z", None, -1e-6)
     with pytest.raises(ModelError, match="a power is not negative"):
-        FloorSpectrum("x", (1.0, 2.0), (1.0, -1.0))
+        GroundSpectrum("x", (1.0, 2.0), (1.0, -1.0))
     with pytest.raises(ModelError, match="no cause of error"):
         error_sheet(_oscillator(10.0))
     with pytest.raises(ModelError, match="unknown cause"):
         ErrorRow("weather", "rain", np.zeros(6), np.zeros((6, 0)))
     undamped = replace(machine("gantry"), damping=None)
-    spectrum = FloorSpectrum("x", (1.0, 2.0), (1.0, 1.0))
-    with pytest.raises(ModelError, match="vibrating floor needs it"):
-        error_sheet(undamped, replace(ALONE, floor=(spectrum,)))
+    spectrum = GroundSpectrum("x", (1.0, 2.0), (1.0, 1.0))
+    with pytest.raises(ModelError, match="vibrating ground needs it"):
+        error_sheet(undamped, replace(ALONE, ground=(spectrum,)))

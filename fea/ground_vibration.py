@@ -1,6 +1,6 @@
-"""Vibration of the floor, as a spectral density at the mounts, to the motion of the tool.
+"""Vibration of the ground, as a spectral density at the mounts, to the motion of the tool.
 
-All mounts move alike. In the frame of the floor its acceleration a is the load −M r a, so that
+All mounts move alike. In the frame of the ground its acceleration a is the load −M r a, so that
 the motion of the tool relative to the workpiece has the density Σ |H(f)|² S(f) (Crandall and Mark
 1963, Random Vibration in Mechanical Systems).
 """
@@ -35,8 +35,8 @@ BAND = 60
 
 
 @dataclass(frozen=True)
-class FloorSpectrum:
-    """Acceleration of the floor along one direction.
+class GroundSpectrum:
+    """Acceleration of the ground along one direction.
 
     Parameters
     ----------
@@ -58,9 +58,9 @@ class FloorSpectrum:
     density: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        part = f"floor along {self.direction}"
+        part = f"ground along {self.direction}"
         if self.direction not in DIRECTIONS[:3]:
-            raise ModelError(part, "is no direction of a floor.", "Choose x, y or z.")
+            raise ModelError(part, "is no direction of a ground.", "Choose x, y or z.")
         if len(self.frequencies) != len(self.density) or len(self.density) < 2:
             raise ModelError(
                 part,
@@ -100,8 +100,8 @@ class FloorSpectrum:
 
 
 @dataclass(frozen=True)
-class FloorVibration:
-    """Motion of the tool relative to the workpiece while the floor vibrates.
+class GroundVibration:
+    """Motion of the tool relative to the workpiece while the ground vibrates.
 
     Parameters
     ----------
@@ -125,7 +125,7 @@ class FloorVibration:
 
     def __repr__(self) -> str:
         rms = np.sqrt(np.einsum("sii->i", self.covariance))[:3]
-        return f"<FloorVibration: RMS {', '.join(f'{v:.3g}' for v in rms)} m>"
+        return f"<GroundVibration: RMS {', '.join(f'{v:.3g}' for v in rms)} m>"
 
     @property
     def note(self) -> str:
@@ -133,24 +133,24 @@ class FloorVibration:
         if self.highest > self.first_mode:
             return ""
         return (
-            f"The spectrum of the floor ends at {self.highest:.4g} Hz, below the first mode at "
+            f"The spectrum of the ground ends at {self.highest:.4g} Hz, below the first mode at "
             f"{self.first_mode:.4g} Hz: the vibration of the tool leaves out every resonance."
         )
 
 
-def floor_vibration(
+def ground_vibration(
     placed: PlacedStructure,
-    spectra: Sequence[FloorSpectrum],
+    spectra: Sequence[GroundSpectrum],
     damping: AnyDamping,
     against: str | None = None,
-) -> FloorVibration:
-    """Motion of the tool by the vibration of the floor, at one pose.
+) -> GroundVibration:
+    """Motion of the tool by the vibration of the ground, at one pose.
 
     Parameters
     ----------
     placed : PlacedStructure
         At one pose, with a tool.
-    spectra : sequence of s FloorSpectrum
+    spectra : sequence of s GroundSpectrum
         Not correlated with one another.
     damping : damping of any kind
     against : str, optional
@@ -158,7 +158,7 @@ def floor_vibration(
 
     Returns
     -------
-    FloorVibration
+    GroundVibration
         The integrals are by Gauss points on intervals that narrow towards every mode.
 
     Raises
@@ -167,7 +167,7 @@ def floor_vibration(
         No spectrum, no mass, or a structure that nothing holds.
     """
     if not spectra:
-        raise ModelError("floor", "has no spectrum.", "Give one along x, y or z.")
+        raise ModelError("ground", "has no spectrum.", "Give one along x, y or z.")
     system = system_of(placed)
     pushes = [LoadCase(s.direction, gravity=_down(DIRECTIONS.index(s.direction))) for s in spectra]
     found = load_response(placed, system.nodal_loads(pushes)[0], damping, against)
@@ -186,19 +186,19 @@ def floor_vibration(
     cumulative = np.concatenate([np.zeros((len(spectra), 1, 6)), running], axis=1)
     first = float(modes[0]) if len(modes) else np.inf
     highest = max(s.frequencies[-1] for s in spectra)
-    return FloorVibration(
+    return GroundVibration(
         power.sum(axis=1), ends, np.sqrt(np.maximum(cumulative, 0.0)), first, highest
     )
 
 
 def _down(axis: int) -> tuple[float, float, float]:
-    """The load of a floor that accelerates by one along an axis."""
+    """The load of a ground that accelerates by one along an axis."""
     pull = [0.0, 0.0, 0.0]
     pull[axis] = -1.0
     return pull[0], pull[1], pull[2]
 
 
-def _breakpoints(spectra: Sequence[FloorSpectrum], modes: Array) -> Array:
+def _breakpoints(spectra: Sequence[GroundSpectrum], modes: Array) -> Array:
     low = min(s.frequencies[0] for s in spectra)
     high = max(s.frequencies[-1] for s in spectra)
     near = modes[(modes > low / 2) & (modes < 2 * high)]
