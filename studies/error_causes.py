@@ -180,7 +180,9 @@ class ErrorCauses:
             d = DIRECTIONS.index(direction)
             if states[linkage.joint_index[joint], d] != State.FREE:
                 force = found.joint_force(joint, "gravity")[d]
-                forces.append((f"{joint}:{direction}", float(np.ma.filled(force, np.nan))))
+                # what rigid parts alone leave open has no number
+                if not np.ma.is_masked(force):
+                    forces.append((f"{joint}:{direction}", float(force)))
         return tuple(forces)
 
 
