@@ -77,7 +77,9 @@ class Variable:
         elif isinstance(value, np.generic):
             value = value.item()
         if not self.varied.relative:
-            return [number.read(value) for number in self.varied.numbers][0]
+            # each has a range of its own
+            every = [number.read(value) for number in self.varied.numbers]
+            return every[0]
         if not isinstance(value, int | float) or isinstance(value, bool) or not np.isfinite(value):
             raise ModelError(
                 visible(self.name),
@@ -141,9 +143,7 @@ def variables_of(
         `strutwork.studies.parameter.varied`.
     """
     if isinstance(given, str):
-        raise ModelError(
-            "parameters", f'are the text "{visible(given)}".', "Give a list of paths."
-        )
+        raise ModelError("parameters", f'are the text "{visible(given)}".', "Give a list of paths.")
     pairs = given.items() if isinstance(given, Mapping) else [(p, None) for p in given]
     asked = [_parameter(machine, what, bounds) for what, bounds in pairs]
     found = varied(machine, asked)
@@ -190,7 +190,7 @@ def _start(one: Varied) -> float:
 
 
 def task_of(model: Model, poses: Poses) -> dict[str, Array] | None:
-    """Poses as a batch, m and rad; None for the machine as it is described.
+    """Poses as a batch (p,) along each direction, m and rad; None for the machine as described.
 
     Parameters
     ----------

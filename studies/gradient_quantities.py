@@ -195,15 +195,7 @@ def sensitivities(
         values[k], rates[k] = _mass(found)
     for k, a in enumerate(asked):
         if a.kind == "least_dynamic_stiffness":
-            if vibrating.damping is None:
-                raise ModelError(
-                    "damping", "is missing.", "Add [damping], or give the machine a damping."
-                )
-            port = Port(model.require_tool(), DIRECTIONS[a.direction])
-            least = dynamic_sensitivity(
-                found.placed, found.changes, port, vibrating.damping, vibrating.band
-            )
-            values[k], rates[k] = least.value, least.rates
+            values[k], rates[k] = _least_dynamic(model, found, a, vibrating)
     if model.preload is not None and kinds & {"frequency", "least_dynamic_stiffness"}:
         remarks.append(
             f'The preload "{model.preload}" is left out of vibration: what a parameter does to '
@@ -211,6 +203,19 @@ def sensitivities(
         )
     rates = np.where(found.missing, np.nan, rates)
     return values, rates, tuple(remarks)
+
+
+def _least_dynamic(
+    model: Model, found: PlacedTangents, one: Asked, vibrating: Vibrating
+) -> tuple[Array, Array]:
+    """The least dynamic stiffness (p,) and its rates (g, p)."""
+    if vibrating.damping is None:
+        raise ModelError("damping", "is missing.", "Add [damping], or give the machine a damping.")
+    port = Port(model.require_tool(), DIRECTIONS[one.direction])
+    least = dynamic_sensitivity(
+        found.placed, found.changes, port, vibrating.damping, vibrating.band
+    )
+    return least.value, least.rates
 
 
 def _mass(found: PlacedTangents) -> tuple[float, Array]:
