@@ -12,6 +12,7 @@ import shutil
 import tempfile
 import time
 from pathlib import Path
+from threading import Event, Thread
 
 import numpy as np
 
@@ -31,6 +32,7 @@ from strutwork.studies.chunks import Arrays, ChunkStore
 from strutwork.studies.cluster import Dask
 from strutwork.studies.executor import Executor, Threads
 from strutwork.studies.run import Chunk, Run
+from strutwork.studies.stiffness_map import map_function
 from strutwork.studies.streaming import stream_stiffness_map
 
 DOCUMENT = DOCUMENTS / "performance-studies.md"
@@ -39,6 +41,8 @@ DOCUMENT = DOCUMENTS / "performance-studies.md"
 QUIET = 0.3
 #: Candidates at each point, and points of a lattice of fineness one.
 ROLLS, POINTS = 24, 3.17
+#: Points in a chunk that is looked at for Python's lock, and what counts as waiting for it, s.
+LOOKS, LATE = 340, 5e-4
 
 
 def waits(seconds: float, chunks: int, executor: Executor) -> float:
@@ -65,6 +69,39 @@ def map_seconds(lattice: int, executor: Executor) -> float:
     begun = time.perf_counter()
     stiffness_map(machine, points, executor=executor)
     return time.perf_counter() - begun
+
+
+def lock_share(lattice: int) -> float:
+    """Share of a map's chunks during which Python's global lock is held.
+
+    A second thread wakes at random moments and waits for the lock where it is held, up to the
+    interval after which Python asks for it. Other work on the machine hardly matters.
+    """
+    machine = Proposed3PPRS()
+    asked = map_function(machine, hemisphere(machine, lattice=lattice))
+    count = min(len(asked.points), LOOKS)
+    asked(Chunk(0, 0, count))
+    random = np.random.default_rng(0)
+    done = Event()
+    late: list[bool] = []
+
+    def look() -> None:
+        while not done.is_set():
+            asleep = float(random.uniform(2e-4, 1e-3))
+            begun = time.perf_counter()
+            time.sleep(asleep)
+            late.append(time.perf_counter() - begun - asleep > LATE)
+
+    looking = Thread(target=look)
+    looking.start()
+    try:
+        begun = time.perf_counter()
+        while time.perf_counter() - begun < (0.1 if lattice < 10 else 3.0):
+            asked(Chunk(0, 0, count))
+    finally:
+        done.set()
+        looking.join()
+    return float(np.mean(late))
 
 
 def stream(poses: int, folder: Path) -> tuple[int, float, float]:
