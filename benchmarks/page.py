@@ -43,7 +43,7 @@ PARTS = (
         "performance-statics.md",
         "OpenSeesPy, PyNite",
         "Arithmetic of the compiled elimination. Poses near a singularity are solved again by the "
-        "stacked solver at a fiftieth of the rate.",
+        "stacked solver at its own rate, which the first table states.",
         ("--poses", "16384"),
     ),
     Part(
@@ -60,7 +60,7 @@ PARTS = (
         "Inverse kinematics",
         "performance-inverse.md",
         "Pinocchio",
-        "Newton steps per pose, three or four from a neighbouring pose.",
+        "Newton steps of every leg from home to every pose.",
         ("--poses", "8192"),
     ),
     Part(
@@ -105,7 +105,8 @@ PARTS = (
         "Studies",
         "performance-studies.md",
         "one worker",
-        "Number of processors; the chunks are computed outside of Python's global lock.",
+        "Number of processors: the chunks hold Python's global lock for a small share of their "
+        "time, which the table states.",
     ),
     Part(
         "solid_speed",
@@ -142,8 +143,8 @@ PACKAGES = (
     "pypardiso",
 )
 
-#: What a program says of its page, which this page says once.
-_ABOUT = re.compile(r"^(# |Written by `|Made by `|Machine: |\*Compare ratios).*$")
+#: The head of a program's page, which this page has once: from its title to the machine.
+_HEAD = re.compile(r"\A# .*?^Machine: [^\n]*\n", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -153,7 +154,8 @@ class Result:
     part: Part
     text: str
     seconds: float
-    error: str
+    error: str = ""
+    arguments: tuple[str, ...] = ()
 
 
 def run(part: Part, *, quick: bool) -> Result:
@@ -172,16 +174,15 @@ def run(part: Part, *, quick: bool) -> Result:
     taken = time.perf_counter() - begun
     lines = done.stderr.strip().splitlines()
     error = (lines[-1] if lines else f"status {done.returncode}") if done.returncode else ""
-    return Result(part, done.stdout, taken, error)
+    return Result(part, done.stdout, taken, error, arguments)
 
 
 def section(result: Result) -> list[str]:
     """The program's tables under a heading of this page."""
     part = result.part
-    body = [line for line in result.text.splitlines() if not _ABOUT.match(line)]
-    text = re.sub(r"^(#+) ", r"#\1 ", "\n".join(body), flags=re.MULTILINE)
-    text = re.sub(r"\n{3,}", "\n\n", text).strip()
-    command = " ".join(["python -m", f"benchmarks.{part.program}", *part.arguments])
+    body = _HEAD.sub("", result.text).replace(f" {machine_line()}", "")
+    text = re.sub(r"^(#+) ", r"#\1 ", body, flags=re.MULTILINE).strip()
+    command = " ".join(["python -m", f"benchmarks.{part.program}", *result.arguments])
     failed = [f"**This run failed: {result.error}**", ""] if result.error else []
     return [
         f"## {part.title}",
@@ -214,9 +215,10 @@ def page(results: Sequence[Result], load: float) -> str:
         [
             "# Benchmarks",
             "",
-            f"All benchmarks in one run of {minutes:.0f} minutes, written by "
-            "`python -m benchmarks.page`. Compare ratios;",
-            "rates are those of one machine. [Performance](performance.md) explains each of them.",
+            f"All benchmarks in one run of {minutes:.0f} minutes, by `python -m benchmarks.page`.",
+            "Compare ratios: rates are those of one machine. Where nothing else is stated, one",
+            "thread computes and times are processor time. [Performance](performance.md) lists the",
+            "pages that explain each benchmark.",
             "",
             machine_line(),
             versions(),
@@ -224,7 +226,7 @@ def page(results: Sequence[Result], load: float) -> str:
             "",
             *(line for result in results for line in section(result)),
         ]
-    ).replace("\n\n\n", "\n\n")
+    )
 
 
 def main() -> int:
