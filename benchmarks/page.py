@@ -210,6 +210,8 @@ def versions() -> str:
 
 def page(results: Sequence[Result], load: float) -> str:
     """The whole page."""
+    lacking = [p.title for p in PARTS if p not in [r.part for r in results]]
+    left_out = [f"Left out of this run: {', '.join(lacking)}.", ""] if lacking else []
     minutes = sum(r.seconds for r in results) / 60.0
     return joined(
         [
@@ -224,6 +226,7 @@ def page(results: Sequence[Result], load: float) -> str:
             versions(),
             f"Load of other work at the start: {load:.1f}.",
             "",
+            *left_out,
             *(line for result in results for line in section(result)),
         ]
     )
