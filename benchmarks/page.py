@@ -91,7 +91,7 @@ PARTS = (
         "Stability of cutting",
         "performance-cutting.md",
         "a semi-discretisation",
-        "Eigenvalues of the map of one tooth period, which a helix makes anew at every depth.",
+        "Eigenvalues of the map of one tooth period, which a helix changes at every depth.",
     ),
     Part(
         "gradient_speed",
@@ -217,7 +217,7 @@ def page(results: Sequence[Result], load: float) -> str:
         [
             "# Benchmarks",
             "",
-            f"All benchmarks in one run of {minutes:.0f} minutes, by `python -m benchmarks.page`.",
+            f"Benchmarks in one run of {minutes:.0f} minutes, by `python -m benchmarks.page`.",
             "Compare ratios: rates are those of one machine. Where nothing else is stated, one",
             "thread computes and times are processor time. [Performance](performance.md) lists the",
             "pages that explain each benchmark.",
