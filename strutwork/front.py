@@ -19,6 +19,7 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import at_pose
 from strutwork.msa import tool_compliance
+from strutwork.outward import Outward
 from strutwork.tool_stiffness import ToolStiffness
 from strutwork.units import ANGLE, LENGTH, quantity
 
@@ -44,6 +45,8 @@ QUESTIONS = (
     "check",
     "compare",
     "frequency_response",
+    "function",
+    "gradient",
     "modes",
     "plot",
     "report",
@@ -55,7 +58,7 @@ QUESTIONS = (
 
 
 @dataclass(frozen=True, repr=False)
-class Machine(Model):
+class Machine(Model, Outward):
     """A model with its questions; the fields are those of `strutwork.machines.model.Model`.
 
     Attributes

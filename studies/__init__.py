@@ -14,6 +14,7 @@ from strutwork.studies.dynamic import dynamic_stiffness, frequency_responses
 from strutwork.studies.dynamic_map import Vibration, dynamic_map
 from strutwork.studies.executor import Executor, Threads, default_executor
 from strutwork.studies.filters import Filters, PoseStatus
+from strutwork.studies.function import MachineFunction
 from strutwork.studies.parameter import Parameter
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.plane_map import Fall, on_plane, plane_map, stiffness_falls
@@ -51,6 +52,7 @@ __all__ = [
     "Filters",
     "JointScaling",
     "Lines",
+    "MachineFunction",
     "Parameter",
     "Parametric",
     "PoseStatus",

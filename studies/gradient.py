@@ -16,8 +16,10 @@ from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
 from strutwork.names import visible
 from strutwork.studies.description import versions
-from strutwork.studies.dimension import Dimension
+from strutwork.studies.dimension import Dimension, dimensions
 from strutwork.studies.gradient_quantities import Asked, Vibrating, read_quantity, sensitivities
+from strutwork.studies.model_damping import model_damping
+from strutwork.studies.parametric import Parametric
 from strutwork.studies.tangents import ModelOf, Tangents
 
 Array = NDArray[Any]
@@ -146,6 +148,43 @@ def _dataset(
             **versions(),
         },
     )
+
+
+def machine_gradient(
+    source: object,
+    quantities: Sequence[str] = (),
+    by: Sequence[str] = (),
+    task: Mapping[str, ArrayLike] | None = None,
+    band: tuple[float, float] = (1.0, 1000.0),
+) -> xr.Dataset:
+    """Gradients of a machine by names, with its own damping.
+
+    Parameters
+    ----------
+    source : str, Path, Parametric or machine
+        As `strutwork.studies.parametric.Parametric.of`.
+    quantities : sequence of str
+        The stiffnesses of the tool along x, y and z where there is none.
+    by : sequence of str
+        Paths as of `Dimension.of`; those of `dimensions` where there is none.
+    task : mapping of direction to (p,), optional
+        Poses of the tool, m and rad.
+    band : (float, float)
+        Of a least dynamic stiffness, Hz.
+
+    Raises
+    ------
+    ModelError
+        A path that names no number; else as `gradient`.
+    UnreachableError, MechanismError, NumericalError
+        As `gradient`.
+    """
+    machine = Parametric.of(source)
+    chosen = [Dimension.of(machine, path) for path in by] if by else dimensions(machine)
+    dynamic = any(name.startswith("least_dynamic_stiffness") for name in quantities)
+    vibrating = Vibrating(model_damping(machine.model()) if dynamic else None, band)
+    asked = quantities or ("stiffness_x", "stiffness_y", "stiffness_z")
+    return gradient(machine.model, chosen, asked, task, vibrating)
 
 
 def per(unit: str, parameter: str) -> str:

@@ -17,6 +17,7 @@ from strutwork.fea.sensitivity import dynamic_sensitivity, frequency_sensitivity
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
+from strutwork.msa.mass import total_mass
 from strutwork.msa.sensitivity import StaticQuantity, compliance_sensitivity, static_sensitivity
 from strutwork.names import visible
 from strutwork.studies.tangents import PlacedTangents
@@ -31,6 +32,7 @@ FORMS = (
     "least_dynamic_stiffness_z",
     "displacement:NODE:z@CASE",
     "joint_force:JOINT:z@CASE",
+    "mass",
 )
 
 _TOOL = re.compile(r"(stiffness|blocked_stiffness|least_dynamic_stiffness)_(\w+)")
@@ -47,8 +49,8 @@ class Asked:
     name : str
         As it was asked for.
     kind : str
-        "stiffness", "blocked_stiffness", "least_dynamic_stiffness", "frequency", "displacement" or
-        "joint_force".
+        "stiffness", "blocked_stiffness", "least_dynamic_stiffness", "frequency", "displacement",
+        "joint_force" or "mass".
     unit : str
         SI.
     meaning : str
@@ -96,6 +98,8 @@ def read_quantity(model: Model, name: str) -> Asked:
     ModelError
         Another name (the message lists the forms), an unknown direction or load case.
     """
+    if name == "mass":
+        return Asked(name, "mass", "kg", "mass of all parts")
     tool, mode, static = (p.fullmatch(name) for p in (_TOOL, _MODE, _STATIC))
     if mode:
         number = int(mode[1])
@@ -186,17 +190,12 @@ def sensitivities(
         solved = static_sensitivity(found.placed, found.changes, static)
         rows = [k for k, a in enumerate(asked) if a.static is not None]
         values[rows], rates[rows] = solved.values.T, np.moveaxis(solved.rates, -1, 0)
+    if "mass" in kinds:
+        k = next(k for k, a in enumerate(asked) if a.kind == "mass")
+        values[k], rates[k] = _mass(found)
     for k, a in enumerate(asked):
         if a.kind == "least_dynamic_stiffness":
-            if vibrating.damping is None:
-                raise ModelError(
-                    "damping", "is missing.", "Add [damping], or give the machine a damping."
-                )
-            port = Port(model.require_tool(), DIRECTIONS[a.direction])
-            least = dynamic_sensitivity(
-                found.placed, found.changes, port, vibrating.damping, vibrating.band
-            )
-            values[k], rates[k] = least.value, least.rates
+            values[k], rates[k] = _least_dynamic(model, found, a, vibrating)
     if model.preload is not None and kinds & {"frequency", "least_dynamic_stiffness"}:
         remarks.append(
             f'The preload "{model.preload}" is left out of vibration: what a parameter does to '
@@ -204,3 +203,30 @@ def sensitivities(
         )
     rates = np.where(found.missing, np.nan, rates)
     return values, rates, tuple(remarks)
+
+
+def _least_dynamic(
+    model: Model, found: PlacedTangents, one: Asked, vibrating: Vibrating
+) -> tuple[Array, Array]:
+    """The least dynamic stiffness (p,) and its rates (g, p)."""
+    if vibrating.damping is None:
+        raise ModelError("damping", "is missing.", "Add [damping], or give the machine a damping.")
+    port = Port(model.require_tool(), DIRECTIONS[one.direction])
+    least = dynamic_sensitivity(
+        found.placed, found.changes, port, vibrating.damping, vibrating.band
+    )
+    return least.value, least.rates
+
+
+def _mass(found: PlacedTangents) -> tuple[float, Array]:
+    """The mass, kg, the same at every pose, and its rates (g, 1)."""
+    one = found.placed[:1]
+    rates = np.empty((len(found.changes), 1))
+    for i, change in enumerate(found.changes):
+        if change.above is None or change.below is None:
+            sides = [s.at(one.placement) for s in (change.change.above, change.change.below)]
+        else:
+            sides = [change.above[:1], change.below[:1]]
+        above, below = (total_mass(side) for side in sides)
+        rates[i] = (above - below) / change.change.width
+    return float(total_mass(one)[0]), rates

@@ -14,11 +14,14 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks.page import PARTS as ON_THE_PAGE
+from benchmarks.page import Part, Result, page, section, versions
+
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "benchmarks"
 
-#: Run by `solid_speed` on another Python, with arguments of its own.
-PARTS = {"slepc_modes"}
+#: Run by `solid_speed` on another Python, with arguments of its own; runs all the others.
+PARTS = {"slepc_modes", "page"}
 
 
 def is_program(path: Path) -> bool:
@@ -55,7 +58,7 @@ def test_no_benchmark_is_forgotten() -> None:
 
 
 #: Those that take longest even so; nightly, where their usual sizes run too.
-LONG = {"executor_speed", "solid_speed", "static_speed", "tolerance_speed"}
+LONG = {"executor_speed", "growth_speed", "solid_speed", "static_speed", "tolerance_speed"}
 
 
 @pytest.mark.parametrize(
@@ -84,3 +87,70 @@ def test_figures_of_the_smallest_size_are_never_written(name: str, tmp_path: Pat
 def test_the_nightly_run_times_every_benchmark(name: str) -> None:
     nightly = (ROOT / ".ci" / "nightly").read_text(encoding="utf-8")
     assert re.search(rf"^benchmark {name}\b", nightly, re.MULTILINE)
+
+
+def test_every_benchmark_is_on_the_page() -> None:
+    assert sorted(part.program for part in ON_THE_PAGE) == PROGRAMS
+    assert all((ROOT / "docs" / part.page).is_file() for part in ON_THE_PAGE)
+
+
+PRINTED = """# Performance: ropes
+
+Written by `python -m benchmarks.rope_speed --write`: compare ratios. One thread,
+processor time.
+Machine: wood, 2 cores.
+
+## Short ropes
+
+| ropes | s |
+|---|---|
+| 3 | 0.1 |
+
+### Knots
+
+None.
+"""
+ROPES = Part("rope_speed", "Ropes", "performance-ropes.md", "strings", "Hemp.", ("--poses", "3"))
+
+
+def test_a_section_has_the_tables_and_no_head_of_its_own() -> None:
+    lines = section(Result(ROPES, PRINTED, 2.4, "", ROPES.arguments))
+    text = "\n".join(lines)
+    assert lines[0] == "## Ropes"
+    assert "`python -m benchmarks.rope_speed --poses 3`, 2 s. Compared with strings;" in text
+    assert "### Short ropes\n\n| ropes | s |\n|---|---|\n| 3 | 0.1 |\n\n#### Knots" in text
+    assert "*What limits it:* Hemp." in text
+    assert not re.search("Written by|processor time|wood|failed", text)
+
+
+def test_a_benchmark_that_fails_is_named_and_keeps_its_tables() -> None:
+    whole = page([Result(ROPES, PRINTED, 90.0, "RuntimeError: ropes tear")], 0.5)
+    assert "**This run failed: RuntimeError: ropes tear**" in whole
+    assert "| 3 | 0.1 |" in whole
+    assert "in one run of 2 minutes" in whole
+    assert "numpy " in versions()
+
+
+def test_the_page_takes_the_tables_of_the_programs(tmp_path: Path) -> None:
+    before = (ROOT / "docs" / "benchmarks.md").read_bytes()
+    done = run("page", tmp_path, "--quick", "--only", "modal_speed")
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert re.search(r"^\| Strutwork, ten frequencies and shapes \|", done.stdout, re.MULTILINE)
+    assert "`python -m benchmarks.modal_speed --smallest`" in done.stdout
+    assert done.stderr.startswith("modal_speed: ")
+    assert (ROOT / "docs" / "benchmarks.md").read_bytes() == before
+
+
+@pytest.mark.slow
+def test_all_benchmarks_run_for_the_page_at_their_smallest_size(tmp_path: Path) -> None:
+    done = run("page", tmp_path, "--quick")
+    assert done.returncode == 0, done.stderr[-3000:]
+    headings = re.findall(r"^## (.*)$", done.stdout, re.MULTILINE)
+    assert headings == [part.title for part in ON_THE_PAGE]
+
+
+@pytest.mark.parametrize("options", [["--only", "modal_speed"], ["--quick", "--output", "x.md"]])
+def test_a_page_of_some_figures_is_not_written(options: list[str], tmp_path: Path) -> None:
+    done = run("page", tmp_path, *options)
+    assert done.returncode == 2
+    assert list(tmp_path.iterdir()) == []
