@@ -68,6 +68,4 @@ def test_what_moves_parts_is_refused() -> None:
     found = Tangents.of(machine.model, [Dimension.of(machine, "nodes.tip.x")]).at()
     port = Port("tip", "z")
     with pytest.raises(ModelError, match="moves parts"):
-        receptance_sensitivity(
-            found.placed, found.changes, [(port, port)], HERTZ, ModalRatio(0.02)
-        )
+        receptance_sensitivity(found.placed, found.changes, [(port, port)], HERTZ, ModalRatio(0.02))
