@@ -121,7 +121,7 @@ def _values(found: MachineCalibration) -> Chapter:
         Column("from the measurements", numeric=False),
     ]
     low, high = (
-        [np.nan if f.interval is None or not f.guess else f.interval[i] / f.guess for f in found.found]
+        [f.interval[i] / f.guess if f.interval and f.guess else np.nan for f in found.found]
         for i in (0, 1)
     )
     blocks: list[Block] = [
@@ -155,7 +155,10 @@ def _values(found: MachineCalibration) -> Chapter:
 
 def _agreement(found: MachineCalibration) -> Chapter:
     rows = [
-        [a.name, a.kind, a.pose, str(len(a.measured)), f"{a.rms(a.before):.3g}", f"{a.rms(a.after):.3g}"]
+        [
+            *(a.name, a.kind, a.pose, str(len(a.measured))),
+            *(f"{a.rms(values):.3g}" for values in (a.before, a.after)),
+        ]
         for a in found.agreements
     ]
     columns = [
@@ -204,7 +207,9 @@ def _agreement(found: MachineCalibration) -> Chapter:
                     f"response-{len(figures)}",
                     f"{a.name}, {a.pose}: {output} over {given}, measured and computed.",
                     response(
-                        m.frequencies, *(np.exp(v[own]) for v in (a.measured, a.before, a.after)), unit
+                        m.frequencies,
+                        *(np.exp(v[own]) for v in (a.measured, a.before, a.after)),
+                        unit,
                     ),
                     "Magnitude of the response over the frequency: measured points, the first "
                     "guess dashed, the calibrated machine as a line.",
@@ -219,11 +224,15 @@ def _agreement(found: MachineCalibration) -> Chapter:
     if said:
         blocks.append(Points(tuple(f"{n[:1].upper()}{n[1:]}." for n in said), "Notes"))
     lines = [
-        [a.name, a.kind, a.pose, label, a.unit, *(float(v[i]) for v in (a.measured, a.scatter, a.before, a.after))]
+        [
+            *(a.name, a.kind, a.pose, label, a.unit),
+            *(float(v[i]) for v in (a.measured, a.scatter, a.before, a.after)),
+        ]
         for a in found.agreements
         for i, label in enumerate(a.labels)
     ]
-    names = ["measurement", "kind", "pose", "value", "unit", "measured", "scatter", "first guess", "calibrated"]
+    names = ["measurement", "kind", "pose", "value", "unit"]
+    names += ["measured", "scatter", "first guess", "calibrated"]
     files = (csv_file(VALUES, "measured and computed numbers, SI", names, lines),)
     return Chapter("agreement", "Does it agree with the measurements?", tuple(blocks), files)
 
@@ -310,7 +319,7 @@ def _poses(choice: PoseChoice) -> Chapter:
 
 def _gain(choice: PoseChoice) -> tuple[str, str, str]:
     return (
-        "With measurements at the chosen poses the intervals become ",
-        f"{choice.gain:.3g} times",
-        f" as narrow on average; at random poses {choice.gain_random:.3g} times.",
+        "Measurements at the chosen poses make the intervals narrower by a factor of ",
+        f"{choice.gain:.3g}",
+        f" on average; at random poses the factor is {choice.gain_random:.3g}.",
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from pydantic import ValidationError
 
 from strutwork.errors import ModelError
@@ -29,8 +30,6 @@ from strutwork.studies.measured_frequencies import MeasuredFrequencies
 from strutwork.studies.measurement import Measurement, checked_scatter
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.unknown import Unknown
-
-import numpy as np
 
 #: Where the file is described.
 PAGE = "docs/how-to/calibrate.md"

@@ -158,8 +158,8 @@ class MachineCalibration:
     def __repr__(self) -> str:
         known = sum(f.verdict == "identifiable" for f in self.found)
         return (
-            f"<MachineCalibration: {known} of {len(self.found)} parameters identifiable, chi squared "
-            f"{self.chi_squared:.4g} for {self.freedom} degrees of freedom>"
+            f"<MachineCalibration: {known} of {len(self.found)} parameters identifiable, chi "
+            f"squared {self.chi_squared:.4g} for {self.freedom} degrees of freedom>"
         )
 
     @property
@@ -189,7 +189,7 @@ class MachineCalibration:
 
     @property
     def probability(self) -> float | None:
-        """Of a chi squared this large or larger if the scatter is as stated; None without freedom."""
+        """Of a chi squared so large if the scatter is as stated; None without freedom."""
         if self.freedom < 1:
             return None
         from scipy.stats import chi2  # noqa: PLC0415 - slow to load
@@ -209,9 +209,9 @@ class MachineCalibration:
         factor = sqrt(self.chi_squared / self.freedom)
         if p < RARE / 2:
             return (
-                f"The residuals are {factor:.2g} times as large as the stated scatter ({size}): the "
-                "scatter is larger than stated or the model lacks something. Intervals that the "
-                f"residuals support are {factor:.2g} times as wide."
+                f"The residuals are {factor:.2g} times as large as the stated scatter ({size}): "
+                "the scatter is larger than stated, or the model lacks something. Intervals that "
+                f"the residuals support are {factor:.2g} times as wide."
             )
         if p > 1 - RARE / 2:
             return (

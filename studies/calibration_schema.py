@@ -68,7 +68,7 @@ class FrequenciesTable(Table):
     values: tuple[Frequency, ...] | None = None
     file: Path | None = None
     modes: Modes | None = None
-    points: dict[Name, Name] = {}
+    points: dict[Name, Name] = Field(default_factory=dict)
     scatter: Annotated[tuple[Frequency, ...], BeforeValidator(_listed)] | None = None
     relative_scatter: Share | None = None
 
@@ -79,12 +79,12 @@ class FrfTable(Table):
     name: Name | None = None
     file: Path
     pose: PoseTable = PoseTable()
-    points: dict[Name, Name] = {}
+    points: dict[Name, Name] = Field(default_factory=dict)
     band: tuple[Frequency, Frequency]
     lines: Annotated[int, Field(strict=True, ge=2, le=100_000)] = LINES
     scatter: Share
     modal_ratio: Ratio | None = None
-    units: dict[Name, Name] = {}
+    units: dict[Name, Name] = Field(default_factory=dict)
 
 
 class LoadTable(Table):

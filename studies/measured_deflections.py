@@ -75,7 +75,7 @@ class MeasuredDeflections:
         """
         return np.asarray(static_sensitivity(at.placed, at.changes, self._quantities()).rates[:, 0])
 
-    def blind(self, path: str) -> bool:
+    def blind(self, path: str) -> bool:  # noqa: ARG002 - as others take it
         """Whether a number of this path needs differences: none does.
 
         Parameters
@@ -108,7 +108,7 @@ class MeasuredDeflections:
             )
         return ()
 
-    def notes(self, at: Standing) -> tuple[str, ...]:
+    def notes(self, at: Standing) -> tuple[str, ...]:  # noqa: ARG002 - as others take it
         """Nothing.
 
         Parameters

@@ -146,7 +146,7 @@ class MeasuredFrequencies:
         found = frequency_sensitivity(at.placed, at.changes, int(which.max()) + 1)
         return np.asarray(found.rates[:, 0, which])
 
-    def blind(self, path: str) -> bool:
+    def blind(self, path: str) -> bool:  # noqa: ARG002 - as others take it
         """Whether a number of this path needs differences: none does.
 
         Parameters

@@ -192,7 +192,7 @@ class MeasuredFrf:
             )
         return self.said
 
-    def notes(self, at: Standing) -> tuple[str, ...]:
+    def notes(self, at: Standing) -> tuple[str, ...]:  # noqa: ARG002 - as others take it
         """Nothing.
 
         Parameters

@@ -100,7 +100,7 @@ class PoseChoice:
         Expected half-widths of 95 % intervals of the scaled parameters, no unit: with what there
         is, with the chosen poses, and the median of poses picked at random.
     gain, gain_random : float
-        By which factor the confidence region of an average parameter shrinks, no unit.
+        By which factor the intervals become narrower on average, no unit.
     better : float
         Share of the random choices that are not better, no unit.
     kinds : tuple of str
@@ -158,9 +158,9 @@ class PoseChoice:
     def words(self) -> str:
         """What the choice is worth."""
         return (
-            f"Intervals become {self.gain:.3g} times as narrow on average; with as many poses "
-            f"picked at random {self.gain_random:.3g} times (the median of {RANDOM}), and "
-            f"{100 * self.better:.0f} % of these are not better."
+            f"The intervals become narrower by a factor of {self.gain:.3g} on average; with as "
+            f"many poses picked at random, by {self.gain_random:.3g} (the median of {RANDOM} "
+            f"choices, of which {100 * self.better:.0f} % are not better)."
         )
 
     def to_dict(self) -> dict[str, Any]:

@@ -153,9 +153,10 @@ def _law(
     gradient = np.linalg.svd(rows)[2][-1]
     gradient = gradient / gradient[int(np.abs(gradient).argmax())]
     for text, law, solved in _laws(values, names):
-        if np.allclose(gradient, law / law[int(np.abs(gradient).argmax())], rtol=SAME, atol=SAME):
-            if _unnoticed(experiment, point, members, solved):
-                return text
+        same = law / law[int(np.abs(gradient).argmax())]
+        near = np.allclose(gradient, same, rtol=SAME, atol=SAME)
+        if near and _unnoticed(experiment, point, members, solved):
+            return text
     return ""
 
 
@@ -182,7 +183,7 @@ def _laws(values: Array, names: Sequence[str]) -> list[tuple[str, Array, Callabl
 def _unnoticed(
     experiment: Experiment, point: Array, members: list[int], along: Callable[[Array], Array]
 ) -> bool:
-    """Whether measurements stay as they are along a law, and do not where one number moves alone."""
+    """Whether measurements stay as they are along a law, and change where one moves alone."""
     here = experiment.values(point)
 
     def change(values: Array) -> float:

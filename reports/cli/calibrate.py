@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from strutwork.errors import ModelError
+from strutwork.files import write_whole
 from strutwork.machines.model_edit import edited_text
 from strutwork.machines.model_file import file_text, parse_model
 from strutwork.names import visible
@@ -21,7 +22,6 @@ from strutwork.studies.calibration_file import CalibrationFile, read_calibration
 from strutwork.studies.calibration_fit import fit
 from strutwork.studies.calibration_result import MachineCalibration
 from strutwork.studies.pose_choice import PoseChoice, choose_poses
-from strutwork.files import write_whole
 
 
 def run(file: str, out: str | None, report: str | None, poses: int | None, *, json: bool) -> None:

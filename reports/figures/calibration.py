@@ -40,9 +40,7 @@ def response(
     return {
         "data": [
             line("measured", measured, mode="markers", marker={"color": INK, "size": 5}),
-            line(
-                "first guess", before, mode="lines", line={"color": PALETTE[1], "dash": "dash"}
-            ),
+            line("first guess", before, mode="lines", line={"color": PALETTE[1], "dash": "dash"}),
             line("calibrated", after, mode="lines", line={"color": PALETTE[0], "width": 2.5}),
         ],
         "layout": layout(
@@ -109,7 +107,8 @@ def ratios(
         "layout": layout(
             xaxis=axis("ratio to the first guess"),
             yaxis=axis("", autorange="reversed", type="category"),
-            margin={"l": 60, "r": 16, "t": 34, "b": 96},
+            margin={"l": 60, "r": 16, "t": 34, "b": 52 if known.all() else 96},
+            showlegend=not bool(known.all()),
             shapes=[
                 {
                     "type": "line",
@@ -163,7 +162,7 @@ def poses(
 
 
 def halves(names: Sequence[str], each: Mapping[str, ArrayLike]) -> dict[str, Any]:
-    """Half-widths of intervals in percent, on a logarithmic axis.
+    """Half-widths of intervals in percent.
 
     Parameters
     ----------
@@ -187,7 +186,7 @@ def halves(names: Sequence[str], each: Mapping[str, ArrayLike]) -> dict[str, Any
         ],
         "layout": layout(
             barmode="group",
-            xaxis=axis("half-width of the 95 % interval (%)", type="log"),
+            xaxis=axis("half-width of the 95 % interval (%, of the logarithm)", rangemode="tozero"),
             yaxis=axis("", autorange="reversed", type="category"),
             margin={"l": 60, "r": 16, "t": 34, "b": 110},
         ),

@@ -160,7 +160,7 @@ def test_fewer_numbers_than_parameters_and_shared_numbers_are_refused() -> None:
     with pytest.raises(ModelError, match="has no measurement"):
         fit(springs(A))
     machine = Parametric.of(SPRINGS)
-    with pytest.raises(ModelError, match="changes joints.a.stiffness.z, as the parameter"):
+    with pytest.raises(ModelError, match=r"changes joints\.a\.stiffness\.z, as the parameter"):
         Experiment(machine, unknowns(machine, A, "joints.*.stiffness.z"))
     with pytest.raises(ModelError, match="Did you mean"):
         unknowns(machine, "joints.a.stifness.z")

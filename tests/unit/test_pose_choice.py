@@ -57,10 +57,7 @@ def test_poses_of_a_machine() -> None:
     found = choose_poses(experiment, table, 2)
     assert found.candidates == 9
     assert found.kinds == ("deflections",)
-    information = []
-    for k in range(9):
-        (single,) = [choose_poses_alone(experiment, table, k)]
-        information.append(single)
+    information = [information_alone(experiment, k) for k in range(9)]
     prior = np.diag([1.0 / u.vague**2 for u in experiment.unknowns])
     best = max(
         combinations(range(9), 2),
@@ -82,8 +79,8 @@ def test_poses_of_a_machine() -> None:
         choose_poses(experiment, table.model_copy(update={"deflections": None}), 2)
 
 
-def choose_poses_alone(experiment: Experiment, table: CandidatesTable, k: int) -> np.ndarray:
-    """JᵀJ of one pose of the table, by differences of the displacements themselves."""
+def information_alone(experiment: Experiment, k: int) -> np.ndarray:
+    """JᵀJ of one of the nine poses, by differences of the displacements themselves."""
     from strutwork.machines.model_poses import at_pose  # noqa: PLC0415
     from strutwork.msa import LoadCase, solve  # noqa: PLC0415
 
