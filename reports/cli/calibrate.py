@@ -95,14 +95,14 @@ def _print(found: MachineCalibration) -> None:
                 float(f.guess * factor),
                 float(f.value * factor),
                 interval_words(f),
-                float(f.ratio),
+                f"{f.ratio:.3f}",
                 verdict_words(f),
             )
         )
     columns = [
         "parameter",
         "unit",
-        "first guess",
+        "guess",
         "calibrated",
         "95 % interval",
         "ratio",
