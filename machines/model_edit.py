@@ -134,6 +134,7 @@ def _edited(body: str, steps: Steps, value: float, remark: str) -> str | None:
     document = tomlkit.parse(body)
     at: Any = document
     line: tuple[Any, str] | None = None
+    key: str | int | None = None
     for depth, step in enumerate(steps):
         key = _key(at, step)
         if key is None:

@@ -27,6 +27,7 @@ from strutwork.reports.content import (
     Row,
     Table,
     Text,
+    Tone,
 )
 from strutwork.reports.data_files import csv_file
 from strutwork.reports.figures.calibration import halves, poses, ratios, response
@@ -99,16 +100,16 @@ def _values(found: MachineCalibration) -> Chapter:
         said.append(
             Answer(f"{f.name} is calibrated to ", value, after, "agreement", f.interval is None)
         )
-    rows = []
+    rows: list[list[str | Cell]] = []
     for f in found.found:
         unit, factor = read_number(f.unit)
-        tone = "good" if f.verdict == "identifiable" else "poor"
+        tone: Tone = "good" if f.verdict == "identifiable" else "poor"
         rows.append(
             [
                 f.name,
                 *(unit, significant(f.guess * factor, 4), significant(f.value * factor, 4)),
                 *(interval_words(f), f"{f.ratio:.3f}"),
-                Cell(verdict_words(f), tone),  # type: ignore[arg-type]
+                Cell(verdict_words(f), tone),
             ]
         )
     columns = [
@@ -193,7 +194,7 @@ def _agreement(found: MachineCalibration) -> Chapter:
             *(Column(t) for t in ("measured", "scatter", "first guess", "calibrated")),
         ]
         blocks.append(Table("Frequencies and deflections", heads, single, VALUES))
-    figures = []
+    figures: list[Figure] = []
     for m, a in zip(found.experiment.measurements, found.agreements, strict=True):
         if not isinstance(m, MeasuredFrf):
             continue
@@ -208,7 +209,9 @@ def _agreement(found: MachineCalibration) -> Chapter:
                     f"{a.name}, {a.pose}: {output} over {given}, measured and computed.",
                     response(
                         m.frequencies,
-                        *(np.exp(v[own]) for v in (a.measured, a.before, a.after)),
+                        np.exp(a.measured[own]),
+                        np.exp(a.before[own]),
+                        np.exp(a.after[own]),
                         unit,
                     ),
                     "Magnitude of the response over the frequency: measured points, the first "
@@ -272,7 +275,10 @@ def _poses(choice: PoseChoice) -> Chapter:
     if figures:
         blocks.append(Row(tuple(figures)))
     words = [
-        [name, *(choice.spread_words(v[i]) for v in (choice.before, choice.after, choice.random))]
+        [
+            name,
+            *(choice.spread_words(i, v[i]) for v in (choice.before, choice.after, choice.random)),
+        ]
         for i, name in enumerate(choice.names)
     ]
     heads = ["now", "with these poses", "with random poses"]

@@ -18,7 +18,7 @@ from strutwork.studies.progress import Progress, silent
 from strutwork.studies.unknown import Unknown
 
 
-def calibrate_machine(
+def calibrate_machine(  # noqa: PLR0913 - the tables of a file
     machine: object,
     parameters: Mapping[str, Any] | Sequence[str],
     *,

@@ -48,6 +48,8 @@ class Experiment:
     measurements : tuple of Measurement
     source : str
         File that described it; empty for none.
+    differences : Differences
+        Filled as derivatives are taken.
 
     Raises
     ------

@@ -101,7 +101,9 @@ class MeasuredFrequencies:
         at = [index[n] for n in self.shapes.nodes]
         theirs = self.shapes.shapes.reshape(need, -1)
         present = np.any(theirs != 0, axis=0)
-        own = found.shapes[0][np.ix_(elastic, at)][..., :3].reshape(len(elastic), -1)[:, present]
+        own = found.shapes[0][np.ix_(elastic, np.array(at))][..., :3].reshape(len(elastic), -1)[
+            :, present
+        ]
         moves = np.linalg.norm(own, axis=1) > 1e-9 * np.abs(own).max(initial=1e-300)
         elastic, own = elastic[moves], own[moves]
         pairs = pair_modes(

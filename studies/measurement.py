@@ -56,13 +56,33 @@ class Standing:
 class Measurement(Protocol):
     """Measured numbers of one kind at one pose."""
 
-    name: str
-    kind: str
-    task: Mapping[str, float]
-    labels: tuple[str, ...]
-    unit: str
-    values: Array
-    scatter: Array
+    @property
+    def name(self) -> str:
+        """In the result."""
+
+    @property
+    def kind(self) -> str:
+        """The table of the file that states it."""
+
+    @property
+    def task(self) -> Mapping[str, float]:
+        """Pose of the tool, m and rad; empty: home."""
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """What each value is."""
+
+    @property
+    def unit(self) -> str:
+        """Of the values."""
+
+    @property
+    def values(self) -> Array:
+        """Measured values, (t,), in `unit`."""
+
+    @property
+    def scatter(self) -> Array:
+        """Standard deviations of the values, (t,), in `unit`."""
 
     def computed(self, at: Standing) -> Array:
         """What the model gives, (t,), in the unit of the values.

@@ -144,15 +144,19 @@ class PoseChoice:
             for d, v in self.task.items()
         )
 
-    def spread_words(self, half: float) -> str:
-        """A half-width in words: a percentage, or a factor where it is large.
+    def spread_words(self, i: int, half: float) -> str:
+        """A half-width in words: a percentage, or a factor where that of a logarithm is large.
 
         Parameters
         ----------
+        i : int
+            Of the parameter.
         half : float
-            Of a scaled parameter, no unit.
+            Of the parameter's logarithm, or as a share of its value, no unit.
         """
-        return f"± {100 * half:.2g} %" if half < 0.5 else f"×÷ {np.exp(min(half, 300.0)):.3g}"
+        if half < 0.5 or not self.logs[i]:
+            return f"± {100 * half:.2g} %"
+        return f"×÷ {np.exp(min(half, 300.0)):.3g}"
 
     @property
     def words(self) -> str:

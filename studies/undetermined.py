@@ -84,7 +84,7 @@ def _sparse(null: Array) -> Array:
             if j != i:
                 rows[j] -= rows[j, k] * rows[i]
         done.append(k)
-    return rows / np.abs(rows).max(axis=1, keepdims=True)
+    return np.asarray(rows / np.abs(rows).max(axis=1, keepdims=True))
 
 
 def _groups(rows: Array) -> list[tuple[Array, list[int]]]:

@@ -146,7 +146,10 @@ def _print_choice(choice: PoseChoice) -> None:
         )
     )
     rows = [
-        (name, *(choice.spread_words(v[i]) for v in (choice.before, choice.after, choice.random)))
+        (
+            name,
+            *(choice.spread_words(i, v[i]) for v in (choice.before, choice.after, choice.random)),
+        )
         for i, name in enumerate(choice.names)
     ]
     out.print(

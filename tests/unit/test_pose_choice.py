@@ -73,6 +73,7 @@ def test_poses_of_a_machine() -> None:
     assert np.all(found.after < found.before)
     assert found.gain >= found.gain_random
     assert found.better == 1.0
+    assert (found.spread_words(0, 0.031), found.spread_words(0, 1.0)) == ("± 3.1 %", "×÷ 2.72")
     with pytest.raises(ModelError, match="too few to choose 10"):
         choose_poses(experiment, table, 10)
     with pytest.raises(ModelError, match="do not say what is measured"):
