@@ -79,7 +79,7 @@ def _write(read: CalibrationFile, found: MachineCalibration, out: Path) -> Path:
         f"calibrated: {visible(name)}",
     )
     # files of solids and shapes are found from the folder of the machine
-    parse_model(text, read.machine_file.parent)
+    parse_model(text, str(out), read.machine_file.parent)
     return write_whole(out, lambda path: path.write_text(text, encoding="utf-8"))
 
 
