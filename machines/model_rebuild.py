@@ -16,6 +16,7 @@ from strutwork.machines.model_parts import beams_of, damping_of, joint_of, masse
 from strutwork.machines.model_schema import JointTable, ModelTable
 from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Structure
+from strutwork.msa.variant_of import share_topology
 
 #: Tables whose numbers move no node and turn no joint.
 LIGHT = frozenset(
@@ -83,6 +84,7 @@ def rebuilt_model(
             masses_of(after) if differ & _HEAVY else structure.masses,
             structure.elements,
         )
+        share_topology(new["structure"], structure)
     if "joints" in differ:
         new["limits"] = joint_limits(linkage)
     if differ & _CASES:

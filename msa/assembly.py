@@ -69,7 +69,7 @@ class System(Clusters):
                     loads[..., m][:, nodes] += weight
             per_length = self.per_length_loads(case)
             if per_length is not None:
-                self._add_segment_loads(loads[..., m], self.segment_loads(per_length))
+                self.add_segment_loads(loads[..., m], self.segment_loads(per_length))
         return loads
 
     def per_length_loads(self, case: LoadCase) -> Array | None:
@@ -138,7 +138,16 @@ class System(Clusters):
         properties = np.array([b.properties for b in structure.beams]).T[:, beam]
         return fixed_end_loads((length / pieces)[:, beam], properties, ends[0], ends[1])
 
-    def _add_segment_loads(self, loads: Array, local: Array) -> None:
+    def add_segment_loads(self, loads: Array, local: Array) -> None:
+        """Add loads of beam elements to those at the mesh nodes.
+
+        Parameters
+        ----------
+        loads : (p, n, 6)
+            Added to in place, global axes, N and N·m.
+        local : (p, s, 12)
+            At both ends of every beam element, local axes, N and N·m.
+        """
         structure = self.placed.structure
         _, axes = self.placed.beam_geometry
         beam = structure.segments[:, 0]

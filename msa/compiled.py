@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from strutwork.msa.assembly import System, system_of
 from strutwork.msa.program import Program
-from strutwork.msa.program_builder import compile_program
+from strutwork.msa.program_builder import compile_program, element_offsets
 from strutwork.msa.structure import PlacedStructure, Structure
 from strutwork.msa.trust import TRUSTED
+from strutwork.msa.variant_of import origin_of, renumbered
 
 Array = NDArray[Any]
 
@@ -50,6 +51,8 @@ def available() -> bool:
 def program_of(system: System) -> Program | None:
     """The program of the system's structure, made once and kept with the structure.
 
+    That of a structure which differs from another in numbers alone is the other's with its numbers.
+
     Parameters
     ----------
     system : System
@@ -60,7 +63,16 @@ def program_of(system: System) -> Program | None:
     kept = structure.__dict__
     name = _kept_as(system)
     if name not in kept:
-        kept[name] = compile_program(system)
+        origin = origin_of(structure)
+        if origin is None:
+            kept[name] = compile_program(system)
+        else:
+            shared = program_of(system_of(PlacedStructure(origin, system.placed.placement)))
+            kept[name] = (
+                None
+                if shared is None
+                else renumbered(shared, structure, element_offsets(structure))
+            )
     program: Program | None = kept[name]
     return program
 

@@ -90,9 +90,9 @@ class SpreadProgram(NamedTuple):
     start : (t + 1,)
     target, entry : (s,)
         Of a dependent touch: places among the item's independent coordinates, and loop entries.
-    outer_slot, outer_first, outer_second, outer_value : (o,)
-        Stiffness of elastic dependent coordinates, N/m or N·m/rad: K[slot] += value · first ·
-        second entry.
+    outer_slot, outer_first, outer_second, outer_coordinate, outer_value : (o,)
+        Elastic dependent coordinates and their stiffness, N/m or N·m/rad: K[slot] += value ·
+        first · second entry.
     tool_from, tool_to, tool_entry : (g,)
         Dependent coordinate that moves the tool, independent one, loop entry.
     """
@@ -106,6 +106,7 @@ class SpreadProgram(NamedTuple):
     outer_slot: Ints
     outer_first: Ints
     outer_second: Ints
+    outer_coordinate: Ints
     outer_value: Array
     tool_from: Ints
     tool_to: Ints
@@ -155,8 +156,9 @@ class Program(NamedTuple):
     pair_start : (e + l + 1,)
     pair_slot : (q,)
         Slot of K for each pair i ≥ j of an element's independent coordinates, row by row.
-    spring_slot, spring_value : (s,)
-        Slot in K of elastic independent coordinates, and their stiffness, N/m or N·m/rad.
+    spring_slot, spring_coordinate, spring_value : (s,)
+        Slot in K of elastic independent coordinates, which they are, and their stiffness, N/m or
+        N·m/rad.
     diagonal : (n,)
         Slot of each coordinate's diagonal entry.
     fill : (k,)
@@ -203,6 +205,7 @@ class Program(NamedTuple):
     pair_start: Ints
     pair_slot: Ints
     spring_slot: Ints
+    spring_coordinate: Ints
     spring_value: Array
     diagonal: Ints
     fill: Ints

@@ -104,7 +104,7 @@ def compile_program(system: System) -> Program | None:
         for k, c in enumerate(coordinates)
         if c.joint >= 0 and linkage.states()[c.joint, c.direction] == State.ELASTIC
     }
-    springs = [(slot[k, k], value) for k, value in elastic.items() if k < count]
+    springs = [(slot[k, k], k, value) for k, value in elastic.items() if k < count]
     segments = structure.segments
     pairs = [[slot[i, j] for i in group for j in group if j <= i] for group in reached]
     return Program(
@@ -115,7 +115,7 @@ def compile_program(system: System) -> Program | None:
         pivot_node=ints([c.node for c in coordinates]),
         item_nodes=ints(segments[:, 1:]),
         item_beam=ints(segments[:, 0]),
-        item_offsets=_offsets(structure),
+        item_offsets=element_offsets(structure),
         properties=np.array([b.properties for b in structure.beams]).reshape(-1, 6),
         turn_frame=ints([frames.get(b.nodes[0], -1) for b in structure.beams]),
         orientation=np.array(
@@ -138,8 +138,9 @@ def compile_program(system: System) -> Program | None:
         touch_ends=ints([e for t in touches for e in t.values()]).reshape(-1, 2),
         pair_start=ints(np.cumsum([0, *(len(p) for p in pairs)])),
         pair_slot=ints([s for p in pairs for s in p]),
-        spring_slot=ints([s for s, _ in springs]),
-        spring_value=np.array([v for _, v in springs], dtype=float),
+        spring_slot=ints([s for s, _, _ in springs]),
+        spring_coordinate=ints([k for _, k, _ in springs]),
+        spring_value=np.array([v for _, _, v in springs], dtype=float),
         diagonal=ints([slot[k, k] for k in range(count)]),
         fill=fill,
         column_start=column_start,
@@ -195,7 +196,13 @@ def _closing_touches(topology: Topology, of_vertex: dict[int, list[int]]) -> dic
     return found
 
 
-def _offsets(structure: Structure) -> Array:
+def element_offsets(structure: Structure) -> Array:
+    """From the mesh nodes of every beam element to its ends, (e, 2, 3), m.
+
+    Parameters
+    ----------
+    structure : Structure
+    """
     offsets = np.zeros((len(structure.segments), 2, 3))
     for k, (beam, first, second) in enumerate(structure.segments):
         names = (structure.mesh_nodes[first], structure.mesh_nodes[second])

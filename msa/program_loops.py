@@ -136,7 +136,7 @@ def spread_program(
         own += [-1 if c in follows else place[c] for c in touch]
         spread += [[(place[i], e) for i, e in follows.get(c, [])] for c in touch]
     outer = [
-        (slot[i, j], first, second, value)
+        (slot[i, j], first, second, c, value)
         for c, value in elastic.items()
         for i, first in follows.get(c, [])
         for j, second in follows.get(c, [])
@@ -153,7 +153,8 @@ def spread_program(
         outer_slot=ints([one[0] for one in outer]),
         outer_first=ints([one[1] for one in outer]),
         outer_second=ints([one[2] for one in outer]),
-        outer_value=np.array([one[3] for one in outer], dtype=float),
+        outer_coordinate=ints([one[3] for one in outer]),
+        outer_value=np.array([one[4] for one in outer], dtype=float),
         tool_from=ints([c for c, _, _ in tool]),
         tool_to=ints([i for _, i, _ in tool]),
         tool_entry=ints([e for _, _, e in tool]),

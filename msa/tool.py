@@ -15,6 +15,7 @@ from strutwork.msa.movable import always_movable, movable_directions, tool_lengt
 from strutwork.msa.solve import METHODS, default_method
 from strutwork.msa.stiffness import doubtful, scaled
 from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.variant_of import expected_poses, origin_of
 from strutwork.outcome import Outcome, solve_poses
 
 Array = NDArray[Any]
@@ -103,7 +104,8 @@ def compliance_and_outcome(
             "One of: compiled, " + ", ".join(METHODS),
         )
     program = None
-    if method == "compiled" or (method is None and system.poses >= COMPILED_FROM):
+    poses = max(system.poses, expected_poses(placed.structure))
+    if method == "compiled" or (method is None and poses >= COMPILED_FROM):
         program = program_of(system) if available() else None
         if program is None and method == "compiled":
             raise ModelError(
@@ -157,7 +159,7 @@ def _solved(system: System, method: str) -> Array:
 
 def _project(system: System, compliance: Array, solved: NDArray[np.bool_]) -> None:
     """Leave in each compliance (p, 6, 6) only the directions in which the tool can move."""
-    if always_movable(system):
+    if _always_movable(system):
         return
     poses = np.flatnonzero(solved)
     for start in range(0, len(poses), 64 * CHUNK):
@@ -170,3 +172,12 @@ def _project(system: System, compliance: Array, solved: NDArray[np.bool_]) -> No
         locked = found.rank < 6
         some = some[locked]
         compliance[some] = found[locked].projected(compliance[some])
+
+
+def _always_movable(system: System) -> bool:
+    """As `always_movable`; kept with the structure whose topology decides it."""
+    structure = system.placed.structure
+    kept = (origin_of(structure) or structure).__dict__
+    if "_always_movable" not in kept:
+        kept["_always_movable"] = always_movable(system)
+    return bool(kept["_always_movable"])

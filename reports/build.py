@@ -72,6 +72,7 @@ def write_report(
     *,
     pdf: bool = False,
     fresh: bool = False,
+    errors: Path | None = None,
 ) -> WrittenReport:
     """Compute and write a report.
 
@@ -93,6 +94,8 @@ def write_report(
     fresh : bool
         Whether everything is computed anew. What an earlier report of the same machine, by the
         same code, has computed is reused else.
+    errors : Path, optional
+        An errors file, by which the chapter on accuracy has the error sheet.
 
     Returns
     -------
@@ -113,7 +116,10 @@ def write_report(
     if pdf:
         require_browser()
     return write_page(
-        compose(target, progress, put, fresh=fresh), folder, about_of(target), pdf=pdf
+        compose(target, progress, put, fresh=fresh, errors=errors),
+        folder,
+        about_of(target),
+        pdf=pdf,
     )
 
 
@@ -192,6 +198,7 @@ def compose(
     put: Callable[[Model], Model] | None = None,
     *,
     fresh: bool = False,
+    errors: Path | None = None,
 ) -> Composed:
     """Find everything that a report says.
 
@@ -210,17 +217,21 @@ def compose(
     pages = paper_pages()
     subject: Subject | None = None
     if target in pages:
-        if put is not None:
+        if put is not None or errors is not None:
             raise ModelError(target, "is a comparison and has no pose.", "Name a machine.")
         own = DocumentPage(pages[target])
         kept = Kept(store_at(own.key, fresh=fresh))
         title, subtitle, chapters = own.of(kept, progress)
     elif is_machine(target):
-        title, subtitle, chapters, subject = _machine(target, progress, put, fresh=fresh)
+        title, subtitle, chapters, subject = _machine(
+            target, progress, put, fresh=fresh, errors=errors
+        )
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_report
 
-        title, subtitle, chapters, subject = model_report(Path(target), progress, put, fresh=fresh)
+        title, subtitle, chapters, subject = model_report(
+            Path(target), progress, put, fresh=fresh, errors=errors
+        )
     else:
         raise ModelError(
             f"report {target}",
@@ -241,7 +252,12 @@ def paper_pages() -> dict[str, str]:
 
 
 def _machine(
-    name: str, progress: Teller | None, put: Callable[[Model], Model] | None, *, fresh: bool
+    name: str,
+    progress: Teller | None,
+    put: Callable[[Model], Model] | None,
+    *,
+    fresh: bool,
+    errors: Path | None,
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """What every machine has, then what its document adds: of one name, the document's.
 
@@ -252,7 +268,7 @@ def _machine(
     from strutwork.reports.composed import chapters_beside, report_of
 
     model, found = load(name), named_machine(name)
-    about = Subject(model if put is None else put(model), name, name, progress)
+    about = Subject(model if put is None else put(model), name, name, progress, errors=errors)
     if put is not None or not found.report:
         subtitle = found.entry.topology
         if put is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -250,7 +251,13 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
     settings = {"model": shown}
     if subject.solution is not None:
         settings["solver"] = subject.solution.statics.method
-    closing = closing_chapter(shown, settings, _content(subject), chapters)
+    command = None
+    if subject.errors is not None:
+        beside = visible(subject.errors.name)
+        settings["errors"] = beside
+        again = (shlex.quote(shown), shlex.quote(beside))
+        command = "strutwork report {} --errors {}".format(*again)
+    closing = closing_chapter(shown, settings, _content(subject), chapters, command)
     return (*chapters, closing)
 
 

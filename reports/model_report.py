@@ -20,6 +20,7 @@ def model_report(
     put: Callable[[Model], Model] | None = None,
     *,
     fresh: bool = False,
+    errors: Path | None = None,
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """Title, subtitle, chapters and subject of a model file's report.
 
@@ -31,6 +32,6 @@ def model_report(
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
     model = read_model(path) if put is None else put(read_model(path))
-    about = Subject(model, file, visible(path.stem), progress, file=path)
+    about = Subject(model, file, visible(path.stem), progress, file=path, errors=errors)
     with answering(about, fresh=fresh) as subject:
         return subject.title, subtitle, report_of(subject), subject

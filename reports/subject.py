@@ -84,6 +84,8 @@ class Subject:
         Where its answers come from; without one each is found where it is asked for.
     file : Path, optional
         The model file that it was read from.
+    errors : Path, optional
+        An errors file.
     """
 
     model: Model
@@ -92,6 +94,7 @@ class Subject:
     progress: Teller | None = None
     source: Source | None = field(default=None, repr=False, compare=False)
     file: Path | None = None
+    errors: Path | None = None
 
     def __repr__(self) -> str:
         return f"<Subject {self.name}: {self.model!r}>"

@@ -20,6 +20,7 @@ from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Answer, Assembly, Column, Stiffness, Vibration
 from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import ONE_PERCENT
+from strutwork.studies.frequency_answer import HomeFrequency
 from strutwork.studies.model_damping import model_damping
 from strutwork.studies.transmission_answer import Transmission
 
@@ -146,6 +147,7 @@ def _accuracy(_: Asked, model: Model) -> Answer:
 QUESTIONS: Mapping[str, Callable[[Asked, Model], Answer]] = {
     "stiffness": _stiffness,
     "vibration": _vibration,
+    "frequency": lambda _, model: HomeFrequency(model),
     "assembly": lambda _, model: Assembly.of(model),
     "accuracy": _accuracy,
     "transmission": lambda _, model: Transmission.of(model),

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import StrutworkError
 from strutwork.machines.model import Model
+from strutwork.msa.variant_of import expect_poses
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.filters import PoseStatus
@@ -25,8 +26,9 @@ Array = NDArray[Any]
 
 #: What may be kept of the poses of a machine.
 REDUCTIONS = ("worst", "best", "mean", "home", "poses")
-#: What is kept of an answer that no pose changes.
+#: What is kept of an answer that no pose changes, and such answers.
 MACHINE = "machine"
+ONE_NUMBER = ("mass", "first_frequency")
 
 #: What became of a machine.
 SOLVED, FAILED, NO_POSE = np.int8(0), np.int8(1), np.int8(2)
@@ -132,7 +134,7 @@ class Machines:
 
     def _of_column(self, column: Column) -> tuple[str, ...]:
         """What is kept of an answer: none is the worst where no value is worse than another."""
-        if column.name == "mass":
+        if column.name in ONE_NUMBER:
             # one number a machine, wherever it stands
             return (MACHINE,)
         if self.stand.grid is None:
@@ -174,6 +176,8 @@ class Machines:
         status = standing.status.copy()
         reasons = [r for r in standing.reasons if r]
         if standing.good.size:
+            # of all machines, so that every one of them is solved the same way
+            expect_poses(model.structure, len(self.values) * self.poses)
             placed = model.structure.at(standing.placement)
             answers: dict[str, dict[str, Array]] = {}
             for question in self.questions:

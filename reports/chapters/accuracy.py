@@ -6,6 +6,7 @@ import numpy as np
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.reports.alike import grouped, word
+from strutwork.reports.chapters.error_sheet import error_blocks
 from strutwork.reports.content import Block, Chapter, Column, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, netcdf_file
 from strutwork.reports.figures.slices import slice_figure
@@ -25,7 +26,7 @@ def missing(subject: Subject) -> str:
     if subject.model.tool is None:
         return "it has no tool: add [tool] with tcp"
     answer = subject.accuracy_answer
-    if not answer.tolerances and not answer.errors:
+    if subject.errors is None and not answer.tolerances and not answer.errors:
         return "no errors are given: add [[tolerances]], or a resolution to [[drives]]"
     return ""
 
@@ -33,6 +34,9 @@ def missing(subject: Subject) -> str:
 def write(subject: Subject) -> Chapter:
     """Displacement of the tool by all errors, its causes, and its map."""
     answer = subject.accuracy_answer
+    more, beside = error_blocks(subject)
+    if not answer.tolerances and not answer.errors:
+        return Chapter(KEY, TITLE, tuple(more), beside)
     found = answer.at(subject.model.placed)
     place, parts = found.largest()
     most = float(np.linalg.norm(place))
@@ -65,7 +69,7 @@ def write(subject: Subject) -> Chapter:
     if not subject.unmoved:
         some, files = _map(subject)
         blocks += some
-    return Chapter(KEY, TITLE, tuple(blocks), files)
+    return Chapter(KEY, TITLE, (*more, *blocks), (*beside, *files))
 
 
 def _causes(

@@ -41,6 +41,23 @@ def accuracy(
         ),
     ] = None,
     tolerances: Annotated[bool, typer.Option(help="Include the tolerances of the file.")] = True,
+    errors: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE",
+            help="Errors file: temperatures, cutting forces, drives and the ground; prints the "
+            "displacement by cause and part.",
+        ),
+    ] = None,
+    axis: Annotated[
+        list[str] | None,
+        typer.Option(
+            callback=typed,
+            metavar="DIR=LOW..HIGH:N",
+            help="With --errors: linear and angular errors along an axis, as in "
+            "--axis x=-100mm..100mm:9. Repeatable.",
+        ),
+    ] = None,
     out: Annotated[
         str | None,
         typer.Option(
@@ -52,7 +69,20 @@ def accuracy(
     ] = None,
     json: Json = False,
 ) -> None:
-    """Find how far tolerances, drive errors and play can displace the tool."""
+    """Find how far tolerances, drive errors, play and other causes can displace the tool."""
+    if errors is not None:
+        if drive_error or play or not tolerances:
+            raise typer.BadParameter(
+                "--drive-error, --play and --no-tolerances do not go with --errors: state them in "
+                "the errors file."
+            )
+        from strutwork.reports.cli import error_sheet
+
+        at = (pose or (), joint or ())
+        error_sheet.run(target, errors, at, over, axis, out, workers=workers, json=json)
+        return
+    if axis:
+        raise typer.BadParameter("--axis belongs to --errors.")
     from strutwork.reports.cli import accuracy as work
 
     options = work.Options(tuple(drive_error or ()), tuple(play or ()), tolerances)

@@ -21,12 +21,14 @@ def run(
     *,
     pdf: bool = False,
     fresh: bool = False,
+    errors: str | None = None,
 ) -> None:
     """Write the report and say where it lies."""
     folder = Path(out) if out is not None else Path("out") / Path(target).stem.replace(MARK, "-")
     with shown("steps") as started:
         put = None if at.home else at.put
-        written = write_report(target, folder, started, put, pdf=pdf, fresh=fresh)
+        beside = None if errors is None else Path(errors)
+        written = write_report(target, folder, started, put, pdf=pdf, fresh=fresh, errors=beside)
     if json:
         printed_as = {} if written.pdf is None else {"pdf": str(written.pdf)}
         data = [str(p) for p in written.data]

@@ -44,6 +44,14 @@ def report(
             "--fresh", help="Compute everything again and ignore stored results of earlier runs."
         ),
     ] = False,
+    errors: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FILE",
+            help="Errors file: the chapter on accuracy has the displacement of the tool by cause "
+            "and part.",
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
@@ -51,15 +59,17 @@ def report(
     from strutwork.reports.cli.subject import where
 
     if everything:
-        if target or pose or joint or verify or pdf or fresh:
+        if target or pose or joint or verify or pdf or fresh or errors:
             raise typer.BadParameter("--all takes no target, pose or other option but --out.")
         work.run_all(out, json)
         return
     if not target:
         raise typer.BadParameter("Name a machine, a paper or a file, or give --all.")
     if verify:
-        if out is not None or pdf:
-            raise typer.BadParameter("--verify writes nothing: leave --out and --pdf out.")
+        if out is not None or pdf or errors is not None:
+            raise typer.BadParameter(
+                "--verify writes nothing: leave --out, --pdf and --errors out."
+            )
         work.verify(target, json)
         return
-    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh)
+    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh, errors=errors)

@@ -76,3 +76,64 @@ def test_what_is_wrong_is_said(strutwork: Program, words: tuple[str, ...], said:
     run = strutwork("accuracy", "hexel-hexapod", *words)
     assert run.status == 1
     assert said in run.err
+
+
+GANTRY, ERRORS = "examples/machines/gantry.toml", "examples/errors/gantry.toml"
+
+
+def test_an_errors_file_prints_the_sheet(strutwork: Program, tmp_path: Path) -> None:
+    run = strutwork("accuracy", GANTRY, "--errors", ERRORS, "--json", "-o", tmp_path)
+    total = np.array(run.result["total"]["worst_case"])
+    known = sum(np.array(row["mean"]) for row in run.result["rows"])
+    half = sum(np.array(row["half_range"]) for row in run.result["rows"])
+    np.testing.assert_allclose(total, np.abs(known) + half, rtol=1e-9)
+    assert {"gravity", "thermal", "ground"} < set(run.result["causes"])
+    (path,) = run.result["data"]
+    rows = Path(path).read_text(encoding="utf-8").splitlines()
+    assert len(rows) == 1 + len(run.result["rows"]) + 6 + 1
+    said = strutwork("accuracy", GANTRY, "--errors", ERRORS)
+    assert "Thermal drift" in said.out
+    assert "force under gravity" in said.out
+
+
+def test_errors_along_an_axis_have_their_names(strutwork: Program, tmp_path: Path) -> None:
+    words = ("accuracy", GANTRY, "--errors", ERRORS, "--axis", "y=-100mm..100mm:3")
+    (axis,) = strutwork(*words, "--json", "-o", tmp_path).result["axes"]
+    assert list(axis["errors"]) == ["EXY", "EYY", "EZY", "EAY", "EBY", "ECY"]
+    assert axis["errors"]["EYY"][0] == 0.0
+    assert (tmp_path / "gantry-errors-along-y.csv").exists()
+
+
+def test_the_sheet_over_a_workspace_has_its_worst_pose(strutwork: Program) -> None:
+    words = ("accuracy", GANTRY, "--errors", ERRORS, "--over", "x=-200mm..200mm:2", "--json")
+    found = strutwork(*words).result
+    assert found["poses_kept"] == 2
+    assert set(found["largest"]["causes"]) == {
+        *("geometry", "gravity", "thermal", "cutting", "drives", "ground")
+    }
+
+
+def test_a_spectrum_that_ends_too_low_is_said(strutwork: Program, tmp_path: Path) -> None:
+    file = tmp_path / "low.toml"
+    file.write_text('[[ground]]\ndirection = "x"\nfrequencies = [1, 5]\ndensity = [1e-6, 1e-6]\n')
+    run = strutwork("accuracy", GANTRY, "--errors", file)
+    assert "below the first mode" in " ".join(run.out.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "said"),
+    [
+        (("--errors", "none.toml"), 1, "does not exist"),
+        (("--errors", ERRORS, "--drive-error", "5um"), 2, "--errors"),
+        (("--axis", "x=0..1mm:3"), 2, "--axis belongs to --errors"),
+        (("--errors", ERRORS, "--axis", "x=0..1mm:3,y=0..1mm:3"), 1, "names 2 directions"),
+        (("--errors", ERRORS, "--axis", "x=0..9m:3"), 1, "cannot be followed"),
+        (("--errors", ERRORS, "--pose", "x=1mm", "--over", "x=0..1mm:2"), 1, "Choose one"),
+    ],
+)
+def test_what_does_not_go_with_an_errors_file(
+    strutwork: Program, words: tuple[str, ...], status: int, said: str
+) -> None:
+    run = strutwork("accuracy", GANTRY, *words)
+    assert run.status == status
+    assert said in " ".join(run.err.replace("│", " ").split())

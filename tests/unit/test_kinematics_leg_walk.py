@@ -53,7 +53,11 @@ LINKAGES: dict[str, tuple[Callable[[], Motion], float, float]] = {
 
 CASES = ROOT / "tests/cases/models"
 FILES = [
-    *(f for f in sorted((ROOT / "examples").rglob("*.toml")) if f.parent.name != "studies"),
+    *(
+        f
+        for f in sorted((ROOT / "examples").rglob("*.toml"))
+        if f.parent.name not in ("studies", "errors")
+    ),
     *(
         CASES / f"{n}.toml"
         for n in ("f1_three_axis_rigid_slides", "f1b_rotary_table", "skew_guide")

@@ -26,8 +26,9 @@ from strutwork.machines.schema_file import (
 
 ROOT = Path(__file__).parents[2]
 COMMITTED = ROOT / "docs" / "schema" / FILE_NAME
-# files of studies are no model files
-EXAMPLES = [f for f in sorted((ROOT / "examples").glob("**/*.toml")) if f.parent.name != "studies"]
+# files of studies and of errors are no model files
+OTHERS = ("studies", "errors")
+EXAMPLES = [f for f in sorted((ROOT / "examples").glob("**/*.toml")) if f.parent.name not in OTHERS]
 CASES = [*sorted((ROOT / "tests" / "cases" / "models").glob("*.toml"))]
 
 

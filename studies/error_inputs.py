@@ -1,0 +1,231 @@
+"""What an error sheet is computed from, beside the machine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import exp, isfinite
+from typing import Any
+
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError
+from strutwork.fea.ground_vibration import GroundSpectrum
+from strutwork.kinematics import DIRECTIONS
+from strutwork.msa.structure import Structure
+from strutwork.names import choices
+
+Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Temperature:
+    """Change of temperature of parts.
+
+    Parameters
+    ----------
+    name : str
+        Of the entry: a material, or the parts.
+    parts : tuple of (part, expansion)
+        Coefficient of expansion of every part, 1/K.
+    change : float
+        Uniform, after a long time, K.
+    spread : float
+        ± beside the change, of all parts together, K.
+    gradient : (float, float)
+        Along local y and z of beams, K/m.
+    time_constant : float or None
+        s; None where the change is there at once.
+
+    Raises
+    ------
+    ModelError
+        A number out of its range.
+    """
+
+    name: str
+    parts: tuple[tuple[str, float], ...]
+    change: float = 0.0
+    spread: float = 0.0
+    gradient: tuple[float, float] = (0.0, 0.0)
+    time_constant: float | None = None
+
+    def __post_init__(self) -> None:
+        part = f"temperature of {self.name}"
+        if not (isfinite(self.spread) and self.spread >= 0):
+            raise ModelError(part, f"has the spread {self.spread:g} K.", "Give zero or more.")
+        if self.time_constant is not None and not self.time_constant > 0:
+            raise ModelError(
+                part, f"has the time constant {self.time_constant:g} s.", "Give a positive time."
+            )
+
+    def share(self, time: float | None) -> float:
+        """Share of the change that is there, 1 − exp(−t/τ), no unit.
+
+        Parameters
+        ----------
+        time : float or None
+            s from the start; None for a long time.
+        """
+        if time is None or self.time_constant is None:
+            return 1.0
+        return 1.0 - exp(-time / self.time_constant)
+
+
+@dataclass(frozen=True)
+class CuttingForce:
+    """Force of the cut on the tool, and the opposite one on the workpiece.
+
+    Parameters
+    ----------
+    name : str
+    wrench : (6,) tuple
+        N and N·m, global axes; the amplitude where there is a frequency.
+    frequency : float or None
+        Of the teeth, Hz; None for a static force.
+    """
+
+    name: str
+    wrench: tuple[float, ...]
+    frequency: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.frequency is not None and not (isfinite(self.frequency) and self.frequency > 0):
+            raise ModelError(
+                f"cutting {self.name}",
+                f"has the frequency {self.frequency:g} Hz.",
+                "Give a positive frequency, or none for a static force.",
+            )
+
+
+@dataclass(frozen=True)
+class DriveError:
+    """What is not perfect in one drive.
+
+    Parameters
+    ----------
+    joint, direction : str
+    resolution : float or None
+        Smallest step, m or rad: ± half of it.
+    backlash : float or None
+        From stop to stop, m or rad: ± half of it.
+    servo_stiffness : float or None
+        In series with the drive, N/m or N·m/rad.
+
+    Raises
+    ------
+    ModelError
+        A value that is not positive; a backlash or resolution of zero is none.
+    """
+
+    joint: str
+    direction: str
+    resolution: float | None = None
+    backlash: float | None = None
+    servo_stiffness: float | None = None
+
+    def __post_init__(self) -> None:
+        part = f"drive {self.joint}:{self.direction}"
+        for what in ("resolution", "backlash"):
+            value = getattr(self, what)
+            if value is not None and not (isfinite(value) and value >= 0):
+                raise ModelError(
+                    part, f"has the {what} {value:g}.", "Give the size of its range, zero or more."
+                )
+        k = self.servo_stiffness
+        if k is not None and not (isfinite(k) and k > 0):
+            raise ModelError(
+                part, f"has the servo stiffness {k:g}.", "Give a positive one, or omit it."
+            )
+
+
+@dataclass(frozen=True)
+class ErrorInputs:
+    """Causes of errors beside those that the machine states.
+
+    Parameters
+    ----------
+    temperatures : tuple of Temperature
+    cutting : tuple of CuttingForce
+    drives : tuple of DriveError
+    ground : tuple of GroundSpectrum
+    against : str or None
+        Node of the workpiece; the ground by default.
+    geometry, gravity : bool
+        Whether the machine's tolerances and its gravity count.
+    time : float or None
+        Moment of the sheet after the temperatures began to change, s; None for a long time.
+    moments : tuple of float
+        Of the drift, s.
+    """
+
+    temperatures: tuple[Temperature, ...] = ()
+    cutting: tuple[CuttingForce, ...] = ()
+    drives: tuple[DriveError, ...] = ()
+    ground: tuple[GroundSpectrum, ...] = ()
+    against: str | None = None
+    geometry: bool = True
+    gravity: bool = True
+    time: float | None = None
+    moments: tuple[float, ...] = ()
+
+
+def with_servos(structure: Structure, drives: Sequence[DriveError]) -> Structure:
+    """The structure with the stiffness of servos in series with that of their drives.
+
+    Parameters
+    ----------
+    structure : Structure
+    drives : sequence of DriveError
+
+    Raises
+    ------
+    ModelError
+        A drive that the structure has not, or one given twice.
+    """
+    linkage = structure.linkage
+    soft: dict[str, dict[str, float]] = {}
+    seen: set[tuple[str, str]] = set()
+    for drive in drives:
+        key = (drive.joint, drive.direction)
+        name = f"{drive.joint}:{drive.direction}"
+        if key not in linkage.driven:
+            raise ModelError(
+                "drives",
+                f'names the unknown drive "{name}".',
+                choices("Drives", name, [f"{j}:{d}" for j, d in linkage.driven]),
+            )
+        if key in seen:
+            raise ModelError(f"drive {name}", "is given twice.", "Give it once.")
+        seen.add(key)
+        if drive.servo_stiffness is None:
+            continue
+        joint = linkage.joints[linkage.joint_index[drive.joint]]
+        if joint.matrix is not None:
+            raise ModelError(
+                f"drive {name}",
+                "has a full matrix of stiffness, to which no servo is added.",
+                "Give the joint stiffness by direction.",
+            )
+        own = joint.stiffness.get(drive.direction)
+        k = drive.servo_stiffness
+        soft.setdefault(drive.joint, {})[drive.direction] = (
+            k if own is None else own * k / (own + k)
+        )
+    if not soft:
+        return structure
+    joints = tuple(
+        replace(j, stiffness={**j.stiffness, **soft[j.name]}) if j.name in soft else j
+        for j in linkage.joints
+    )
+    return replace(structure, linkage=replace(linkage, joints=joints))
+
+
+def unit_of(direction: str) -> str:
+    """Unit of a displacement in a direction.
+
+    Parameters
+    ----------
+    direction : str
+    """
+    return "rad" if DIRECTIONS.index(direction) > 2 else "m"

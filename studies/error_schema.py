@@ -1,0 +1,157 @@
+"""The tables of an errors file."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Annotated, Literal
+
+from pydantic import Field, StrictBool
+from pydantic_core import PydanticCustomError
+
+from strutwork import units
+from strutwork.machines.model_fields import (
+    Direction,
+    Force,
+    Frequency,
+    Moment,
+    Name,
+    Quantity,
+    Table,
+)
+from strutwork.units import Dimension
+
+#: Entries of a table, points of a spectrum, and moments of a drift at most.
+MOST, POINTS, MOMENTS = 1000, 10_000, 1000
+
+_KELVIN = re.compile(r"(?<![A-Za-z])K(?![A-Za-z])")
+
+TEMPERATURE = Dimension("a difference of temperature", "K", "2 K", (0, 0, 0))
+GRADIENT = Dimension("a gradient of temperature", "K/m", "5 K/m", (-1, 0, 0))
+EXPANSION = Dimension("a coefficient of expansion", "1/K", "11.5 um/m/K", (0, 0, 0))
+ACCELERATION_DENSITY = Dimension(
+    "a spectral density of acceleration", "(m/s^2)^2/Hz", "1e-6 (m/s^2)^2/Hz", (2, 0, -3)
+)
+
+
+@dataclass(frozen=True)
+class Thermal(Quantity):
+    """A quantity with K in its unit, which the other units do not know.
+
+    Parameters
+    ----------
+    dimension : Dimension
+    low, above, high, below : float, optional
+        As of a `Quantity`, any unit.
+    """
+
+    def read(self, value: object) -> float:
+        """Value in SI units, K among them.
+
+        Parameters
+        ----------
+        value : float or str
+            A number in SI, or text with its unit, in which K stands once.
+        """
+        if isinstance(value, str):
+            found = list(_KELVIN.finditer(value))
+            over = len(found) == 1 and value[: found[0].start()].rstrip().endswith("/")
+            if len(found) != 1 or over != (self.dimension is EXPANSION):
+                raise PydanticCustomError(
+                    "unit",
+                    "{problem}",
+                    {
+                        "problem": f"{units.shown(value)} is not {self.dimension.name}.",
+                        "remedy": f"Give a number in {self.dimension.unit}, or a string with its "
+                        f'unit: "{self.dimension.example}".',
+                    },
+                )
+            value = _KELVIN.sub("1", value)
+        return super().read(value)
+
+
+Change = Annotated[float, Thermal(TEMPERATURE)]
+Spread = Annotated[float, Thermal(TEMPERATURE, low=0.0)]
+Slope = Annotated[float, Thermal(GRADIENT)]
+Coefficient = Annotated[float, Thermal(EXPANSION)]
+Time = Annotated[float, Quantity(units.TIME, above=0.0)]
+Moment0 = Annotated[float, Quantity(units.TIME, low=0.0)]
+Density = Annotated[float, Quantity(ACCELERATION_DENSITY, low=0.0)]
+Step = Annotated[float, Quantity(units.LENGTH, low=0.0)]
+Turn = Annotated[float, Quantity(units.ANGLE, low=0.0)]
+Stiff = Annotated[float, Quantity(units.STIFFNESS, above=0.0)]
+StiffTurn = Annotated[float, Quantity(units.ROTATIONAL_STIFFNESS, above=0.0)]
+Names = Annotated[tuple[Name, ...], Field(max_length=MOST)]
+
+
+class TemperatureTable(Table):
+    """Parts whose temperature changes."""
+
+    name: Name | None = None
+    part: Name | None = None
+    parts: Names | None = None
+    material: Name | None = None
+    change: Change = 0.0
+    spread: Spread = 0.0
+    gradient_y: Slope = 0.0
+    gradient_z: Slope = 0.0
+    time_constant: Time | None = None
+    expansion: Coefficient | None = None
+
+
+class CuttingTable(Table):
+    """A force of the cut on the tool."""
+
+    name: Name
+    force: tuple[Force, Force, Force] = (0.0, 0.0, 0.0)
+    moment: tuple[Moment, Moment, Moment] = (0.0, 0.0, 0.0)
+    frequency: Frequency | None = None
+
+
+class DriveTable(Table):
+    """What is not perfect in drives."""
+
+    joint: Name | None = None
+    joints: Names | None = None
+    direction: Direction
+    resolution: Step | None = None
+    angular_resolution: Turn | None = None
+    backlash: Step | None = None
+    angular_backlash: Turn | None = None
+    servo_stiffness: Stiff | None = None
+    angular_servo_stiffness: StiffTurn | None = None
+
+
+class GroundTable(Table):
+    """Vibration of the ground along one direction."""
+
+    direction: Literal["x", "y", "z"]
+    frequencies: Annotated[tuple[Frequency, ...], Field(max_length=POINTS)]
+    density: Annotated[tuple[Density, ...], Field(max_length=POINTS)]
+
+
+class ToolTable(Table):
+    """What the displacement of the tool is relative to."""
+
+    against: Name
+
+
+class CountedTable(Table):
+    """What of the model file counts."""
+
+    tolerances: StrictBool = True
+    gravity: StrictBool = True
+
+
+class ErrorsTable(Table):
+    """An errors file."""
+
+    model: CountedTable = CountedTable()
+    tool: ToolTable | None = None
+    expansion: Annotated[dict[Name, Coefficient], Field(max_length=MOST, default_factory=dict)]
+    time: Moment0 | None = None
+    drift: Annotated[tuple[Moment0, ...], Field(max_length=MOMENTS)] = ()
+    temperatures: Annotated[tuple[TemperatureTable, ...], Field(max_length=MOST)] = ()
+    cutting: Annotated[tuple[CuttingTable, ...], Field(max_length=MOST)] = ()
+    drives: Annotated[tuple[DriveTable, ...], Field(max_length=MOST)] = ()
+    ground: Annotated[tuple[GroundTable, ...], Field(max_length=3)] = ()
