@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
     from strutwork.studies.answers import Answer
+    from strutwork.studies.calibration_result import MachineCalibration
     from strutwork.studies.parameter import Parameter
     from strutwork.studies.tolerance_result import ToleranceStudy
 
@@ -42,6 +43,7 @@ Array = NDArray[Any]
 QUESTIONS = (
     "assembly_forces",
     "at",
+    "calibrate",
     "check",
     "compare",
     "frequency_response",
@@ -134,6 +136,21 @@ class Machine(Model, Outward):
             joint, _, direction = name.rpartition(":")
             turned[joint, direction] = _coordinate(direction, value)
         return type(self).of(at_pose(self, where, turned))
+
+    def calibrate(
+        self, parameters: Mapping[str, Any] | Sequence[str], **measured: Any
+    ) -> MachineCalibration:
+        """The numbers of the machine that meet its measurements best.
+
+        Parameters
+        ----------
+        parameters : mapping of path to (low, high), or sequence of str
+        **measured
+            Both as in `strutwork.studies.calibration.calibrate_machine`, whose errors it raises.
+        """
+        from strutwork.studies.calibration import calibrate_machine
+
+        return calibrate_machine(self, parameters, **measured)
 
     def check(self) -> ModelCheck:
         """Freedoms, redundant constraints and mass.
