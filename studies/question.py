@@ -21,6 +21,7 @@ from strutwork.studies.answers import Answer, Assembly, Column, Stiffness, Vibra
 from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import ONE_PERCENT
 from strutwork.studies.model_damping import model_damping
+from strutwork.studies.stability_answer import Stability
 from strutwork.studies.transmission_answer import Transmission
 
 Array = NDArray[Any]
@@ -148,6 +149,7 @@ QUESTIONS: Mapping[str, Callable[[Asked, Model], Answer]] = {
     "vibration": _vibration,
     "assembly": lambda _, model: Assembly.of(model),
     "accuracy": _accuracy,
+    "stability": lambda _, model: Stability.of(model),
     "transmission": lambda _, model: Transmission.of(model),
     "mass": lambda _, __: Mass(),
 }
