@@ -45,7 +45,7 @@ def described_frame(described: DescribedProcess, rotation: Array) -> Frame:
     ----------
     described : DescribedProcess
     rotation : (3, 3)
-        Of the tool where the machine stands; axis and feed turn with it.
+        Rotation matrix of the tool where the machine stands; axis and feed turn with it.
 
     Raises
     ------

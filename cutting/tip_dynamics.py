@@ -87,13 +87,15 @@ class TipDynamics:
         """
         return replace(self, frame=frame)
 
-    def lines(self, band: tuple[float, float]) -> Array:
+    def lines(self, band: tuple[float, float], finer: int = 1) -> Array:
         """Frequencies (f,), Hz, that lie dense at the resonances of a band.
 
         Parameters
         ----------
         band : (float, float)
             Hz.
+        finer : int
+            So many times as many lines.
 
         Raises
         ------
@@ -109,11 +111,11 @@ class TipDynamics:
                 f"{nearest:.4g} Hz.",
                 "Widen the band to the modes of the machine.",
             )
-        around = np.tan(np.linspace(-1.0, 1.0, AT_RESONANCE) * np.arctan(REACH))
+        around = np.tan(np.linspace(-1.0, 1.0, finer * (AT_RESONANCE - 1) + 1) * np.arctan(REACH))
         width = np.maximum(self.ratios[inside], NARROW)
         at = (self.natural[inside, None] * (1.0 + width[:, None] * around)).ravel()
         at = at[(at > band[0]) & (at < band[1])]
-        found = np.unique(np.concatenate([np.geomspace(*band, LINES), at]))
+        found = np.unique(np.concatenate([np.geomspace(*band, finer * LINES), at]))
         # lines nearer to one another than rounding are one
         return np.asarray(found[np.concatenate([[True], np.diff(found) > 1e-9 * band[1]])])
 
@@ -174,10 +176,9 @@ def tip_dynamics(
     ports, moving = tip_ports(reduced, node, against)
     if isinstance(damping, PartDamping):
         if is_coupled(reduced, damping):
-            return [
-                _by_poles(placed[i : i + 1], ports, moving, damping)
-                for i in range(len(reduced.basis))
-            ]
+            count = len(reduced.basis)
+            some = [placed[i : i + 1] for i in range(count)] if placed.batch else [placed]
+            return [_by_poles(one, ports, moving, damping) for one in some]
         if damping.background is None:
             raise ModelError(
                 "damping", "is named by parts and no part has any.", "Give a part its damping."

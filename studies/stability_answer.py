@@ -35,6 +35,9 @@ STACK = 16
 #: Directions of the feed in a turn.
 FEEDS = 36
 
+#: Times as many lines as a coarse response has: depths by speed are then certain to about 1e-4.
+FINER = 2
+
 #: The band reaches this much beyond the highest tooth frequency.
 BEYOND = 1.05
 
@@ -59,7 +62,8 @@ class Stability:
         Node that cuts.
     process : Milling
     axes : (3, 3)
-        Axes of the process as rows, global, where the machine stood; they turn with the tool.
+        Axes of the process as rows, unit vectors, global, where the machine stood; they turn with
+        the tool.
     turns : ToolTurns
     damping : damping of any kind
     band : (float, float)
@@ -265,7 +269,7 @@ class Stability:
         matrix = turned_matrices(process, frame, [0.0])[0]
         at = float(limits.frequencies[0])
         mode = limiting_mode(tip, matrix, at) if np.isfinite(own) else np.nan
-        response = tip.in_frame(frame).response_at(tip.lines(self.band))
+        response = tip.in_frame(frame).response_at(tip.lines(self.band, FINER))
         lobes = zero_order_lobes(response, process).at(self.speeds)
         # a cut deeper than the cutter is wide is none
         lobes = replace(lobes, depth=np.minimum(lobes.depth, process.cutter.diameter))
