@@ -9,6 +9,7 @@ from pathlib import Path
 
 from strutwork import __version__
 from strutwork.errors import ModelError
+from strutwork.machines.described_process import DescribedProcess
 from strutwork.machines.model import Model
 from strutwork.names import meant
 from strutwork.reports.answering import Kept, answering, store_at
@@ -72,6 +73,7 @@ def write_report(
     *,
     pdf: bool = False,
     fresh: bool = False,
+    process: DescribedProcess | None = None,
 ) -> WrittenReport:
     """Compute and write a report.
 
@@ -93,6 +95,8 @@ def write_report(
     fresh : bool
         Whether everything is computed anew. What an earlier report of the same machine, by the
         same code, has computed is reused else.
+    process : DescribedProcess, optional
+        The cut whose stability is reported, in place of the machine's own.
 
     Returns
     -------
@@ -113,7 +117,10 @@ def write_report(
     if pdf:
         require_browser()
     return write_page(
-        compose(target, progress, put, fresh=fresh), folder, about_of(target), pdf=pdf
+        compose(target, progress, put, fresh=fresh, process=process),
+        folder,
+        about_of(target),
+        pdf=pdf,
     )
 
 
@@ -192,6 +199,7 @@ def compose(
     put: Callable[[Model], Model] | None = None,
     *,
     fresh: bool = False,
+    process: DescribedProcess | None = None,
 ) -> Composed:
     """Find everything that a report says.
 
@@ -212,15 +220,21 @@ def compose(
     if target in pages:
         if put is not None:
             raise ModelError(target, "is a comparison and has no pose.", "Name a machine.")
+        if process is not None:
+            raise ModelError(target, "is a comparison and has no process.", "Name a machine.")
         own = DocumentPage(pages[target])
         kept = Kept(store_at(own.key, fresh=fresh))
         title, subtitle, chapters = own.of(kept, progress)
     elif is_machine(target):
-        title, subtitle, chapters, subject = _machine(target, progress, put, fresh=fresh)
+        title, subtitle, chapters, subject = _machine(
+            target, progress, put, fresh=fresh, process=process
+        )
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_report
 
-        title, subtitle, chapters, subject = model_report(Path(target), progress, put, fresh=fresh)
+        title, subtitle, chapters, subject = model_report(
+            Path(target), progress, put, fresh=fresh, process=process
+        )
     else:
         raise ModelError(
             f"report {target}",
@@ -241,7 +255,12 @@ def paper_pages() -> dict[str, str]:
 
 
 def _machine(
-    name: str, progress: Teller | None, put: Callable[[Model], Model] | None, *, fresh: bool
+    name: str,
+    progress: Teller | None,
+    put: Callable[[Model], Model] | None,
+    *,
+    fresh: bool,
+    process: DescribedProcess | None,
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """What every machine has, then what its document adds: of one name, the document's.
 
@@ -252,6 +271,7 @@ def _machine(
     from strutwork.reports.composed import chapters_beside, report_of
 
     model, found = load(name), named_machine(name)
+    model = model if process is None else replace(model, process=process)
     about = Subject(model if put is None else put(model), name, name, progress)
     if put is not None or not found.report:
         subtitle = found.entry.topology

@@ -17,6 +17,7 @@ from strutwork.reports.chapters import (
     motion,
     reversals,
     singularities,
+    stability,
     workspace_assembly,
     workspace_size,
     workspace_stiffness,
@@ -129,6 +130,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: vibration_chapter(s.vibration),
     ),
     _module(workspace_vibration),
+    _module(stability),
     Offered(
         "tolerances",
         "Which forces do manufacturing errors lock in?",

@@ -222,7 +222,7 @@ class TargetModes:
         """The same without the rigid-body modes."""
         after = slice(int(self.modes.rigid_body_modes), None)
         ratios = None if self.ratios is None else self.ratios[after]
-        return TargetModes(self.target, _some(self.modes, after), ratios, self.idle)
+        return TargetModes(self.target, some_modes(self.modes, after), ratios, self.idle)
 
     @property
     def rigid_line(self) -> str:
@@ -270,7 +270,7 @@ def target_modes(target: Target, count: int) -> TargetModes:
     warn_of_preload(found, target.cases)
     # a preload gives some free motions a frequency
     rigid = int(found.rigid_body_modes)
-    found = _some(found, slice(rigid + count))
+    found = some_modes(found, slice(rigid + count))
     exist = len(found.frequencies) - rigid
     if exist < count:
         note = f"{count} modes were requested, but only {exist} exist."
@@ -280,7 +280,14 @@ def target_modes(target: Target, count: int) -> TargetModes:
     return TargetModes(target, found, ratios, idle if len(idle) <= rigid else ())
 
 
-def _some(found: Modes, which: slice) -> Modes:
+def some_modes(found: Modes, which: slice) -> Modes:
+    """Some of the modes.
+
+    Parameters
+    ----------
+    found : Modes
+    which : slice
+    """
     return replace(
         found,
         frequencies=found.frequencies[which],

@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from strutwork.reports.cli.choices import JointAt, Json, Pose
+from strutwork.reports.cli.usage import typed
 
 
 def report(
@@ -44,6 +45,14 @@ def report(
             "--fresh", help="Compute everything again and ignore stored results of earlier runs."
         ),
     ] = False,
+    process: Annotated[
+        str | None,
+        typer.Option(
+            callback=typed,
+            metavar="FILE",
+            help="A file of the cut whose stability is reported, instead of the model's [process].",
+        ),
+    ] = None,
     json: Json = False,
 ) -> None:
     """Write a report: one HTML file that opens offline, and its data files."""
@@ -51,7 +60,7 @@ def report(
     from strutwork.reports.cli.subject import where
 
     if everything:
-        if target or pose or joint or verify or pdf or fresh:
+        if target or pose or joint or verify or pdf or fresh or process:
             raise typer.BadParameter("--all takes no target, pose or other option but --out.")
         work.run_all(out, json)
         return
@@ -62,4 +71,4 @@ def report(
             raise typer.BadParameter("--verify writes nothing: leave --out and --pdf out.")
         work.verify(target, json)
         return
-    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh)
+    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh, process=process)
