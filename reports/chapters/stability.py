@@ -47,7 +47,7 @@ def write(subject: Subject) -> Chapter:
     worst = int(np.argmin(found.rose.depth))
     blocks: list[Block] = [
         Text(_process(study)),
-        Text(f"{at_home} {sentence}"),
+        Text(sentence),
         Row((_lobes_figure(study), _rose_figure(study, worst)), 330),
         *([_pockets(study)] if found.pockets else []),
         *([Note(found.note)] if found.note else []),
@@ -60,8 +60,7 @@ def write(subject: Subject) -> Chapter:
         blocks += some
         files = (*files, *more)
     blocks.append(Note(LIMITS))
-    answer = f"{at_home} {sentence}"
-    return Chapter(KEY, TITLE, tuple(blocks), files, answer)
+    return Chapter(KEY, TITLE, tuple(blocks), files, at_home)
 
 
 LIMITS = (
@@ -150,12 +149,12 @@ def _parts(study: CutStudy) -> Table:
     ]
     columns = (
         Column("parts", "", False),
-        Column("relative change of the depth per relative change of the stiffness"),
+        Column("relative sensitivity"),
         Column("depth gained if 10 % stiffer"),
     )
     return Table(
-        "What limits the depth: effect of the parts' stiffness on the depth that is stable at "
-        "every speed",
+        "What limits the depth: relative change of the depth that is stable at every speed per "
+        "relative change of the parts' stiffness",
         columns,
         rows,
         "stability-depth-effects.csv",

@@ -38,7 +38,7 @@ def lobes_diagram(found: TargetLobes) -> dict[str, Any]:
         lines,
         ("spindle speed (rpm)", "limiting depth of cut (mm)"),
         marks if found.pockets else (),
-        {f"stable at every speed: {significant(absolute)} mm": absolute},
+        {f"stable at every speed, zero order: {significant(absolute)} mm": absolute},
         from_zero=True,
     )
     if exact is not None:

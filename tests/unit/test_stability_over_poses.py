@@ -12,15 +12,18 @@ import pytest
 import strutwork
 from strutwork.cutting import (
     Frame,
+    TipModes,
     absolute_limits,
     depth_effects,
+    depth_limits,
     described_milling,
     tip_dynamics,
     turned_matrices,
     zero_order_lobes,
 )
 from strutwork.errors import ModelError
-from strutwork.fea import LossFactor, ModalRatio, PartDamping, Rayleigh
+from strutwork.fea import LossFactor, ModalRatio, PartDamping, Port, Rayleigh, frequency_response
+from strutwork.fea.pole_residue import PoleModel
 from strutwork.kinematics.tool_turns import ToolTurns
 from strutwork.machines.described_process import DescribedProcess
 from strutwork.machines.load import load
@@ -109,6 +112,56 @@ def test_the_effect_of_a_part_is_that_of_a_stiffer_one(head: Model, damping: obj
         key = f"drive1:{path.rpartition('.')[2]}"
         known = effects.get(f"drive {key}", effects.get(f"joint {key}"))
         assert known == pytest.approx(change, abs=1e-6)
+
+
+def dashed(model: Model, damping: float) -> Model:
+    """The machine with dashpots beside the springs of its drives."""
+    linkage = model.structure.linkage
+    joints = tuple(
+        replace(j, damping={"z": damping}) if j.name.startswith("drive") else j
+        for j in linkage.joints
+    )
+    structure = replace(model.structure, linkage=replace(linkage, joints=joints))
+    return replace(model, structure=structure)
+
+
+def test_exact_limits_take_dashpots_of_joints(head: Model) -> None:
+    """Complex modes have the receptance of the direct solution, and depths near zero order's."""
+    model = dashed(head, 2e4)
+    damping = PartDamping(ModalRatio(0.02))
+    (tip,) = tip_dynamics(model.placed, "TCP", damping)
+    modes = tip.modes(200.0)
+    lines = np.linspace(20.0, 120.0, 41)
+    ports = [Port("TCP", axis) for axis in "xyz"]
+    direct = frequency_response(model.placed, ports, ports, lines, damping, "direct").receptance
+    kept = modes.receptance(lines).receptance
+    assert np.abs(kept - direct).max() < 0.01 * np.abs(direct).max()
+    np.testing.assert_allclose(tip.receptance(lines), direct, atol=1e-8 * np.abs(direct).max())
+    process = described_milling(head.process)
+    speeds = [1000.0, 1500.0]
+    exact = depth_limits(modes, process, speeds, 5e-3, 5e-5)
+    zero = zero_order_lobes(tip.response_at(tip.lines(BAND, 4)), process).at(speeds)
+    np.testing.assert_allclose(exact.depth, zero.depth, rtol=0.05)
+
+
+def test_a_pole_that_only_falls_is_kept_whole() -> None:
+    """A real pole counts once, as half of itself and half of its conjugate."""
+    poles = np.array([-5.0 + 300.0j, -5.0 - 300.0j, -80.0])
+    left = np.array([[1.0 + 0.1j, 1.0 - 0.1j, 0.5]])
+    right = np.array([[1e-6 - 2e-6j, 1e-6 + 2e-6j, 3e-6]])
+    model = PoleModel((Port("tip", "x"),), poles, left, right, np.zeros((1, 1)), np.zeros((1, 1)))
+    modes = TipModes.from_poles(model, None, 100.0, (0,))
+    lines = np.linspace(1.0, 100.0, 20)
+    ours = modes.receptance(lines).receptance
+    np.testing.assert_allclose(ours[:, 0, 0], model.receptance(lines)[:, 0, 0], rtol=1e-12)
+    assert not np.any(ours[:, 1:])
+
+
+def test_poles_of_a_loss_factor_have_no_time_response(head: Model) -> None:
+    damping = PartDamping(ModalRatio(0.01), joints={"drive1": 0.1})
+    (tip,) = tip_dynamics(head.placed, "TCP", damping)
+    with pytest.raises(ModelError, match="no response in time"):
+        tip.modes(200.0)
 
 
 def test_axis_and_feed_turn_with_the_tool(head: Model) -> None:
