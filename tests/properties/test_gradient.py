@@ -90,7 +90,7 @@ def test_gradients_of_chains(machine: Parametric) -> None:
     ]
     parameters = [Dimension.of(machine, name) for name in names]
     quantities = ["stiffness_x", "stiffness_rz", "blocked_stiffness_y", "frequency_1"]
-    # a step that suits one machine is too long for a softer one: an error of the gradient is in both
+    # a step that suits one machine is too long for a softer one; a wrong gradient fails both
     found = np.minimum(
         *(gap(machine.model, parameters, quantities, step=step) for step in (1e-3, 3e-4))
     )
