@@ -66,7 +66,7 @@ def rose(found: TargetLobes) -> dict[str, Any]:
         {
             "type": "scatterpolar",
             "mode": "lines",
-            "name": "depth stable at every speed",
+            "name": "depth stable at every speed (mm)",
             "theta": rounded(angles),
             "r": rounded(depth),
             "line": {"color": PALETTE[0], "width": 2.5},
@@ -91,10 +91,9 @@ def rose(found: TargetLobes) -> dict[str, Any]:
             polar={
                 "angularaxis": round_ | {"linecolor": "#8a94a0"},
                 "radialaxis": {
-                    "ticksuffix": " mm",
                     "angle": 22.5,
                     "tickangle": 0,
-                    "nticks": 4,
+                    "nticks": 3,
                     "gridcolor": "#e6eaee",
                     "rangemode": "tozero",
                 },
