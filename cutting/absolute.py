@@ -118,6 +118,7 @@ def absolute_limits(
     low = lines[np.maximum(best - 1, 0)]
     high = lines[np.minimum(best + 1, len(lines) - 1)]
     share = np.linspace(0.0, 1.0, ZOOMED)
+    peak = at
     for _ in range(ZOOMS):
         some = low[:, None] + share * (high - low)[:, None]
         h = tip.response(some.ravel()).reshape(len(angles), ZOOMED, 3, 3)
@@ -126,13 +127,12 @@ def absolute_limits(
         value = finer[best, k]
         inner = np.clip(best, 1, ZOOMED - 2)
         apex = _apex(*(finer[inner + i, k] for i in (-1, 0, 1)))
+        peak = some[k, best] + apex * (some[:, 1] - some[:, 0]) * (best == inner)
         at = np.where(value >= top, some[k, best], at)
         top = np.maximum(top, value)
         low = some[k, np.maximum(best - 1, 0)]
         high = some[k, np.minimum(best + 1, ZOOMED - 1)]
     # of a smooth top the apex of the last parabola, whose frequency is certain to more digits
-    step = (some[:, 1] - some[:, 0]) * (best == inner)
-    peak = some[k, best] + apex * step
     value = np.einsum("kk->k", largest(tip.response(peak)[:, None]))
     at = np.where(value >= top, peak, at)
     top = np.maximum(top, value)

@@ -186,7 +186,8 @@ class _Work:
 
     def of_parts(self, factor: complex, loss: dict[str, float]) -> dict[str, complex]:
         """By part, J/N² and the like."""
-        system, found = self._system, {}
+        system = self._system
+        found: dict[str, complex] = {}
         for name, nodes, stiffness in system.contributions():
             if name.startswith("joint "):
                 continue

@@ -101,7 +101,8 @@ def _lobes_figure(study: CutStudy) -> Figure:
     what = "below the solid line, in the shaded area," if exact else "below the line"
     return Figure(
         "stability-lobes",
-        f"Limiting depth by spindle speed at home; {what} a cut is stable. Limiting mode: "
+        f"Limiting depth by spindle speed at home; {what} a cut is stable; "
+        "up to the dashed line it is at every speed, by the zero-order method. Limiting mode: "
         f"{significant(found.effects.limiting_mode, 4)} Hz.{best}",
         lobes_diagram(found),
         f"Limiting depth of cut over the spindle speed; {significant(1e3 * found.absolute[0])} mm "

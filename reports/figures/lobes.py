@@ -38,9 +38,12 @@ def lobes_diagram(found: TargetLobes) -> dict[str, Any]:
         lines,
         ("spindle speed (rpm)", "limiting depth of cut (mm)"),
         marks if found.pockets else (),
-        {f"stable at every speed, zero order: {significant(absolute)} mm": absolute},
+        {f"absolute: {significant(absolute)} mm": absolute},
         from_zero=True,
     )
+    for note in spec["layout"]["annotations"]:
+        # the axis is near: the label stands above its line
+        note["yanchor"] = "bottom"
     if exact is not None:
         # above the line the cut chatters
         spec["data"][0] |= {"fill": "tozeroy", "fillcolor": "rgba(0,114,178,0.10)"}
