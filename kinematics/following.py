@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,6 +26,14 @@ from strutwork.kinematics.trajectory import Trajectory
 
 Array = NDArray[Any]
 Tell = Callable[[int, int], None]
+#: From a function of a slice of the poses, how many there are and how many a piece has.
+Pieces = Callable[
+    [Callable[[slice], dict[str, Array]], int, int],
+    Iterable[dict[str, Array]],
+]
+
+#: Names of what the parts of a way are called among the arrays of a piece.
+WAY = ("way_times", "way_sign", "way_driven", "way_points", "way_speeds")
 
 #: Poses treated at once, and bytes that their matrices may take.
 PIECE, BYTES = 256, 4e8
@@ -134,6 +142,7 @@ def follow(
     wrench: ArrayLike = 0.0,
     reactions: bool = False,
     progress: Tell | None = None,
+    pieces: Pieces | None = None,
 ) -> Followed:
     """Forces and powers of the drives along a trajectory.
 
@@ -151,6 +160,9 @@ def follow(
         Whether joint reactions are wanted.
     progress : callable, optional
         Called with the number of poses done and that of all.
+    pieces : callable, optional
+        Computes the pieces elsewhere: from their function, the number of poses and those of a
+        piece to the arrays of each piece, in order; progress is then its own.
 
     Raises
     ------
@@ -180,30 +192,75 @@ def follow(
     parts: list[dict[str, Array]] = []
     labels: tuple[str, ...] = ()
     last: Way | None = None
-    piece = _piece(dynamics)
-    for first in range(0, len(times), piece):
-        some = times[first : first + piece]
-        moved, placed = placed_along(dynamics, trajectory, some)
-        _, rates, changes = trajectory.at(some)
-        forces = inverse_dynamics(placed, rates, changes, wrench)
-        way = Way(
+    computed = Piece(dynamics, trajectory, wrench, reactions)
+    for part in (pieces or _here(progress))(computed, len(times), _piece(dynamics)):
+        labels = tuple(part.pop("labels").tolist())
+        way = Way(*(part.pop(name) for name in WAY))
+        check_way(dynamics, trajectory, way if last is None else last.then(way))
+        last = way.end
+        parts.append(part)
+    joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+    turning = np.array([d.startswith("r") for _, d in dynamics.motion.linkage.driven])
+    joined["drives"][:, turning] = np.unwrap(joined["drives"][:, turning], axis=0)
+    check_touched(dynamics, trajectory, times, joined["held"])
+    return Followed(dynamics, times, weights, reaction_labels=labels, **joined)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Computes some poses of a trajectory by themselves; may be sent to other processes.
+
+    Parameters
+    ----------
+    dynamics : Dynamics
+    trajectory : Trajectory
+    wrench : (6,) or ()
+        N and N·m.
+    reactions : bool
+    """
+
+    dynamics: Dynamics
+    trajectory: Trajectory
+    wrench: ArrayLike
+    reactions: bool
+
+    def __call__(self, items: slice) -> dict[str, Array]:
+        """Arrays of `Followed` at some times, and of `Way` under `WAY`.
+
+        Parameters
+        ----------
+        items : slice
+            Of the times of `Trajectory.quadrature`.
+        """
+        some = self.trajectory.quadrature[0][items]
+        moved, placed = placed_along(self.dynamics, self.trajectory, some)
+        _, rates, changes = self.trajectory.at(some)
+        forces = inverse_dynamics(placed, rates, changes, self.wrench)
+        way = (
             some,
             placed.placed.sign,
             placed.drive_sign,
             placed.placed.points,
             forces.twists.reshape(len(some), -1, 6)[..., :3],
         )
-        check_way(dynamics, trajectory, way if last is None else last.then(way))
-        last = way.end
-        parts.append(_collected(trajectory, some, moved, placed, forces, reactions=reactions))
-        labels = forces.reaction_labels if reactions else ()
-        if progress is not None:
-            progress(first + len(some), len(times))
-    joined = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    turning = np.array([d.startswith("r") for _, d in dynamics.motion.linkage.driven])
-    joined["drives"][:, turning] = np.unwrap(joined["drives"][:, turning], axis=0)
-    check_touched(dynamics, trajectory, times, joined["held"])
-    return Followed(dynamics, times, weights, reaction_labels=labels, **joined)
+        found = _collected(self.trajectory, some, moved, placed, forces, reactions=self.reactions)
+        labels = np.array(forces.reaction_labels if self.reactions else (), dtype=np.str_)
+        return found | dict(zip(WAY, way, strict=True)) | {"labels": labels}
+
+
+def _here(progress: Tell | None) -> Pieces:
+    """One piece after the other, in this thread."""
+
+    def pieces(
+        function: Callable[[slice], dict[str, Array]], count: int, size: int
+    ) -> Iterator[dict[str, Array]]:
+        for first in range(0, count, size):
+            stop = min(first + size, count)
+            yield function(slice(first, stop))
+            if progress is not None:
+                progress(stop, count)
+
+    return pieces
 
 
 def fastest(followed: Followed, limits: ArrayLike) -> float:

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema
 
 from strutwork.files import write_text
@@ -40,27 +42,60 @@ def model_schema() -> dict[str, Any]:
         Draft 7. It refuses unknown keys and what is neither a number nor a text with a unit; what
         depends on several keys, names and dimensions of units only the reader itself checks.
     """
-    found = ModelTable.model_json_schema(
-        ref_template="#/definitions/{model}", schema_generator=_Generator
-    )
-    definitions = found.pop("$defs")
-    tables = {"ModelTable": found} | definitions
-    for name, table in tables.items():
-        table.pop("title", None)
-        for key, value in table.get("properties", {}).items():
-            value.pop("title", None)
-            _say(value, DESCRIPTIONS[name][key])
+    tables = described(ModelTable, DESCRIPTIONS)
     for (name, key), value in _ALSO.items():
-        place = tables[name]["properties"][key]
-        _allow(place, value)
+        _allow(tables[name]["properties"][key], value)
     rows = tables["MassTable"]["properties"]["inertia"]
     _allow(rows, {"type": "array", "items": _entry(rows), "minItems": 3, "maxItems": 3})
+    return finished(
+        tables, ModelTable, "Strutwork model file", "Structure of a machine: docs/model-file.md"
+    )
+
+
+def described(
+    top: type[BaseModel], descriptions: Mapping[str, Mapping[str, str]]
+) -> dict[str, dict[str, Any]]:
+    """The schemas of a file's tables by the name of their class, with what each key means.
+
+    Parameters
+    ----------
+    top : type
+        The class of the entire file.
+    descriptions : mapping of class to mapping of key to str
+        Of tables that are not in it the model file's count.
+    """
+    found = top.model_json_schema(ref_template="#/definitions/{model}", schema_generator=_Generator)
+    tables: dict[str, dict[str, Any]] = {top.__name__: found} | found.pop("$defs", {})
+    for name, table in tables.items():
+        table.pop("title", None)
+        words = descriptions.get(name) or DESCRIPTIONS[name]
+        for key, value in table.get("properties", {}).items():
+            value.pop("title", None)
+            _say(value, words[key])
+    return tables
+
+
+def finished(
+    tables: Mapping[str, dict[str, Any]], top: type[BaseModel], title: str, description: str
+) -> dict[str, Any]:
+    """The schema of a file as JSON holds it, draft 7.
+
+    Parameters
+    ----------
+    tables : mapping of class to dict
+        As `described`.
+    top : type
+        The class of the entire file.
+    title, description : str
+    """
+    first = tables[top.__name__]
+    rest = {name: table for name, table in tables.items() if name != top.__name__}
     whole = {
         "$schema": DRAFT,
-        "title": "Strutwork model file",
-        "description": "Structure of a machine: docs/model-file.md",
-        **{key: found[key] for key in ("type", "additionalProperties", "required", "properties")},
-        "definitions": dict(sorted(definitions.items())),
+        "title": title,
+        "description": description,
+        **{key: first[key] for key in ("type", "additionalProperties", "required", "properties")},
+        "definitions": dict(sorted(rest.items())),
     }
     plain: dict[str, Any] = _plain(whole)
     return plain

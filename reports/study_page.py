@@ -15,6 +15,7 @@ from strutwork.reports.content import Answer, Answers, Chapter, Column, Figure, 
 from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
 from strutwork.reports.figures.study import parallel, rank_bars, scatter
 from strutwork.reports.numbers import count, significant
+from strutwork.reports.study_analysis_page import analysis_chapters
 from strutwork.reports.study_words import machine_words, read_value, reading, title_of
 from strutwork.studies.study import Study
 from strutwork.studies.study_table import (
@@ -55,6 +56,7 @@ def write_study_report(study: Study, found: xr.Dataset, folder: Path) -> Written
         raise ModelError("study", "has no finite answer to show.", "Ask for something else.")
     chapters: tuple[Chapter, ...] = (
         _cover(study, found, parameters, answers),
+        *analysis_chapters(found, answers, MACHINES),
         _effects(study, parameters, answers, answer_columns(found)),
         _machines(study, found, parameters, answers),
     )
@@ -123,12 +125,15 @@ def _cover(
         low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
         name, rank = leading(list(parameters), column.values)
         way = f"; it follows {name} most (rank correlation {rank:.2f})" if name else ""
+        # of many parameters the values fill a paragraph
+        many = len(parameters) > DRAWN
+        which = f"machine {row}" if many else machine_words(parameters, row, 3)
         said.append(
             Answer(
                 f"{title_of(column).capitalize()} goes from {read_value(column, low, 3)} to "
                 f"{read_value(column, high, 3)}: the best is ",
                 read_value(column, float(column.values[row]), 3),
-                f" with {machine_words(parameters, row, 3)}{way}.",
+                f" with {which}{way}.",
                 "what-decides",
             )
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees
+from math import degrees, isfinite
 
 from strutwork.studies.study_table import NumberColumn
 
@@ -55,3 +55,16 @@ def machine_words(parameters: Sequence[NumberColumn], row: int, digits: int = 4)
 def title_of(column: NumberColumn) -> str:
     """A column's name with spaces."""
     return column.name.replace("_", " ")
+
+
+def index_words(value: float, half: float) -> str:
+    """A Sobol index with half the width of its interval."""
+    return f"{value:.2f} ± {half:.2f}".replace("-0.00", "0.00").replace("-", "−")
+
+
+def interval_words(value: float, low: float, high: float) -> str:
+    """A value with its interval; an end for which there are too few machines is left open."""
+    if not isfinite(low) and not isfinite(high):
+        return f"{value:.4g}"
+    ends = "–".join(f"{end:.4g}" if isfinite(end) else "…" for end in (low, high))
+    return f"{value:.4g} ({ends})"

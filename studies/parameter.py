@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.machines.model_numbers import Number
 from strutwork.names import visible
+from strutwork.studies.distribution import Distribution, distribution, is_share
+from strutwork.studies.independent import groups
 from strutwork.studies.parametric import Parametric
 
 Array = NDArray[Any]
@@ -44,6 +46,16 @@ class Parameter:
         The range is divided by ratios, not by differences.
     name : str
         In the result; the first path by default.
+    distribution : str
+        Of `strutwork.studies.distribution.DISTRIBUTIONS`: the values scatter about the mean; a
+        range then states the ends of a uniform or truncated one.
+    mean, scatter : float or str, optional
+        Of the distribution, SI or text with its unit; what the machine states by default. The
+        scatter is the standard deviation, or half the width of a uniform one; "10 %" is a share of
+        the mean.
+    independent : bool
+        What stands for the first star of the path varies by itself: each joint of
+        `joints.ball*.stiffness.*`, its directions together.
     """
 
     path: str | Sequence[str]
@@ -54,6 +66,10 @@ class Parameter:
     relative: bool = False
     log: bool = False
     name: str = ""
+    distribution: str = ""
+    mean: Value | None = None
+    scatter: Value | None = None
+    independent: bool = False
 
     @classmethod
     def of(cls, path: str, what: object) -> Parameter:
@@ -101,6 +117,8 @@ class Varied:
         Ends of the range, any unit.
     points : int
     relative, log : bool
+    distribution : Distribution or None
+        Of its values, in `unit`.
     """
 
     name: str
@@ -113,6 +131,7 @@ class Varied:
     points: int
     relative: bool
     log: bool
+    distribution: Distribution | None = None
 
     @property
     def grid(self) -> Array:
@@ -124,11 +143,15 @@ class Varied:
     def scaled(self, share: Array) -> Array:
         """Places of a range, (n,), any unit, from shares of it between 0 and 1.
 
+        Of a distribution it is the value below which that share of all values lies.
+
         Parameters
         ----------
         share : (n,)
             No unit.
         """
+        if self.distribution is not None:
+            return self.distribution.at(share)
         low, high = self.low or 0.0, self.high or 0.0
         if self.log:
             return np.asarray(np.exp(np.log(low) + share * (np.log(high) - np.log(low))))
@@ -148,12 +171,15 @@ class Varied:
     @property
     def settings(self) -> dict[str, Any]:
         """What it is, as plain values."""
+        plain = {"paths": [n.path for n in self.numbers], "unit": self.unit}
+        more = {"relative": True} if self.relative else {}
+        if self.distribution is not None:
+            return plain | {"distribution": self.distribution.settings} | more
         return {
-            "paths": [n.path for n in self.numbers],
-            "unit": self.unit,
+            **plain,
             **({"values": list(self.values)} if self.values else {"range": [self.low, self.high]}),
             **({"points": self.points} if not self.values else {}),
-            **({"relative": True} if self.relative else {}),
+            **more,
             **({"log": True} if self.log else {}),
         }
 
@@ -176,7 +202,7 @@ def varied(machine: Parametric, parameters: Sequence[Parameter]) -> tuple[Varied
     """
     if not parameters:
         raise ModelError("parameters", "are none.", "Name one at least, with values or a range.")
-    found = tuple(_varied(machine, parameter) for parameter in parameters)
+    found = tuple(one for p in parameters for one in _varied(machine, p))
     owner: dict[str, str] = {}
     for one in found:
         for number in one.numbers:
@@ -195,13 +221,31 @@ def varied(machine: Parametric, parameters: Sequence[Parameter]) -> tuple[Varied
     return found
 
 
-def _varied(machine: Parametric, parameter: Parameter) -> Varied:
+def _varied(machine: Parametric, parameter: Parameter) -> list[Varied]:
     paths = [parameter.path] if isinstance(parameter.path, str) else list(parameter.path)
     if not paths:
         raise ModelError("parameter", "names no path.", 'Give path = "sections.strut.diameter".')
+    if parameter.independent:
+        return [
+            _one(
+                parameter,
+                re.sub("/", "|", f"{parameter.name} {match}" if parameter.name else name),
+                {n.path: n for n in numbers},
+            )
+            for name, match, numbers in groups(machine, paths)
+        ]
     numbers = {n.path: n for path in paths for n in machine.matching(path)}
-    name = parameter.name or re.sub("/", "|", paths[0])
+    return [_one(parameter, parameter.name or re.sub("/", "|", paths[0]), numbers)]
+
+
+def _one(parameter: Parameter, name: str, numbers: Mapping[str, Number]) -> Varied:
     part = f"parameter {name}"
+    if parameter.distribution:
+        return _distributed(parameter, name, tuple(numbers.values()))
+    if parameter.mean is not None or parameter.scatter is not None:
+        raise ModelError(
+            part, "has a mean or scatter without a distribution.", 'Give distribution = "normal".'
+        )
     kinds = {n.unit for n in numbers.values()}
     if len(kinds) > 1 and not parameter.relative:
         raise ModelError(
@@ -238,19 +282,58 @@ def _varied(machine: Parametric, parameter: Parameter) -> Varied:
             )
         if parameter.points < 2:
             raise ModelError(part, f"has {parameter.points} points.", "Give two at least.")
-    first = next(iter(numbers.values()))
-    more = f", and {len(numbers) - 1} more" if len(numbers) > 1 else ""
+    every = tuple(numbers.values())
     return Varied(
         name,
-        "" if parameter.relative else first.unit,
-        (f"factor of {first.path}{more}" if parameter.relative else f"{first.meaning}{more}"),
-        tuple(numbers.values()),
+        "" if parameter.relative else every[0].unit,
+        _meaning(every, relative=parameter.relative),
+        every,
         values,
         low,
         high,
         parameter.points,
         parameter.relative,
         parameter.log,
+    )
+
+
+def _meaning(numbers: tuple[Number, ...], *, relative: bool) -> str:
+    first = numbers[0]
+    more = f", and {len(numbers) - 1} more" if len(numbers) > 1 else ""
+    return f"factor of {first.path}{more}" if relative else f"{first.meaning}{more}"
+
+
+def _distributed(parameter: Parameter, name: str, numbers: tuple[Number, ...]) -> Varied:
+    """A parameter with a distribution: of the number, or of a factor where there are several."""
+    part = f"parameter {name}"
+    if parameter.values or parameter.log:
+        what = "values" if parameter.values else "log = true"
+        raise ModelError(part, f"has {what} beside a distribution.", "Leave one of them out.")
+    several = len({(n.value, n.unit) for n in numbers}) > 1
+    shares = is_share(parameter.scatter) and parameter.mean is None and parameter.low is None
+    relative = parameter.relative or (several and shares)
+    if several and not relative:
+        raise ModelError(
+            part,
+            f"scatters {len(numbers)} numbers of different values together.",
+            'Give scatter = "10 %" of each, relative = true, or independent = true.',
+        )
+    if (parameter.low is None) != (parameter.high is None):
+        raise ModelError(part, "has a range with one end.", "Give low and high.")
+    stated = (parameter.mean, parameter.scatter, parameter.low, parameter.high)
+    law = distribution(part, parameter.distribution, numbers, stated, relative=relative)
+    return Varied(
+        name,
+        "" if relative else numbers[0].unit,
+        _meaning(numbers, relative=relative),
+        numbers,
+        (),
+        None,
+        None,
+        parameter.points,
+        relative,
+        log=False,
+        distribution=law,
     )
 
 

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.names import listed
 from strutwork.studies.parameter import Varied
+from strutwork.studies.sobol_blocks import block_shares, rows_of
 
 Array = NDArray[Any]
 
-KINDS = ("grid", "list", "sobol", "latin-hypercube")
+KINDS = ("grid", "list", "sobol", "latin-hypercube", "random", "saltelli")
 
 #: Machines of a study at most.
 MOST = 10_000_000
@@ -30,17 +31,21 @@ class Sample:
     ----------
     kind : str
         "grid": each value with each. "list": first values together, then second ones, and so on.
-        "sobol" and "latin-hypercube": points over the ranges. Empty: a grid, where all have values
-        or no count is given, else Sobol's points.
+        "sobol" and "latin-hypercube": points over the ranges. "random": independent points.
+        "saltelli": blocks of points for Sobol indices. Empty: a grid, where all have values or no
+        count is given, else Sobol's points, or random ones where a parameter has a distribution.
     count : int or None
-        Of points over ranges.
+        Of points over ranges; of blocks, each of k + 2 points or, with second order, 2 k + 2.
     seed : int
         Of the randomisation; the same seed gives the same points.
+    second_order : bool
+        Whether blocks serve indices of second order as well.
     """
 
     kind: str = ""
     count: int | None = None
     seed: int = 0
+    second_order: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,9 +80,11 @@ def drawn(sample: Sample, parameters: Sequence[Varied]) -> Drawn:
     ------
     ModelError
         An unknown kind; values where a range is needed or the other way round; lists of different
-        lengths; no count, or too many machines.
+        lengths; no count, or too many machines; SALib is needed and is not installed.
     """
-    kind = sample.kind or ("sobol" if sample.count is not None else "grid")
+    scattered = [p for p in parameters if p.distribution is not None]
+    spread = "random" if scattered else "sobol"
+    kind = sample.kind or (spread if sample.count is not None or scattered else "grid")
     if kind not in KINDS:
         raise ModelError("sample", f'is of the unknown kind "{kind}".', f"Kinds: {listed(KINDS)}.")
     if kind in ("grid", "list") and sample.count is not None:
@@ -85,6 +92,18 @@ def drawn(sample: Sample, parameters: Sequence[Varied]) -> Drawn:
             "sample.count",
             f"stands beside a {kind}, which has as many machines as its values.",
             'Leave it out, or choose kind = "sobol".',
+        )
+    if kind in ("grid", "list") and scattered:
+        raise ModelError(
+            f"parameter {scattered[0].name}",
+            f"has a distribution, and the sample is a {kind}.",
+            'Choose kind = "random" with a count, or give values.',
+        )
+    if sample.second_order and kind != "saltelli":
+        raise ModelError(
+            "sample.second_order",
+            f"stands beside {kind} points, which give no indices.",
+            'Leave it out, or choose kind = "saltelli".',
         )
     if kind == "grid":
         axes = [p.grid for p in parameters]
@@ -108,13 +127,19 @@ def drawn(sample: Sample, parameters: Sequence[Varied]) -> Drawn:
             "is missing." if sample.count is None else f"is {sample.count}.",
             "Say how many machines, a power of two for Sobol's points.",
         )
-    _require_count(sample.count, "Take fewer.")
-    share = _shares(kind, sample.count, len(parameters), sample.seed)
+    rows = rows_of(len(parameters), sample.second_order) if kind == "saltelli" else 1
+    _require_count(sample.count * rows, "Take fewer.")
+    share = _shares(kind, sample, len(parameters))
     values = np.stack([p.scaled(share[:, i]) for i, p in enumerate(parameters)], axis=-1)
-    return Drawn(kind, values, (sample.count,))
+    return Drawn(kind, values, (len(values),))
 
 
-def _shares(kind: str, count: int, parameters: int, seed: int) -> Array:
+def _shares(kind: str, sample: Sample, parameters: int) -> Array:
+    count, seed = sample.count or 0, sample.seed
+    if kind == "saltelli":
+        return block_shares(count, parameters, seed, second_order=sample.second_order)
+    if kind == "random":
+        return np.random.default_rng(seed).random((count, parameters))
     # SciPy's statistics take longer to load than a small study to run
     from scipy.stats import qmc  # noqa: PLC0415
 

@@ -30,6 +30,7 @@ from strutwork.studies.question import Question, asked, completed
 from strutwork.studies.run import Chunk, Run, fill
 from strutwork.studies.sample import Drawn, Sample, drawn
 from strutwork.studies.standing import Stand
+from strutwork.studies.study_analysis import analysed
 from strutwork.studies.study_dataset import study_dataset
 from strutwork.studies.study_machines import REDUCTIONS, Machines
 from strutwork.units import ANGLE, LENGTH, quantity
@@ -98,7 +99,7 @@ class Study:
         machine: object,
         parameters: Mapping[str, object] | Sequence[Parameter],
         *answers: object,
-        sample: str = "",
+        sample: str | Sample = "",
         count: int | None = None,
         seed: int = 0,
         workspace: Mapping[str, Any] | TaskGrid | None = None,
@@ -116,8 +117,9 @@ class Study:
         *answers : str, Answer or Question
             Names of `strutwork.studies.question.QUESTIONS`, or answers as of a survey; stiffness
             where there is none.
-        sample : str
-            "grid", "list", "sobol" or "latin-hypercube"; see `Sample`.
+        sample : str or Sample
+            "grid", "list", "sobol", "latin-hypercube", "random" or "saltelli"; see `Sample`, which
+            states count and seed itself.
         count : int, optional
             Machines spread over the ranges.
         seed : int
@@ -144,7 +146,7 @@ class Study:
         return cls(
             found,
             parameters_of(parameters),
-            Sample(sample, count, seed),
+            Sample(sample, count, seed) if isinstance(sample, str) else sample,
             tuple(asked(a) for a in answers or ("stiffness",)),
             grid,
             tuple(reductions) or default,
@@ -234,7 +236,9 @@ class Study:
         xarray.Dataset
             A grid has a dimension for each parameter, another sample the dimension `sample`, along
             which the parameters are coordinates. Numbers are named `ANSWER_REDUCTION`; those of a
-            machine that cannot be are missing (NaN), `status` and `reason` say why.
+            machine that cannot be are missing (NaN), `status` and `reason` say why. Blocks give
+            Sobol indices, distributions the scatter of the answers:
+            `strutwork.studies.study_analysis.analysed`.
 
         Raises
         ------
@@ -254,7 +258,7 @@ class Study:
                 f"none of its {len(self)} machines can be: {said.most_common(1)[0][0]}",
                 "Change the ranges of its parameters.",
             )
-        return study_dataset(self, arrays, words)
+        return analysed(self, study_dataset(self, arrays, words))
 
     @cached_property
     def settings(self) -> dict[str, Any]:
@@ -266,6 +270,7 @@ class Study:
                 "kind": self.drawn.kind,
                 "count": len(self),
                 **({} if self.drawn.kind in ("grid", "list") else {"seed": self.sample.seed}),
+                **({"second_order": True} if self.sample.second_order else {}),
             },
             "answers": [q.name for q in self.questions],
             "workspace": {}

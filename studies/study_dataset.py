@@ -28,6 +28,9 @@ Array = NDArray[Any]
 #: Dimension of the machines of a sample that is no grid.
 SAMPLE = "sample"
 
+#: Coordinates of what is said of all machines together.
+ANALYSIS = ("answer", "answer_unit", "parameter", "other_parameter", "bound", "quantile")
+
 #: What became of a machine, by its code.
 STATUS = ("solved", "cannot_be", "no_pose")
 
@@ -124,9 +127,8 @@ def _parameters(
     study: Study, dims: tuple[str, ...], made: dict[str, xr.Variable], labels: dict[str, Any]
 ) -> dict[str, xr.Variable]:
     found = {}
-    taken = {*made, *labels, SAMPLE, "pose", *(d for v in made.values() for d in v.dims)} - set(
-        dims
-    )
+    inner = (d for v in made.values() for d in v.dims)
+    taken = {*made, *labels, SAMPLE, "pose", *ANALYSIS, *inner} - set(dims)
     for i, p in enumerate(study.varied):
         if p.name in taken or (p.name == SAMPLE):
             raise ModelError(

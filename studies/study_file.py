@@ -18,7 +18,7 @@ from strutwork.studies.parametric import Parametric
 from strutwork.studies.question import Asked, Question, asked
 from strutwork.studies.sample import Sample
 from strutwork.studies.study import Study
-from strutwork.studies.study_schema import ParameterTable, StudyTable
+from strutwork.studies.study_schema import ParameterTable, SampleTable, StudyTable
 
 #: Where the file is described.
 PAGE = "docs/how-to/study.md"
@@ -59,7 +59,7 @@ def read_study(path: str | Path) -> Study:
     return Study(
         machine,
         tuple(_parameter(i, table) for i, table in enumerate(tables.parameters)),
-        Sample(tables.sample.kind or "", tables.sample.count, tables.sample.seed),
+        _sample(tables.sample),
         tuple(_question(tables, name) for name in tables.answers),
         grid,
         tables.reductions or default,
@@ -67,7 +67,8 @@ def read_study(path: str | Path) -> Study:
 
 
 def _parameter(number: int, table: ParameterTable) -> Parameter:
-    if bool(table.values) == (table.range is not None):
+    scattered = table.distribution is not None
+    if not scattered and bool(table.values) == (table.range is not None):
         what = "both values and range" if table.values else "neither values nor range"
         raise ModelError(
             f"parameters[{number}]",
@@ -84,7 +85,15 @@ def _parameter(number: int, table: ParameterTable) -> Parameter:
         table.relative,
         table.log,
         table.name or "",
+        table.distribution or "",
+        table.mean,
+        table.scatter,
+        table.independent,
     )
+
+
+def _sample(table: SampleTable) -> Sample:
+    return Sample(table.kind or "", table.count, table.seed, table.second_order)
 
 
 def _question(tables: StudyTable, name: str) -> Question:

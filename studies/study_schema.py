@@ -26,14 +26,19 @@ class ParameterTable(Table):
     relative: StrictBool = False
     log: StrictBool = False
     name: Name | None = None
+    distribution: Literal["normal", "lognormal", "uniform", "truncated"] | None = None
+    mean: Quantity | None = None
+    scatter: Quantity | None = None
+    independent: StrictBool = False
 
 
 class SampleTable(Table):
     """How the values are combined."""
 
-    kind: Literal["grid", "list", "sobol", "latin-hypercube"] | None = None
+    kind: Literal["grid", "list", "sobol", "latin-hypercube", "random", "saltelli"] | None = None
     count: Annotated[int, Field(strict=True, ge=1)] | None = None
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    second_order: StrictBool = False
 
 
 class VibrationTable(Table):

@@ -15,6 +15,7 @@ from strutwork.names import visible
 from strutwork.staging import staging
 from strutwork.studies.dataset_files import write_netcdf
 from strutwork.studies.executor import Executor
+from strutwork.studies.executor import place as kept_elsewhere
 from strutwork.studies.progress import Progress
 from strutwork.studies.study import Study
 from strutwork.studies.study_table import study_columns
@@ -39,7 +40,8 @@ def run_to_file(
     path : str or Path
         Ends in .nc for NetCDF or .zarr for Zarr; a CSV of the machines is written beside it.
     resume : bool
-        Go on from what was finished; a result that is complete is read.
+        Go on from what was finished; a result that is complete is read. A folder of
+        `strutwork.studies.executor.computed_on` keeps the parts instead, and they stay there.
     workers, progress, executor
         As `Study.run`.
 
@@ -63,6 +65,12 @@ def run_to_file(
     there = _there(place, study)
     if there is not None and resume:
         return there
+    if kept_elsewhere().folder is not None:
+        # parts that are kept on purpose stay, and are gone on from without being asked
+        found = study.run(workers=workers, progress=progress, executor=executor)
+        write_result(place, found)
+        _write_csv(place.with_suffix(".csv"), found)
+        return found
     parts = parts_of(study, place)
     if not resume and parts.is_dir() and any(parts.iterdir()):
         raise ModelError(

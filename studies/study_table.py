@@ -114,7 +114,8 @@ def answer_columns(
     found = []
     for variable, array in dataset.data_vars.items():
         name, inner = str(variable), [str(d) for d in array.dims if d not in dims]
-        if array.dtype.kind != "f" or "pose" in inner:
+        # what is said of all machines together is no answer of one
+        if array.dtype.kind != "f" or "pose" in inner or not set(dims) <= set(array.dims):
             continue
         if reductions and not name.endswith(tuple(reductions)):
             continue

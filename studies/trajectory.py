@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -16,6 +16,8 @@ from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.trajectory import Trajectory, sampled
 from strutwork.machines.model import Model
 from strutwork.msa.body_mass import body_masses
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.description import content_key
 from strutwork.studies.drive_demand import (
     DriveDemand,
     DriveLimit,
@@ -25,6 +27,7 @@ from strutwork.studies.drive_demand import (
     ranges_left,
 )
 from strutwork.studies.progress import Progress
+from strutwork.studies.run import Chunk, Run
 from strutwork.studies.trajectory_notes import trajectory_notes
 
 Array = NDArray[Any]
@@ -142,6 +145,8 @@ def study_trajectory(
 ) -> TrajectoryStudy:
     """Follow a trajectory with rigid bodies and hold it against the limits of drives and joints.
 
+    Pieces of it are computed where `strutwork.studies.executor.computed_on` says.
+
     Parameters
     ----------
     model : Model
@@ -166,7 +171,19 @@ def study_trajectory(
     masses = body_masses(model.structure.at(model.placement))
     pull = model_gravity(model) if gravity is None else gravity
     dynamics = Dynamics(model.motion, masses, path.coordinates, pull)
-    followed = follow(dynamics, path, reactions=reactions, progress=progress)
+    run = Run(workers=1, progress=progress, inputs=lambda c: _span(path, c))
+
+    def key() -> str:
+        home = model.placement.positions
+        table = [samples.times, *(_plain(t) for t in (samples.values, samples.rates))]
+        changes = _plain(samples.changes)
+        return content_key("trajectory", model.structure, home, table, changes, pull, reactions)
+
+    def pieces(function: Any, count: int, size: int) -> Iterator[dict[str, Array]]:
+        for _, part in run.chunks(OfItems(function), count, size, key):
+            yield part
+
+    followed = follow(dynamics, path, reactions=reactions, pieces=pieces)
     found = effective_limits(model, limits or {})
     held = {(f"{j}:{d}" if j else d): value for (j, d), value in added.items()}
     return TrajectoryStudy(
@@ -178,3 +195,33 @@ def study_trajectory(
         held,
         tuple(trajectory_notes(model, followed, path, splined=not samples.rates)),
     )
+
+
+@dataclass(frozen=True)
+class OfItems:
+    """A function of a slice as one of a chunk.
+
+    Parameters
+    ----------
+    function : callable
+    """
+
+    function: Callable[[slice], Arrays]
+
+    def __call__(self, chunk: Chunk) -> Arrays:
+        """The arrays of the chunk's items.
+
+        Parameters
+        ----------
+        chunk : Chunk
+        """
+        return self.function(chunk.items)
+
+
+def _plain(columns: Mapping[Name, Array]) -> dict[str, Array]:
+    return {":".join(name): values for name, values in columns.items()}
+
+
+def _span(path: Trajectory, chunk: Chunk) -> str:
+    times = path.quadrature[0][chunk.items]
+    return f"t {times[0]:.6g} to {times[-1]:.6g} s"

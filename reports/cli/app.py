@@ -60,7 +60,7 @@ COMMANDS = {
 SILENT = ("new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
-PLACED = ("accuracy", "map", "scale", "workspace")
+PLACED = ("accuracy", "compare", "map", "scale", "study", "trajectory", "workspace")
 
 
 class Program(Commands):

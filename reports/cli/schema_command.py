@@ -1,4 +1,4 @@
-"""`strutwork schema`: the JSON schema of the model file, for editors."""
+"""`strutwork schema`: the JSON schemas of model and study files, for editors."""
 
 from __future__ import annotations
 
@@ -15,15 +15,22 @@ def schema(
             "--out", "-o", metavar="FILE", help="Write it to this file; by default it is printed."
         ),
     ] = None,
+    study: Annotated[
+        bool, typer.Option("--study", help="That of study files; by default of model files.")
+    ] = False,
 ) -> None:
-    """Print the JSON schema of the model file, with which editors complete and check it."""
+    """Print the JSON schema of model or study files, with which editors complete and check them."""
     from strutwork.files import write_text
-    from strutwork.machines.schema_file import schema_text
     from strutwork.names import visible
     from strutwork.reports.cli.output import console
 
+    if study:
+        from strutwork.studies.study_schema_file import schema_text
+    else:
+        from strutwork.machines.schema_file import schema_text
+    text = schema_text()
     if out is None:
-        typer.echo(schema_text(), nl=False)
+        typer.echo(text, nl=False)
         return
-    write_text(Path(out), schema_text())
+    write_text(Path(out), text)
     console().print(f"Written: {visible(out)}", markup=False, soft_wrap=True)

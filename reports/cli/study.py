@@ -13,6 +13,7 @@ from strutwork.names import visible
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table, tell
 from strutwork.reports.cli.progress import shown
+from strutwork.reports.cli.study_tables import analysis, print_analysis
 from strutwork.reports.numbers import count as counted
 from strutwork.reports.study_words import machine_words, read_value, reading, title_of
 from strutwork.studies.parametric import Parametric
@@ -111,6 +112,7 @@ def _result(file: str, study: Study, found: xr.Dataset) -> dict[str, Any]:
         "dropped_by_reason": dict(reasons),
         "parameters": study.settings["parameters"],
         "answers": answers,
+        **analysis(found),
         "study_key": str(found.attrs["study_key"]),
         "data": [],
     }
@@ -173,11 +175,15 @@ def _print(study: Study, found: xr.Dataset, result: dict[str, Any]) -> None:
             names=2,
         )
     )
+    last = print_analysis(out, found, columns)
     for path in result["data"]:
         out.print(visible(path), markup=False, soft_wrap=True)
     if "report" in result:
         out.print(f"Report: {visible(result['report'])}", markup=False, soft_wrap=True)
-    _print_best(out, columns, parameters, result)
+    if last:
+        out.print(last, markup=False, soft_wrap=True)
+    else:
+        _print_best(out, columns, parameters, result)
 
 
 def _is_short(study: Study, column: NumberColumn) -> bool:

@@ -39,7 +39,7 @@ def parallel(titles: Sequence[str], values: Sequence[ArrayLike], colour: int) ->
                 "type": "parcoords",
                 "line": {"color": rounded(arrays[colour][good]), "colorscale": MAP_SCALE},
                 "dimensions": [
-                    {"label": _broken(t), "values": rounded(a[good], 5)}
+                    {"label": broken(t), "values": rounded(a[good], 5)}
                     for t, a in zip(titles, arrays, strict=True)
                 ],
                 "labelfont": {"size": 12, "color": INK},
@@ -50,8 +50,13 @@ def parallel(titles: Sequence[str], values: Sequence[ArrayLike], colour: int) ->
     }
 
 
-def _broken(title: str) -> str:
-    """A title on short lines: axes stand close to one another."""
+def broken(title: str) -> str:
+    """A title on short lines: axes stand close to one another.
+
+    Parameters
+    ----------
+    title : str
+    """
     words = re.sub(r"([._])", r"\1 ", title).split(" ")
     lines = [""]
     for word in words:

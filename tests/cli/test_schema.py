@@ -16,6 +16,10 @@ def test_schema_is_printed_or_written(strutwork: Program, tmp_path: Path) -> Non
     assert (run.status, run.out) == (0, f"Written: {place}\n")
     assert place.read_text(encoding="utf-8") == schema_text()
 
+    study = json.loads(strutwork("schema", "--study").out)
+    assert study["title"] == "Strutwork study file"
+    assert study["properties"]["answers"]["items"]["enum"][0] == "stiffness"
+
 
 def test_new_names_the_schema_first_and_puts_it_beside(
     strutwork: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -6,8 +6,11 @@ import csv
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from strutwork.reports.study_page import main_answers, write_study_report
+from strutwork.studies.parameter import Parameter
+from strutwork.studies.sample import Sample
 from strutwork.studies.study import Study
 from strutwork.studies.study_store import read_result
 from tests.reports.browser import Browser
@@ -51,3 +54,52 @@ def test_the_page_shows_the_best_machine_and_links_every_figure(
     )
     assert figures == linked >= 5
     assert browser.evaluate("document.documentElement.scrollWidth") <= 1300
+
+
+SPRING = """
+title = "mass on a spring"
+[nodes]
+A = [0, 0, 0]
+T = [0, 0, 0]
+[tool]
+tcp = "T"
+[[supports]]
+node = "A"
+fixed = "all"
+[[joints]]
+name = "spring"
+type = "bushing"
+between = ["A", "T"]
+stiffness = { x = 8e8, y = 9e8, z = 2e8, rx = 1e8, ry = 1e8, rz = 1e8 }
+"""
+
+
+def test_the_page_shows_scatter_and_indices_with_their_data(
+    tmp_path: Path, browser: Browser
+) -> None:
+    pytest.importorskip("SALib")
+    parameters = [
+        Parameter(f"joints.spring.stiffness.{d}", distribution="normal", scatter="10 %")
+        for d in "xz"
+    ]
+    sample = Sample("saltelli", 16, second_order=True)
+    study = Study.of(SPRING, parameters, sample=sample, workspace={})
+    found = study.run(workers=1)
+    written = write_study_report(study, found, tmp_path)
+    names = {p.name for p in written.data}
+    assert names >= {"scatter.csv", "sobol-indices.csv", "sobol-second-order.csv"}
+    with (tmp_path / "scatter.csv").open(encoding="utf-8") as stream:
+        rows = {r["answer"]: r for r in csv.DictReader(stream)}
+    one = found.sel(answer="stiffness_free_home z")
+    assert float(rows["stiffness_free_home z"]["mean"]) == float(one["scatter_mean"])
+    assert rows["stiffness_free_home z"]["unit"] == "N/m"
+    browser.open(written.report, 420)
+    assert browser.complaints == []
+    text = " ".join(browser.evaluate("document.body.innerText").split())
+    mean = float(one["scatter_mean"]) / 1e6
+    assert f"Stiffness free home z: {mean:.4g} ±" in text
+    assert "The variance of stiffness free home z comes most from joints.spring.stiffness.z" in text
+    assert "No indices of stiffness free home y: it does not vary." in text
+    unlinked = "[...document.querySelectorAll('figure')].filter(f => !f.querySelector('a[href]'))"
+    assert browser.evaluate(f"{unlinked}.length") == 0
+    assert browser.evaluate("document.documentElement.scrollWidth") <= 420

@@ -9,12 +9,17 @@ from typing import Any
 import numpy as np
 import pytest
 
+from strutwork.kinematics import following
 from strutwork.machines.load import load
+from strutwork.studies import study as study_module
 from strutwork.studies.calibrate import calibrate
 from strutwork.studies.calibration_problem import Parameter, Target
 from strutwork.studies.cluster_work import compute, identity, pickled
 from strutwork.studies.executor import computed_on, default_executor
+from strutwork.studies.parameter import Parameter as Varying
 from strutwork.studies.scale import scale_study
+from strutwork.studies.study import Study
+from strutwork.studies.trajectory import Samples, study_trajectory
 from strutwork.studies.workspace import workspace
 from strutwork.studies.workspace_margin import MachineMargin
 
@@ -95,3 +100,41 @@ def test_the_poses_of_a_workspace_are_computed_elsewhere(tmp_path: Path) -> None
         assert found.grid.border.tobytes() == expected.grid.border.tobytes()
     assert there.sent >= 2
     assert again.sent == 0
+
+
+def test_pieces_of_a_trajectory_are_computed_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(following, "PIECE", 16)
+    model = load("examples/machines/6-ups.toml")
+    times = np.linspace(0.0, 1.0, 12)
+    samples = Samples(times, {("", "x"): 0.02 * np.sin(3 * times), ("", "y"): 0.01 * times**2})
+    expected = study_trajectory(model, samples, reactions=True).followed
+    there, again = Elsewhere(), Elsewhere()
+    for executor in (there, again):
+        with computed_on(executor, tmp_path):
+            found = study_trajectory(model, samples, reactions=True).followed
+        assert found.forces.tobytes() == expected.forces.tobytes()
+        assert found.drives.tobytes() == expected.drives.tobytes()
+        assert found.reactions is not None
+        assert expected.reactions is not None
+        assert found.reactions.tobytes() == expected.reactions.tobytes()
+        assert found.reaction_labels == expected.reaction_labels
+    # 12 times and four between each two
+    assert (there.sent, again.sent) == (4, 0)
+
+
+def test_machines_of_a_study_are_made_elsewhere(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(study_module, "CHUNK_MOST", 4)
+    parameter = Varying(
+        "joints.ball*.stiffness.*", distribution="normal", scatter="10 %", independent=True
+    )
+    study = Study.of("examples/machines/6-ups.toml", [parameter], count=8, workspace={})
+    expected = study.run(workers=1)
+    there, again = Elsewhere(), Elsewhere()
+    for executor in (there, again):
+        with computed_on(executor, tmp_path):
+            assert study.run().identical(expected)
+    assert (there.sent, again.sent) == (2, 0)
