@@ -11,9 +11,16 @@ from numpy.typing import ArrayLike, NDArray
 from strutwork.cutting.numbers import positive_list
 from strutwork.cutting.tip_response import Frame, TipResponse
 from strutwork.errors import ModelError
-from strutwork.fea.modal import ModalModel
+from strutwork.fea.modal import STATIC_SHARE, ModalModel
+from strutwork.fea.pole_residue import PoleModel
 
 Array = NDArray[Any]
+
+#: An imaginary part below this share of a pole is rounding.
+STILL = 1e-9
+
+#: Poles that differ from their conjugates by a larger share have none.
+PAIRED = 1e-6
 
 
 @dataclass(frozen=True)
@@ -25,7 +32,7 @@ class TipModes:
     Parameters
     ----------
     poles : (n,)
-        s, rad/s, in the upper half-plane and left of the imaginary axis.
+        s, rad/s, in the upper half-plane or on the real axis, and left of the imaginary one.
     shapes : (n, 3)
         b, complex, of any unit: how the tip moves in a mode, along x, y, z of the process.
     loads : (n, 3)
@@ -34,7 +41,7 @@ class TipModes:
     Raises
     ------
     ModelError
-        No mode, a mode that does not decay or does not swing, sizes that differ.
+        No mode, a mode that does not decay, sizes that differ.
     """
 
     poles: Array
@@ -57,11 +64,11 @@ class TipModes:
         if not all(np.all(np.isfinite(a)) for a in (poles, shapes, loads)):
             raise ModelError("modes of the tip", "hold a number that is not finite.", "Repair it.")
         for number, pole in enumerate(poles, 1):
-            if pole.imag <= 0 or pole.real >= 0:
+            if pole.imag < 0 or pole.real >= 0:
                 raise ModelError(
                     f"mode {number} of the tip",
                     f"has the pole {pole:.6g} rad/s.",
-                    "Give a mode that swings and decays: a damping ratio above 0 and below 1.",
+                    "Give a mode that decays: a damping ratio above 0.",
                 )
         object.__setattr__(self, "poles", poles)
         object.__setattr__(self, "shapes", shapes)
@@ -112,7 +119,12 @@ class TipModes:
 
     @classmethod
     def from_model(
-        cls, model: ModalModel, pose: int, frame: Frame | None, highest: float
+        cls,
+        model: ModalModel,
+        pose: int,
+        frame: Frame | None,
+        highest: float,
+        moving: tuple[int, ...] = (0, 1, 2),
     ) -> TipModes:
         """Modes of a structure at one pose, from its modal model between three ports.
 
@@ -126,6 +138,8 @@ class TipModes:
         highest : float
             Hz. Kept are the modes up to twice this frequency, and further ones until they carry
             99 % of the static compliance at every port.
+        moving : tuple of int
+            Which of x, y and z the ports are; the tool is held in the others.
 
         Raises
         ------
@@ -133,37 +147,77 @@ class TipModes:
             Other ports, structural damping, which has no time response, a mode of a rigid body,
             or no mode up to `highest`.
         """
-        if len(model.ports) != 3:
-            raise ModelError(
-                "modes of the tip", f"come from {len(model.ports)} ports.", "Name x, y and z."
-            )
+        _require_ports(len(model.ports), moving)
         if model.damping.structural:
-            raise ModelError(
-                "modes of the tip",
-                "are damped by a loss factor, which has no response in time.",
-                "Give modal damping ratios; the zero-order lobes take any damping.",
-            )
+            raise _no_time()
         if model.rigid.shape[-1] and np.any(model.rigid[pose]):
-            raise ModelError(
-                "modes of the tip",
-                "contain a rigid-body mode, so that the tool is held by nothing.",
-                "Hold the machine, or give the drives their stiffness.",
-            )
+            raise _floats()
         kept, _ = model.truncated(highest)
         square, viscous = kept.square[pose], kept.viscous[pose]
         massive = square > 0
         omega = 1.0 / np.sqrt(square[massive])
         if not np.any(omega <= 2.0 * np.pi * highest):
-            raise ModelError(
-                "modes of the tip",
-                f"have none up to {highest:g} Hz.",
-                "Ask for a band in which the machine has a mode.",
-            )
-        shapes = kept.residues[pose][:, massive].T * omega[:, None]
-        if frame is not None:
-            shapes = shapes @ frame.matrix.T
+            raise _none_up_to(highest)
+        shapes = _in_frame(kept.residues[pose][:, massive].T * omega[:, None], frame, moving)
         ratios = 0.5 * viscous[massive] * omega
         return cls.from_modes(omega / (2.0 * np.pi), ratios, shapes)
+
+    @classmethod
+    def from_poles(
+        cls,
+        model: PoleModel,
+        frame: Frame | None,
+        highest: float,
+        moving: tuple[int, ...] = (0, 1, 2),
+    ) -> TipModes:
+        """Complex modes of a structure whose damping couples its undamped ones.
+
+        Parameters
+        ----------
+        model : PoleModel
+            As `from_model`'s.
+        frame : Frame or None
+            Axes of the process in those of the ports; None for the same.
+        highest : float
+            Hz; poles are kept as `from_model` keeps modes.
+        moving : tuple of int
+            Which of x, y and z the ports are; the tool is held in the others.
+
+        Raises
+        ------
+        ModelError
+            Other ports, structural damping, which has no time response, a motion of a rigid body,
+            or no mode up to `highest`.
+        """
+        _require_ports(len(model.ports), moving)
+        swings = model.poles.imag > STILL * np.abs(model.poles)
+        falls = np.abs(model.poles.imag) <= STILL * np.abs(model.poles)
+        pairs = np.sort_complex(model.poles[swings])
+        others = np.sort_complex(model.poles[~swings & ~falls].conj())
+        if len(pairs) != len(others) or not np.allclose(pairs, others, rtol=PAIRED):
+            raise _no_time()
+        if np.any(model.moving) or np.any(model.poles.real >= 0):
+            raise _floats()
+        # a pole that only falls is half of itself and of its conjugate
+        poles = np.concatenate([model.poles[swings], model.poles[falls].real])
+        right = np.concatenate([model.right[:, swings], 0.5 * model.right[:, falls]], axis=1)
+        left = np.concatenate([model.left[:, swings], model.left[:, falls]], axis=1)
+        slow = np.abs(poles)
+        if not np.any((slow <= 2.0 * np.pi * highest) & (poles.imag > 0)):
+            raise _none_up_to(highest)
+        static = 2.0 * (left * right / -poles).real
+        whole = np.abs(static.sum(axis=1))
+        keep = slow <= 4.0 * np.pi * highest
+        for mode in np.argsort(-np.abs(static).max(axis=0), kind="stable"):
+            missing = np.abs(static[:, ~keep].sum(axis=1))
+            if np.all(missing <= (1.0 - STATIC_SHARE) * whole):
+                break
+            keep[mode] = True
+        return cls(
+            poles[keep],
+            _in_frame(left[:, keep].T, frame, moving),
+            _in_frame(right[:, keep].T, frame, moving),
+        )
 
     def turned(self, feed: float) -> TipModes:
         """The same tip with the feed turned about the axis of the tool.
@@ -190,3 +244,39 @@ class TipModes:
         h = np.tensordot(1.0 / (s - self.poles), dyads, 1)
         h = h + np.tensordot(1.0 / (s - self.poles.conj()), dyads.conj(), 1)
         return TipResponse(lines, h, "modes")
+
+
+def _require_ports(count: int, moving: tuple[int, ...]) -> None:
+    if count != len(moving):
+        raise ModelError("modes of the tip", f"come from {count} ports.", "Name x, y and z.")
+
+
+def _in_frame(shapes: Array, frame: Frame | None, moving: tuple[int, ...]) -> Array:
+    """Shapes (n, 3) along the axes of a process from those of the translations that move."""
+    whole = np.zeros((len(shapes), 3), dtype=shapes.dtype)
+    whole[:, list(moving)] = shapes
+    return whole if frame is None else np.asarray(whole @ frame.matrix.T)
+
+
+def _no_time() -> ModelError:
+    return ModelError(
+        "modes of the tip",
+        "are damped by a loss factor, which has no response in time.",
+        "Give modal damping ratios; the zero-order lobes take any damping.",
+    )
+
+
+def _floats() -> ModelError:
+    return ModelError(
+        "modes of the tip",
+        "contain a rigid-body mode, so that the tool is held by nothing.",
+        "Hold the machine, or give the drives their stiffness.",
+    )
+
+
+def _none_up_to(highest: float) -> ModelError:
+    return ModelError(
+        "modes of the tip",
+        f"have none up to {highest:g} Hz.",
+        "Ask for a band in which the machine has a mode.",
+    )

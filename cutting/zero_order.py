@@ -8,6 +8,7 @@ interrupted cuts (`strutwork.cutting.limits` has them), the flank's damping, and
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import permutations
 from typing import Any
@@ -21,6 +22,9 @@ from strutwork.cutting.tip_response import TipResponse
 from strutwork.errors import ModelError
 
 Array = NDArray[Any]
+
+#: Corrections of the frequency between two lines.
+CORRECTIONS = 3
 
 
 @dataclass(frozen=True)
@@ -81,7 +85,8 @@ class Lobes:
     def at(self, speeds: ArrayLike) -> LobeLimits:
         """The limiting depth at spindle speeds.
 
-        Between lines depth and phase are linear.
+        Between lines the inverse of the eigenvalue is linear, as is a mode's dynamic stiffness
+        but for the square of the frequency.
 
         Parameters
         ----------
@@ -111,29 +116,55 @@ class Lobes:
         at = np.full(len(rpm), np.nan)
         waves = np.full(len(rpm), -1)
         for family in range(self.depth.shape[1]):
-            depth, phase = self.depth[:, family], self.phase[:, family] / (2.0 * np.pi)
-            both = np.flatnonzero(np.isfinite(depth[:-1]) & np.isfinite(depth[1:]))
-            if not len(both):
+            for rows, depth, frequency, whole in self._crossings(family, passing):
+                better = depth < best[rows]
+                kept = rows[better]
+                best[kept], at[kept], waves[kept] = depth[better], frequency[better], whole[better]
+        return LobeLimits(rpm, best, at, waves)
+
+    def _crossings(
+        self, family: int, passing: Array
+    ) -> Iterator[tuple[Array, Array, Array, Array]]:
+        """The least depth at speeds, its frequency and its complete waves, by two passes."""
+        depth, turn = self.depth[:, family], self.phase[:, family] / (2.0 * np.pi)
+        both = np.flatnonzero(np.isfinite(depth[:-1]) & np.isfinite(depth[1:]))
+        if not len(both):
+            return
+        half = 0.5 * self.phase[:, family]
+        size = 2.0 * np.where(np.isfinite(depth), depth, 0.0) * np.sin(half)
+        inverse = size * (np.sin(half) + 1j * np.cos(half))
+        x = self.frequencies / passing[:, None] - turn
+        x0, x1 = x[:, both], x[:, both + 1]
+        low, high = np.ceil(np.minimum(x0, x1)), np.floor(np.maximum(x0, x1))
+        # of several whole numbers between two lines the first or the last has the least depth
+        for whole, crossed in (
+            (low, (low <= high) & (low >= 0)),
+            (high, (low < high) & (high > 0)),
+        ):
+            rows, columns = np.nonzero(crossed)
+            if not len(rows):
                 continue
-            x = self.frequencies / passing[:, None] - phase
-            x0, x1 = x[:, both], x[:, both + 1]
-            low, high = np.ceil(np.minimum(x0, x1)), np.floor(np.maximum(x0, x1))
-            crossed = low <= high
-            # of several whole numbers between two lines the first or the last has the least depth
-            for whole in (low, high):
-                gap = np.where(x1 == x0, 1.0, x1 - x0)
-                share = np.where(crossed, (whole - x0) / gap, 0.0)
-                between = depth[both] + share * (depth[both + 1] - depth[both])
-                between = np.where(crossed & (whole >= 0), between, np.inf)
-                least = between.argmin(axis=1)
-                rows = np.arange(len(rpm))
-                value = between[rows, least]
-                f0, f1 = self.frequencies[both][least], self.frequencies[both + 1][least]
-                better = value < best
-                best = np.where(better, value, best)
-                at = np.where(better, f0 + share[rows, least] * (f1 - f0), at)
-                waves = np.where(better, whole[rows, least], waves)
-        return LobeLimits(rpm, best, at, waves.astype(int))
+            k, line = whole[rows, columns], both[columns]
+            first, last = x0[rows, columns], x1[rows, columns]
+            gap = np.where(last == first, 1.0, last - first)
+            share = np.where(last == first, 0.0, (k - first) / gap)
+            lift = self.frequencies[line + 1] - self.frequencies[line]
+            for _ in range(CORRECTIONS):
+                between = inverse[line] + share * (inverse[line + 1] - inverse[line])
+                wave = np.arctan2(between.real, between.imag) / np.pi
+                # of a phase that passes a whole turn the branch near the line's
+                wave = wave + np.round(turn[line] + share * (turn[line + 1] - turn[line]) - wave)
+                frequency = self.frequencies[line] + share * lift
+                off = frequency / passing[rows] - wave - k
+                share = np.clip(share - off / gap, 0.0, 1.0)
+            between = inverse[line] + share * (inverse[line + 1] - inverse[line])
+            with np.errstate(divide="ignore", invalid="ignore"):
+                value = np.abs(between) ** 2 / (2.0 * between.real)
+            value = np.where(between.real > 0, value, np.inf)
+            order = np.lexsort((value, rows))
+            found = order[np.unique(rows[order], return_index=True)[1]]
+            frequency = self.frequencies[line] + share * lift
+            yield rows[found], value[found], frequency[found], k[found].astype(int)
 
 
 @dataclass(frozen=True)

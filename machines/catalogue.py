@@ -80,6 +80,9 @@ class CatalogueEntry:
     around_home : mapping of direction to (float, int)
         What its maps and report look over, where nothing else is asked: so far to either side of
         home, m or rad, in so many points. Our choice, not its paper's.
+    process : str
+        The cut whose stability its report states, of `strutwork.machines.process_file`; empty for
+        none. Assumed, not its paper's.
     models : tuple of Variant
         Its models, the first that of `factory`; empty of one that has no other.
     """
@@ -93,6 +96,7 @@ class CatalogueEntry:
     tolerances: str = ""
     scale: str = ""
     around_home: Mapping[str, tuple[float, int]] = field(default_factory=dict)
+    process: str = ""
     models: tuple[Variant, ...] = ()
 
 
@@ -129,6 +133,7 @@ _ENTRIES = (
         Eclipse3PPRS,
         _COMPARED,
         around_home=_UPRIGHT,
+        process="process-end-mill",
         models=models_for_statics_and_vibration("eclipse-3pprs", Eclipse3PPRS),
     ),
     CatalogueEntry(
@@ -171,6 +176,7 @@ _ENTRIES = (
         "strutwork.papers.son_2002.toleranced:mit_ss1",
         "strutwork.papers.son_2002.scale_command:run",
         {"x": (0.1, 9), "ry": (radians(20.0), 9)},
+        "process-end-mill",
     ),
     CatalogueEntry(
         "hexel-hexapod",
@@ -208,6 +214,7 @@ _ENTRIES = (
         EclipsePrototype,
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home=_UPRIGHT,
+        process="process-end-mill",
         models=models_by_drives(EclipsePrototype),
     ),
     CatalogueEntry(
@@ -218,6 +225,7 @@ _ENTRIES = (
         EclipseMachine,
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home={"x": (0.1, 5), "y": (0.1, 5), "z": (0.05, 3)},
+        process="process-face-mill",
         models=models_by_drives(EclipseMachine),
     ),
     CatalogueEntry(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from strutwork.names import meant
 
 if TYPE_CHECKING:
     from strutwork.machines.catalogue import Machine
+    from strutwork.machines.naming import NamedMachine
 
 
 def load(name: str | Path) -> Model:
@@ -48,7 +50,7 @@ def load(name: str | Path) -> Model:
 
     if is_machine(text):
         found = named_machine(text)
-        return machine_model(found.machine, found.title, found.around_home)
+        return named_model(found)
     if path.name == text and not os.path.lexists(path):
         raise ModelError(
             text,
@@ -78,7 +80,21 @@ def load_heavy(name: str | Path) -> Model:
     if not is_machine(text):
         return load(text)
     found = require_mass(named_machine(text))
-    return machine_model(found.machine, found.title, found.around_home)
+    return named_model(found)
+
+
+def named_model(found: NamedMachine) -> Model:
+    """A machine of the catalogue at home, with the process that its report takes.
+
+    Parameters
+    ----------
+    found : NamedMachine
+    """
+    from strutwork.machines.process_file import known_process
+
+    model = machine_model(found.machine, found.title, found.around_home)
+    process = found.entry.process
+    return replace(model, process=known_process(process)) if process else model
 
 
 def machine_model(

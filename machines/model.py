@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from strutwork.kinematics import Placement, Poses
     from strutwork.kinematics.mesh_shapes import MeshShape
     from strutwork.kinematics.task_grid import TaskGrid
+    from strutwork.machines.described_process import DescribedProcess
     from strutwork.machines.drives import Drive
     from strutwork.machines.limits import Limit
     from strutwork.machines.model_solid_element import SolidElement
@@ -93,6 +94,8 @@ class Model:
         linkage and none of the file.
     shapes : tuple of MeshShape
         Of bodies, for interference.
+    process : DescribedProcess or None
+        The cut whose stability is reported.
     """
 
     title: str
@@ -115,6 +118,7 @@ class Model:
     rotation: Array = field(default_factory=lambda: np.eye(3))
     closed_form: Callable[[Poses], Placement] | None = None
     shapes: tuple[MeshShape, ...] = ()
+    process: DescribedProcess | None = None
 
     def __repr__(self) -> str:
         kind = type(self).__name__

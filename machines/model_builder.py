@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
 from strutwork.kinematics.coupling import ties_of
+from strutwork.machines.described_process import process_of
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
@@ -120,6 +121,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         joints=tuple(joint.name for joint in joints),
         supports={node: joint.name for node, joint in supports.items()},
         damping=damping_of(tables),
+        process=process_of(tables.process),
         tolerances=tolerances,
         tolerance_costs=costs,
         force_limits=limits,

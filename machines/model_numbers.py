@@ -26,7 +26,7 @@ from strutwork.units import shown
 Steps = tuple[str | int, ...]
 
 #: Tables of the file that say what the numbers within are; others name parts, which say it.
-_SAID = frozenset({"home", "workspace", "damping"})
+_SAID = frozenset({"home", "workspace", "damping", "process"})
 
 #: What makes a name ambiguous within a path.
 _QUOTED = re.compile(r"[.\"*\[\]]|^\s|\s$")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from strutwork.kinematics import DIRECTIONS, Joint, Linkage
+from strutwork.machines.described_process import process_of
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Model
 from strutwork.machines.model_builder import build_model
@@ -23,7 +24,7 @@ LIGHT = frozenset(
     {
         *("title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
         *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
-        *("force_limits", "workspace", "drives", "damping"),
+        *("force_limits", "workspace", "drives", "damping", "process"),
     }
 )
 
@@ -103,6 +104,8 @@ def rebuilt_model(
         new["drives"] = drives_of(after, {j.name: j for j in own})
     if "damping" in differ:
         new["damping"] = damping_of(after)
+    if "process" in differ:
+        new["process"] = process_of(after.process)
     made = replace(model, **new)
     if "motion" in model.__dict__:
         # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does

@@ -49,6 +49,7 @@ from strutwork.machines.model_motion_schema import (
     TaskTable,
     WorkspaceTable,
 )
+from strutwork.machines.model_process_schema import ProcessTable
 from strutwork.machines.model_solid_schema import ShapeTable, SolidTable
 
 #: A beam may be divided into this many elements at most.
@@ -364,3 +365,4 @@ class ModelTable(Table):
     workspace: WorkspaceTable | None = None
     drives: tuple[DriveTable, ...] = ()
     damping: DampingTable | None = None
+    process: ProcessTable | None = None

@@ -28,6 +28,8 @@ SIZES = {
     "singular_plane": 10,
     "modes": 10,
     "assembly_survey": 5,
+    "stability_survey": 5,
+    "cut": 5,
 }
 
 #: What takes less is not kept for later runs, s of a processor.
@@ -172,6 +174,8 @@ def questions(subject: Subject) -> list[tuple[str, ...]]:
         groups.append(("singular_distance", "singular_plane"))
     if subject.vibrates:
         groups.append(("vibration", "vibration_survey") if tool and space else ("vibration",))
+    if not subject.cannot_cut:
+        groups.append(("cut", "stability_survey") if tool and space else ("cut",))
     if moves and space:
         if subject.reversal_plane is not None:
             groups.append(("reversals",))

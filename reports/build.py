@@ -9,6 +9,7 @@ from pathlib import Path
 
 from strutwork import __version__
 from strutwork.errors import ModelError
+from strutwork.machines.described_process import DescribedProcess
 from strutwork.machines.model import Model
 from strutwork.names import meant
 from strutwork.reports.answering import Kept, answering, store_at
@@ -73,6 +74,7 @@ def write_report(
     pdf: bool = False,
     fresh: bool = False,
     errors: Path | None = None,
+    process: DescribedProcess | None = None,
 ) -> WrittenReport:
     """Compute and write a report.
 
@@ -96,6 +98,8 @@ def write_report(
         same code, has computed is reused else.
     errors : Path, optional
         An errors file, by which the chapter on accuracy has the error sheet.
+    process : DescribedProcess, optional
+        The cut whose stability is reported, in place of the machine's own.
 
     Returns
     -------
@@ -116,7 +120,7 @@ def write_report(
     if pdf:
         require_browser()
     return write_page(
-        compose(target, progress, put, fresh=fresh, errors=errors),
+        compose(target, progress, put, fresh=fresh, errors=errors, process=process),
         folder,
         about_of(target),
         pdf=pdf,
@@ -199,6 +203,7 @@ def compose(
     *,
     fresh: bool = False,
     errors: Path | None = None,
+    process: DescribedProcess | None = None,
 ) -> Composed:
     """Find everything that a report says.
 
@@ -219,18 +224,20 @@ def compose(
     if target in pages:
         if put is not None or errors is not None:
             raise ModelError(target, "is a comparison and has no pose.", "Name a machine.")
+        if process is not None:
+            raise ModelError(target, "is a comparison and has no process.", "Name a machine.")
         own = DocumentPage(pages[target])
         kept = Kept(store_at(own.key, fresh=fresh))
         title, subtitle, chapters = own.of(kept, progress)
     elif is_machine(target):
         title, subtitle, chapters, subject = _machine(
-            target, progress, put, fresh=fresh, errors=errors
+            target, progress, put, fresh=fresh, errors=errors, process=process
         )
     elif Path(target).suffix == ".toml" or Path(target).exists():
         from strutwork.reports.model_report import model_report
 
         title, subtitle, chapters, subject = model_report(
-            Path(target), progress, put, fresh=fresh, errors=errors
+            Path(target), progress, put, fresh=fresh, errors=errors, process=process
         )
     else:
         raise ModelError(
@@ -258,6 +265,7 @@ def _machine(
     *,
     fresh: bool,
     errors: Path | None,
+    process: DescribedProcess | None,
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """What every machine has, then what its document adds: of one name, the document's.
 
@@ -268,6 +276,7 @@ def _machine(
     from strutwork.reports.composed import chapters_beside, report_of
 
     model, found = load(name), named_machine(name)
+    model = model if process is None else replace(model, process=process)
     about = Subject(model if put is None else put(model), name, name, progress, errors=errors)
     if put is not None or not found.report:
         subtitle = found.entry.topology

@@ -18,6 +18,7 @@ from strutwork.reports.chapters import (
     motion,
     reversals,
     singularities,
+    stability,
     workspace_assembly,
     workspace_size,
     workspace_stiffness,
@@ -130,6 +131,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: vibration_chapter(s.vibration),
     ),
     _module(workspace_vibration),
+    _module(stability),
     Offered(
         "tolerances",
         "Which forces do manufacturing errors lock in?",

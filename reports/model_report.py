@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
+from strutwork.machines.described_process import DescribedProcess
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import read_model
 from strutwork.names import visible
@@ -21,6 +23,7 @@ def model_report(
     *,
     fresh: bool = False,
     errors: Path | None = None,
+    process: DescribedProcess | None = None,
 ) -> tuple[str, str, tuple[Chapter, ...], Subject]:
     """Title, subtitle, chapters and subject of a model file's report.
 
@@ -32,6 +35,7 @@ def model_report(
     file = visible(path.name)
     subtitle = f"Analysis of the model file {file}"
     model = read_model(path) if put is None else put(read_model(path))
+    model = model if process is None else replace(model, process=process)
     about = Subject(model, file, visible(path.stem), progress, file=path, errors=errors)
     with answering(about, fresh=fresh) as subject:
         return subject.title, subtitle, report_of(subject), subject

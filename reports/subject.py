@@ -22,26 +22,23 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.kinematics.task_surfaces import Plane
 from strutwork.machines.model import Model
 from strutwork.machines.singular_sections import PoseDistance, pose_distance, section_family
-from strutwork.msa.part_numbers import PartNumbers, same_numbers
 from strutwork.names import visible
 from strutwork.reports.answers import Source, answer
 from strutwork.reports.chapters.overconstraint_model import ModelTolerances, study_model_tolerances
+from strutwork.reports.cut_study import CutStudy, study_cut
+from strutwork.reports.found_changes import found_changes
 from strutwork.reports.model_check import ModelCheck, check_model
 from strutwork.reports.model_solution import ModelSolution, solve_model
-from strutwork.reports.survey_words import least
 from strutwork.reports.vibration_study import VibrationStudy, has_mass, study_model_vibration
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.answers import Assembly, Stiffness, Vibration
-from strutwork.studies.dimension import dimensions
-from strutwork.studies.gradient import gradient
 from strutwork.studies.machine_modes import MachineModes, machine_modes
 from strutwork.studies.model_damping import model_damping
-from strutwork.studies.parametric import Parametric
 from strutwork.studies.progress import Progress, silent
 from strutwork.studies.reversal_study import ReversalStudy, reversal_study
+from strutwork.studies.stability_answer import Stability
 from strutwork.studies.standard_motion import StandardMotion, standard_motion
 from strutwork.studies.survey import survey
-from strutwork.studies.tangents import Tangents
 from strutwork.studies.workspace import Workspace, workspace
 from strutwork.studies.workspace_margin import MachineMargin, interference_of
 
@@ -169,24 +166,7 @@ class Subject:
         A machine that was moved since it was read has none: its file describes it elsewhere.
         """
         named = str(self.file) if self.file is not None else self.name
-        try:
-            machine = Parametric.of(named)
-        except StrutworkError:
-            return ()
-        if not _alike(machine.model(), self.model):
-            return ()
-        parameters = dimensions(machine)
-        if not parameters:
-            return ()
-        tangents = Tangents.of(machine.model, parameters)
-        found, free = [], self.stiffness_survey["stiffness_free"]
-        for axis in "xyz":
-            values = free.sel(direction=axis).to_numpy()
-            if tangents.parameters and np.isfinite(values).any():
-                worst = least(self.stiffness_survey, np.where(np.isfinite(values), values, np.nan))
-                task = {d: [v] for d, v in worst.task.items()}
-                found.append(gradient(tangents, (), [f"stiffness_{axis}"], task))
-        return tuple(found)
+        return found_changes(self.model, named, self.stiffness_survey)
 
     @property
     def damping(self) -> AnyDamping | None:
@@ -205,6 +185,35 @@ class Subject:
         return survey(
             self.model, self.grid, [answer], progress=self._told("vibration over the workspace")
         )
+
+    @property
+    def cannot_cut(self) -> str:
+        """What the stability of a cut lacks; empty where there is all."""
+        process = self.model.process
+        if process is None:
+            return "no cut is given: add [process], or give --process"
+        if self.model.tool is None:
+            return "it has no tool: add [tool] with tcp"
+        damped = self.damping is not None or process.modal_ratio is not None
+        if not (damped and has_mass(self.model)):
+            return "it needs mass and damping: add densities and [damping]"
+        return ""
+
+    @cached_property
+    def unstable(self) -> str:
+        """Why nothing is said of the stability of a cut; empty where something is."""
+        return self.cannot_cut or self._reason(lambda: self.cut)
+
+    @answer
+    def cut(self) -> CutStudy:
+        """Stability of its cut at home."""
+        return study_cut(self.model)
+
+    @answer
+    def stability_survey(self) -> xr.Dataset:
+        """Limiting depths over the workspace."""
+        told = self._told("stability over the workspace")
+        return survey(self.model, self.grid, [Stability.of(self.model)], progress=told)
 
     @answer
     def assembly_survey(self) -> xr.Dataset:
@@ -389,10 +398,3 @@ class Subject:
 
     def _told(self, part: str) -> Progress:
         return silent if self.progress is None else self.progress(part)
-
-
-def _alike(one: Model, other: Model) -> bool:
-    """Whether two models stand at the same place and have the same parts."""
-    return np.array_equal(one.placement.positions, other.placement.positions) and same_numbers(
-        PartNumbers.of(one.structure), PartNumbers.of(other.structure)
-    )

@@ -30,7 +30,7 @@ from strutwork.fea.modes import searched_modes
 from strutwork.fea.uff import UniversalFile, mode_file, node_positions, response_records
 from strutwork.fea.uff_write import write_universal
 from strutwork.files import write_whole
-from strutwork.machines import is_machine, named_machine, require_mass
+from strutwork.machines import is_machine, named_machine
 from strutwork.machines.model import Model
 from strutwork.msa import LoadCase, PlacedStructure
 from strutwork.names import choices
@@ -128,6 +128,20 @@ def vibration_target(
 ) -> Target:
     """The structure that a model file or a machine's name stands for.
 
+    Parameters are those of `vibrating_model`, as are the errors.
+    """
+    return model_target(*vibrating_model(name, modal_ratio, loss_factor, preload, put))
+
+
+def vibrating_model(
+    name: str,
+    modal_ratio: float | None = None,
+    loss_factor: float | None = None,
+    preload: str | None = None,
+    put: Callable[[Model], Model] | None = None,
+) -> tuple[Model, str, Damping | None]:
+    """The model that a model file or a machine's name stands for, its stem and a given damping.
+
     Parameters
     ----------
     name : str
@@ -145,7 +159,7 @@ def vibration_target(
         No such machine, variant or file, a variant for statics, a wrong model, both kinds of
         damping, an unknown load case.
     """
-    from strutwork.machines.load import load, machine_model
+    from strutwork.machines.load import load, load_heavy
 
     if modal_ratio is not None and loss_factor is not None:
         raise ModelError(
@@ -161,15 +175,13 @@ def vibration_target(
             raise ModelError(
                 name, "has no load cases to preload it.", "Describe it in a model file."
             )
-        found = require_mass(named_machine(name))
-        model = machine_model(found.machine, found.title)
-        model = model if put is None else put(model)
-        return Target(model.title, found.stem, model.placed, model.nodes, given)
+        model = load_heavy(name)
+        return model if put is None else put(model), named_machine(name).stem, given
     model = load(name)
     model = model if put is None else put(model)
     if preload is not None:
         model = replace(model, preload=preload)
-    return model_target(model, Path(name).stem, given)
+    return model, Path(name).stem, given
 
 
 def model_target(model: Model, stem: str, given: Damping | None = None) -> Target:
@@ -210,7 +222,7 @@ class TargetModes:
         """The same without the rigid-body modes."""
         after = slice(int(self.modes.rigid_body_modes), None)
         ratios = None if self.ratios is None else self.ratios[after]
-        return TargetModes(self.target, _some(self.modes, after), ratios, self.idle)
+        return TargetModes(self.target, some_modes(self.modes, after), ratios, self.idle)
 
     @property
     def rigid_line(self) -> str:
@@ -258,7 +270,7 @@ def target_modes(target: Target, count: int) -> TargetModes:
     warn_of_preload(found, target.cases)
     # a preload gives some free motions a frequency
     rigid = int(found.rigid_body_modes)
-    found = _some(found, slice(rigid + count))
+    found = some_modes(found, slice(rigid + count))
     exist = len(found.frequencies) - rigid
     if exist < count:
         note = f"{count} modes were requested, but only {exist} exist."
@@ -268,7 +280,14 @@ def target_modes(target: Target, count: int) -> TargetModes:
     return TargetModes(target, found, ratios, idle if len(idle) <= rigid else ())
 
 
-def _some(found: Modes, which: slice) -> Modes:
+def some_modes(found: Modes, which: slice) -> Modes:
+    """Some of the modes.
+
+    Parameters
+    ----------
+    found : Modes
+    which : slice
+    """
     return replace(
         found,
         frequencies=found.frequencies[which],

@@ -135,19 +135,28 @@ def study_model_vibration(model: Model, key: str) -> VibrationStudy:
         No mass, or all locked.
     """
     target = model_target(model if model.title else replace(model, title=key), key)
+    return _study(target, drawn_lines(model), None)
+
+
+def drawn_lines(model: Model) -> tuple[tuple[str, str], ...]:
+    """Pairs of nodes that rigid parts of a model connect, as they are drawn.
+
+    Parameters
+    ----------
+    model : Model
+    """
     known = set(model.placed.structure.mesh_nodes)
     beams = {frozenset(b.nodes) for b in model.structure.beams}
     linkage = model.structure.linkage
     inside = {node for solid in model.solids for node in solid.nodes}
     # a solid is drawn by its own edges
     drawn = [b for b in linkage.bodies if b.name != GROUND and not inside.intersection(b.nodes)]
-    lines = [
+    return tuple(
         (body.nodes[0], other)
         for body in (*drawn, *(model.structure.rigid if inside else ()))
         for other in body.nodes[1:]
         if {body.nodes[0], other} <= known and frozenset((body.nodes[0], other)) not in beams
-    ]
-    return _study(target, lines, None)
+    )
 
 
 def has_mass(model: Model) -> bool:

@@ -315,8 +315,8 @@ class Machine(Model, Outward):
             Beside a path of `strutwork.studies.Parametric.paths` a list of values, or a pair for a
             range; SI, or texts with units.
         *answers : str or Answer
-            "stiffness" where there is none; "vibration", "assembly", "accuracy", "transmission",
-            "mass", or those of a survey.
+            "stiffness" where there is none; "vibration", "assembly", "accuracy", "stability",
+            "transmission", "mass", or those of a survey.
         **options
             Of `strutwork.studies.study.Study.of` (sample, count, seed, workspace, reductions) and
             of `strutwork.studies.study.Study.run` (workers, progress, folder, executor); `out` and

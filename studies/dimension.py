@@ -19,6 +19,7 @@ _ASIDE = frozenset(
     {
         *("gravity", "loads", "line_loads", "settlements", "misfits", "tolerances", "workspace"),
         *("force_limits", "drives", "home", "damping", "limits", "task", "title", "preload"),
+        "process",
     }
 )
 

@@ -22,6 +22,7 @@ from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import ONE_PERCENT
 from strutwork.studies.frequency_answer import HomeFrequency
 from strutwork.studies.model_damping import model_damping
+from strutwork.studies.stability_answer import Stability
 from strutwork.studies.transmission_answer import Transmission
 
 Array = NDArray[Any]
@@ -150,6 +151,7 @@ QUESTIONS: Mapping[str, Callable[[Asked, Model], Answer]] = {
     "frequency": lambda _, model: HomeFrequency(model),
     "assembly": lambda _, model: Assembly.of(model),
     "accuracy": _accuracy,
+    "stability": lambda _, model: Stability.of(model),
     "transmission": lambda _, model: Transmission.of(model),
     "mass": lambda _, __: Mass(),
 }

@@ -1,47 +1,57 @@
-"""`strutwork lobes`: how deep a machine can mill without chatter, by spindle speed."""
+"""`strutwork lobes`: how deep a machine can mill without chatter, by spindle speed and pose."""
 
 from __future__ import annotations
 
+import json as json_text
+from dataclasses import replace
+from math import degrees
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+import xarray as xr
 
-from strutwork.cutting import Cutter, Frame, Milling, material
 from strutwork.errors import ModelError
+from strutwork.fea import ModalRatio
+from strutwork.machines.model import Model
 from strutwork.names import visible
+from strutwork.reports.cli.cut_words import Cut, CutWords
 from strutwork.reports.cli.output import console, print_json, table, tell
+from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import HOME, Where
+from strutwork.reports.cli.survey_output import print_kept, written
+from strutwork.reports.grid_words import grid_of_words
+from strutwork.reports.limiting_part import limiting_sentence
 from strutwork.reports.lobes import TargetLobes, target_lobes
-from strutwork.reports.vibration import vibration_target
-from strutwork.units import ANGLE, LENGTH, quantity
+from strutwork.reports.survey_words import grid_text, largest, least
+from strutwork.reports.vibration import Target, model_target, vibrating_model
+from strutwork.studies.stability_answer import Stability
+from strutwork.studies.survey import survey
+from strutwork.units import LENGTH, quantity
 
-#: What --tool takes, and the dimension of each.
-TOOL = {"diameter": LENGTH, "helix": ANGLE, "lead": ANGLE}
+#: Directions of the feed that are printed.
+PRINTED = 12
 
-Array = NDArray[Any]
-
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-
-#: Speeds at most.
-MOST = 2000
+#: Quantities of a survey that are printed: name, words, factor, unit.
+OVER = (
+    ("limiting_depth", "depth stable at every speed", 1e3, "mm"),
+    ("least_depth", "the same, worst feed direction", 1e3, "mm"),
+    ("chatter_frequency", "chatter frequency", 1.0, "Hz"),
+    ("pocket_depth", "depth at the best speed", 1e3, "mm"),
+    ("removal_rate", "removal rate there", 6e7, "cm³ per minute"),
+)
 
 
 def run(
     name: str,
-    tool: str,
-    of: str,
-    immersion: float,
-    way: str,
-    speeds: str,
+    words: CutWords,
     *,
     node: str = "TCP",
-    axis: str = "z",
-    feed: str = "x",
-    feed_per_tooth: str = "0.1 mm",
     deepest: str | None = None,
+    over: list[str] | None = None,
+    rose: bool = False,
     out: str | None = None,
+    workers: int | None = None,
     at: Where = HOME,
     modal_ratio: float | None = None,
     loss_factor: float | None = None,
@@ -49,102 +59,89 @@ def run(
     json: bool = False,
 ) -> None:
     """Compute limits and print the absolute one, the best pockets and the depths by speed."""
-    file, _, entry = of.rpartition(":")
-    coefficients = material(entry, file or None)
-    process = Milling(cutter_of(tool), coefficients, immersion, way)  # type: ignore[arg-type]
-    rpm = speeds_of(speeds)
-    frame = Frame.along(direction_of(axis, "--axis"), direction_of(feed, "--feed"))
-    per_tooth = quantity(feed_per_tooth, LENGTH, "--feed-per-tooth")
+    model, stem, given = vibrating_model(name, modal_ratio, loss_factor, preload, at.put)
+    cut = words.of(model)
+    target = model_target(model, stem, given)
+    if target.damping is None and cut.modal_ratio is not None:
+        target = replace(target, damping=ModalRatio(cut.modal_ratio))
     deep = None if deepest is None else quantity(deepest, LENGTH, "--deepest")
-    target = vibration_target(name, modal_ratio, loss_factor, preload, at.put)
-    found = target_lobes(target, process, frame, node, rpm, per_tooth, deep)
+    found = target_lobes(target, cut.process, cut.frame, node, cut.speeds, cut.feed_per_tooth, deep)
     if found.note:
         tell(found.note)
-    written = None if out is None else str(found.write(Path(out)))
+    surveyed = None if not over else _survey(model, target, cut, node, over, workers, name)
+    files = [] if out is None else [str(p) for p in found.write(Path(out), rose=rose)]
+    if out is not None and surveyed is not None:
+        files += written(out, name, "stability", surveyed)
+    result = found.to_dict(rose=rose)
+    if surveyed is not None:
+        result["over"] = _result(name, model, surveyed)
     if json:
-        print_json(found.to_dict() | ({"data": [written]} if written else {}))
+        print_json(result | ({"data": files} if files else {}))
         return
-    _print(found, of)
-    if written:
-        console().print(f"Written: {visible(written)}", markup=False, soft_wrap=True)
+    _print(found, cut.material)
+    if rose:
+        _print_rose(found)
+    if surveyed is not None and over:
+        _print_over(result["over"], _grid_text(model, over))
+    for file in files:
+        console().print(f"Written: {visible(file)}", markup=False, soft_wrap=True)
 
 
-def cutter_of(text: str) -> Cutter:
-    """The cutter of --tool.
-
-    Raises
-    ------
-    ModelError
-        A word of another shape, no diameter, no teeth.
-    """
-    numbers: dict[str, float] = {}
-    for word in text.split(","):
-        key, sign, value = (part.strip() for part in word.partition("="))
-        if not sign or key not in (*TOOL, "teeth") or key in numbers:
-            raise ModelError(
-                "--tool",
-                f'"{word.strip()}" cannot be read.',
-                "Write diameter=20mm,teeth=4 and, if needed, helix=30deg and lead=45deg.",
-            )
-        if key == "teeth":
-            if not (value.isdecimal() and value.isascii() and len(value) < 4):
-                raise ModelError("--tool", f'has "{value}" teeth.', "Give a whole number from 1.")
-            numbers[key] = int(value)
-        else:
-            numbers[key] = quantity(value, TOOL[key], f"--tool, {key}")
-    for key in ("diameter", "teeth"):
-        if key not in numbers:
-            raise ModelError("--tool", f"has no {key}.", "Write diameter=20mm,teeth=4.")
-    teeth = int(numbers.pop("teeth"))
-    return Cutter(numbers.pop("diameter"), teeth, **numbers)
+def _survey(
+    model: Model,
+    target: Target,
+    cut: Cut,
+    node: str,
+    over: list[str],
+    workers: int | None,
+    name: str,
+) -> xr.Dataset:
+    """The cut over poses; axis and feed turn with the tool."""
+    port = target.port(f"{node}:x")
+    answer = Stability.at(
+        model, cut.process, cut.frame, cut.speeds, target.damping, cut.feed_per_tooth
+    )
+    answer = replace(answer, tool=port.node, against=port.against)
+    with shown() as started:
+        progress = started(f"stability of {visible(name)}")
+        return survey(model, _grid(model, over), [answer], workers=workers, progress=progress)
 
 
-def speeds_of(text: str) -> Array:
-    """Speeds (s,) of LOW..HIGH:N, rpm.
-
-    Raises
-    ------
-    ModelError
-        Text of another shape, or numbers out of range.
-    """
-    span, _, count = text.partition(":")
-    low, dots, high = span.partition("..")
-    try:
-        first, last, number = float(low), float(high if dots else low), int(count or "1")
-    except ValueError:
-        first, last, number = np.nan, np.nan, 0
-    good = 0 < first <= last < np.inf and 1 <= number <= MOST and (number > 1 or first == last)
-    if not good:
+def _grid(model: Model, over: list[str]) -> Any:
+    if over != ["workspace"]:
+        return grid_of_words(over)
+    if model.workspace is None:
         raise ModelError(
-            "--speeds",
-            f'"{text}" cannot be read.',
-            f"Write LOW..HIGH:N in rpm with up to {MOST} speeds, as in 2000..12000:51.",
+            "--over", "names the workspace, and none is stated.", "Give ranges, as x=0mm..20mm:5."
         )
-    return np.linspace(first, last, number)
+    return model.workspace
 
 
-def direction_of(text: str, option: str) -> tuple[float, float, float]:
-    """A direction of x, -y, z, or three numbers.
+def _grid_text(model: Model, over: list[str]) -> str:
+    return grid_text(_grid(model, over))
 
-    Raises
-    ------
-    ModelError
-        Text of another shape.
-    """
-    bare = text.strip().removeprefix("-")
-    if bare in AXES:
-        sign = -1.0 if text.strip().startswith("-") else 1.0
-        x, y, z = AXES[bare]
-        return (sign * x, sign * y, sign * z)
-    try:
-        x, y, z = (float(part) for part in text.split(","))
-    except ValueError:
-        x = y = z = np.nan
-    if not np.all(np.isfinite([x, y, z])):
-        raise ModelError(
-            option, f'"{text}" is no direction.', "Write x, y, z, -x, -y, -z or three numbers."
-        )
-    return (x, y, z)
+
+def _result(name: str, model: Model, found: xr.Dataset) -> dict[str, Any]:
+    extremes: dict[str, Any] = {}
+    for key, *_ in OVER:
+        values = found[key].to_numpy()
+        values = np.where(np.isfinite(values), values, np.nan)
+        if not np.isfinite(values).any():
+            extremes[key] = None
+            continue
+        low, high = least(found, values), largest(found, values)
+        extremes[key] = {
+            "least": {"value": low.value, "at": low.task, "words": low.where},
+            "largest": {"value": high.value, "at": high.task, "words": high.where},
+        }
+    return {
+        "target": name,
+        "model": model.title,
+        "poses": int(found.attrs["poses"]),
+        "poses_kept": int(found.attrs["poses_kept"]),
+        "dropped_by_reason": json_text.loads(found.attrs["dropped_by_reason"]),
+        "extremes": extremes,
+    }
 
 
 def _print(found: TargetLobes, of: str) -> None:
@@ -174,11 +171,52 @@ def _print(found: TargetLobes, of: str) -> None:
         ]
         out.print(table("Best speeds", ["speed rpm", "depth mm", "cm³ per minute"], best))
     depth, frequency = found.absolute
-    out.print(
+    for line in (
         f"Stable at every speed (zero order): {1e3 * depth:.4g} mm, chatter at {frequency:.5g} Hz",
-        markup=False,
-        soft_wrap=True,
+        limiting_sentence(found.effects),
+    ):
+        out.print(line, markup=False, soft_wrap=True)
+
+
+def _print_rose(found: TargetLobes) -> None:
+    rose = found.rose
+    some = slice(None, None, max(1, len(rose.feeds) // PRINTED))
+    rows = [
+        [f"{degrees(angle):g}", _depth(depth), f"{at:.5g}" if np.isfinite(at) else ""]
+        for angle, depth, at in zip(
+            rose.feeds[some], rose.depth[some], rose.frequencies[some], strict=True
+        )
+    ]
+    console().print(
+        table(
+            "Depth stable at every speed, by direction of the feed",
+            ["turned by degrees", "depth mm", "chatter Hz"],
+            rows,
+        )
     )
+
+
+def _print_over(result: dict[str, Any], grid: str) -> None:
+    print_kept(result, grid)
+    rows: list[tuple[object, ...]] = []
+    for key, text, factor, unit in OVER:
+        entry = result["extremes"][key]
+        if entry is None:
+            rows.append((text, unit, "no limit", "", "no limit", ""))
+            continue
+        low, high = entry["least"], entry["largest"]
+        rows.append(
+            (
+                text,
+                unit,
+                low["value"] * factor,
+                low["words"],
+                high["value"] * factor,
+                high["words"],
+            )
+        )
+    columns = ["", "unit", "least", "at", "largest", "at"]
+    console().print(table("Over the poses", columns, rows, names=2))
 
 
 def _depth(depth: float) -> str:

@@ -20,33 +20,43 @@ class Way(StrEnum):
 
 def lobes(
     target: Target,
+    process: Annotated[
+        str | None,
+        typer.Option(
+            callback=typed,
+            metavar="FILE",
+            help="A file of the cut; its keys are those of a model's [process], which is used "
+            "where nothing else is said. Other options change it.",
+        ),
+    ] = None,
     tool: Annotated[
-        str,
+        str | None,
         typer.Option(
             "--tool",
             callback=typed,
             metavar="diameter=D,teeth=N,...",
             help="The cutter, as in --tool diameter=20mm,teeth=4; also helix and lead angle.",
         ),
-    ],
+    ] = None,
     material: Annotated[
-        str,
+        str | None,
         typer.Option(
             callback=typed,
             metavar="NAME",
             help="Workpiece material: of Strutwork's library, or FILE.toml:NAME of a file.",
         ),
-    ],
+    ] = None,
     speeds: Annotated[
-        str,
+        str | None,
         typer.Option(
             callback=typed, metavar="LOW..HIGH:N", help="Spindle speeds, rpm: 2000..12000:51."
         ),
-    ],
+    ] = None,
     immersion: Annotated[
-        float, typer.Option(help="Radial depth of cut by the diameter, above 0 to 1.")
-    ] = 1.0,
-    way: Annotated[Way, typer.Option(help="Up- or down-milling.")] = Way.DOWN,
+        float | None,
+        typer.Option(help="Radial depth of cut by the diameter, above 0 to 1, the default."),
+    ] = None,
+    way: Annotated[Way | None, typer.Option(help="Up- or down-milling; down by default.")] = None,
     node: Annotated[
         str,
         typer.Option(
@@ -56,17 +66,20 @@ def lobes(
         ),
     ] = "TCP",
     axis: Annotated[
-        str,
+        str | None,
         typer.Option(
-            callback=typed, metavar="DIR", help="Axis of the tool, from its tip to its holder."
+            callback=typed,
+            metavar="DIR",
+            help="Axis of the tool, from its tip to its holder; z by default.",
         ),
-    ] = "z",
+    ] = None,
     feed: Annotated[
-        str, typer.Option(callback=typed, metavar="DIR", help="Direction of the feed.")
-    ] = "x",
+        str | None,
+        typer.Option(callback=typed, metavar="DIR", help="Direction of the feed; x by default."),
+    ] = None,
     feed_per_tooth: Annotated[
-        str, typer.Option(callback=typed, help="For removal rates.")
-    ] = "0.1 mm",
+        str | None, typer.Option(callback=typed, help="For removal rates; 0.1 mm by default.")
+    ] = None,
     deepest: Annotated[
         str | None,
         typer.Option(
@@ -74,34 +87,52 @@ def lobes(
             help="Largest depth tried exactly; ten times the absolute limit by default.",
         ),
     ] = None,
+    rose: Annotated[
+        bool, typer.Option("--rose", help="Also the depths by direction of the feed.")
+    ] = False,
+    over: Annotated[
+        list[str] | None,
+        typer.Option(
+            callback=typed,
+            metavar="DIR=LOW..HIGH:N,...",
+            help="Also over poses of the tool, as in --over x=-100mm..100mm:5, or --over "
+            "workspace for those of the file. Axis and feed turn with the tool.",
+        ),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
+    ] = None,
     pose: Pose = None,
     joint: JointAt = None,
     out: Annotated[
         str | None,
-        typer.Option("--out", "-o", metavar="DIR", help="Write the limits to this folder as CSV."),
+        typer.Option(
+            "--out",
+            "-o",
+            metavar="DIR",
+            help="Write the limits to this folder as CSV, poses as NetCDF and CSV.",
+        ),
     ] = None,
     modal_ratio: Ratio = None,
     loss_factor: Loss = None,
     preload: Preload = None,
     json: Json = False,
 ) -> None:
-    """Compute how deep a machine can mill without chatter, by spindle speed."""
+    """Compute how deep a machine can mill without chatter, by spindle speed and pose."""
     from strutwork.reports.cli import lobes as work
+    from strutwork.reports.cli.cut_words import CutWords
     from strutwork.reports.cli.subject import where
 
+    turning = None if way is None else way.value
     work.run(
         target,
-        tool,
-        material,
-        immersion,
-        way.value,
-        speeds,
+        CutWords(process, tool, material, speeds, immersion, turning, axis, feed, feed_per_tooth),
         node=node,
-        axis=axis,
-        feed=feed,
-        feed_per_tooth=feed_per_tooth,
         deepest=deepest,
+        over=over,
+        rose=rose,
         out=out,
+        workers=workers,
         at=where(pose, joint),
         modal_ratio=modal_ratio,
         loss_factor=loss_factor,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from strutwork.machines.naming import MARK
+from strutwork.machines.process_file import read_process
 from strutwork.names import visible
 from strutwork.reports.build import write_report
 from strutwork.reports.cli.output import console, print_json, tell
@@ -22,13 +23,17 @@ def run(
     pdf: bool = False,
     fresh: bool = False,
     errors: str | None = None,
+    process: str | None = None,
 ) -> None:
     """Write the report and say where it lies."""
     folder = Path(out) if out is not None else Path("out") / Path(target).stem.replace(MARK, "-")
+    cut = None if process is None else read_process(process)
     with shown("steps") as started:
         put = None if at.home else at.put
         beside = None if errors is None else Path(errors)
-        written = write_report(target, folder, started, put, pdf=pdf, fresh=fresh, errors=beside)
+        written = write_report(
+            target, folder, started, put, pdf=pdf, fresh=fresh, errors=beside, process=cut
+        )
     if json:
         printed_as = {} if written.pdf is None else {"pdf": str(written.pdf)}
         data = [str(p) for p in written.data]

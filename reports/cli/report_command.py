@@ -7,6 +7,7 @@ from typing import Annotated
 import typer
 
 from strutwork.reports.cli.choices import JointAt, Json, Pose
+from strutwork.reports.cli.usage import typed
 
 
 def report(
@@ -50,6 +51,12 @@ def report(
             metavar="FILE",
             help="Errors file: the chapter on accuracy has the displacement of the tool by cause "
             "and part.",
+    process: Annotated[
+        str | None,
+        typer.Option(
+            callback=typed,
+            metavar="FILE",
+            help="A file of the cut whose stability is reported, instead of the model's [process].",
         ),
     ] = None,
     json: Json = False,
@@ -59,7 +66,7 @@ def report(
     from strutwork.reports.cli.subject import where
 
     if everything:
-        if target or pose or joint or verify or pdf or fresh or errors:
+        if target or pose or joint or verify or pdf or fresh or errors or process:
             raise typer.BadParameter("--all takes no target, pose or other option but --out.")
         work.run_all(out, json)
         return
@@ -72,4 +79,4 @@ def report(
             )
         work.verify(target, json)
         return
-    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh, errors=errors)
+    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh, errors=errors, process=process)

@@ -58,9 +58,75 @@ def test_exact_limits_that_are_withheld_leave_the_others(strutwork: Program) -> 
     assert "Ask for higher speeds" in run.err
 
 
+def test_the_process_of_a_model_and_of_a_file_stand_for_the_options(
+    strutwork: Program, tmp_path: Path
+) -> None:
+    file = tmp_path / "cut.toml"
+    file.write_text(
+        'diameter = "20 mm"\nteeth = 4\nmaterial = "aluminium-7075-t6"\nimmersion = 0.5\n'
+        'speeds = { from = "500 rpm", to = "2500 rpm", points = 5 }\n'
+    )
+    plain = strutwork("lobes", HEAD, *CUT, "--json").result
+    given = strutwork("lobes", HEAD, "--process", file, "--json").result
+    # the model's own has more speeds
+    own = strutwork("lobes", HEAD, *CUT[-2:], "--json").result
+    for found in (given, own):
+        assert found["speeds_rpm"] == pytest.approx(plain["speeds_rpm"])
+        assert found["exact_depth"] == pytest.approx(plain["exact_depth"])
+
+
+def test_poses_and_the_rose_are_printed_and_written(strutwork: Program, tmp_path: Path) -> None:
+    asked = ("lobes", HEAD, *CUT, "--rose", "--over", "rx=-2deg..2deg:3,z=630mm")
+    run = strutwork(*asked, "-o", tmp_path)
+    assert run.status == 0
+    assert "raises the depth by" in run.out
+    assert "by direction of" in run.out
+    assert "3 of 3 are valid" in run.out
+    found = strutwork(*asked, "--json").result
+    assert len(found["rose"]["absolute_depth"]) == 36
+    assert sum(found["effects"].values()) == pytest.approx(1.0, abs=1e-4)
+    depth = found["over"]["extremes"]["limiting_depth"]
+    assert depth["least"]["value"] < depth["largest"]["value"]
+    assert {p.name for p in tmp_path.iterdir()} == {
+        "3-rps-lobes.csv",
+        "3-rps-rose.csv",
+        "3-rps-stability-survey.csv",
+        "3-rps-stability-survey.nc",
+    }
+
+
+def test_a_machine_without_a_process_needs_the_options(strutwork: Program) -> None:
+    run = strutwork("lobes", "examples/machines/tricept.toml")
+    assert (run.status, run.out) == (1, "")
+    assert "neither --process nor the model states a process" in run.err
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "material = "),
+        ("tangential = 6e8\n", "coefficients without a source"),
+        ('material = "butter"\n', "is not in the library"),
+        ('material = "aluminium-7075-t6"\ntangential = 6e8\n', "a material and a tangential"),
+        ('material = "aluminium-7075-t6"\nradial = 6e8\n', "coefficients beside a material"),
+    ],
+)
+def test_a_wrong_process_file_is_refused(
+    text: str, said: str, strutwork: Program, tmp_path: Path
+) -> None:
+    file = tmp_path / "cut.toml"
+    speeds = 'speeds = { from = "500 rpm", to = "2500 rpm" }\n'
+    file.write_text(f'diameter = "20 mm"\nteeth = 4\n{text}{speeds}')
+    run = strutwork("lobes", HEAD, "--process", file)
+    assert (run.status, run.out) == (1, "")
+    assert said in run.err
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
+        (("--over", "z=nowhere"), "nowhere"),
+        (("--process", "missing.toml"), "does not exist"),
         (("--tool", "diameter=20mm"), "has no teeth"),
         (("--tool", "teeth=4"), "has no diameter"),
         (("--tool", "diameter=20mm,teeth=many"), 'has "many" teeth'),

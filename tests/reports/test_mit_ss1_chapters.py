@@ -44,6 +44,7 @@ CHAPTERS = (
     "ellipsoids",
     "budget",
     "workspace-stiffness",
+    "stability",
     "dynamics",
     "inputs",
     "files",
