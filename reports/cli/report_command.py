@@ -51,6 +51,8 @@ def report(
             metavar="FILE",
             help="Errors file: the chapter on accuracy has the displacement of the tool by cause "
             "and part.",
+        ),
+    ] = None,
     process: Annotated[
         str | None,
         typer.Option(
@@ -79,4 +81,5 @@ def report(
             )
         work.verify(target, json)
         return
-    work.run(target, out, json, where(pose, joint), pdf=pdf, fresh=fresh, errors=errors, process=process)
+    at = where(pose, joint)
+    work.run(target, out, json, at, pdf=pdf, fresh=fresh, errors=errors, process=process)
