@@ -156,7 +156,10 @@ def main() -> None:
             f"{poses:,} poses, {took:.0f} s, {size / 1e6:.0f} MB on disk, {peak():.2f} GB at most"
         )
         return
-    shown(table(smallest=chosen.smallest), DOCUMENT, chosen)
+    text = table(smallest=chosen.smallest)
+    # the page's second part is that of benchmarks.variant_speed
+    kept = DOCUMENT.read_text("utf-8").partition("\n## Variants")
+    shown(text.rstrip("\n") + "\n" + kept[1] + kept[2], DOCUMENT, chosen)
 
 
 if __name__ == "__main__":
