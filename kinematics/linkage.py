@@ -156,6 +156,10 @@ class Linkage:
 
     def states(self) -> NDArray[np.int8]:
         """`State` of every joint direction in statics, (j, 6); what follows others is locked."""
+        return self._states.copy()
+
+    @cached_property
+    def _states(self) -> NDArray[np.int8]:
         found = np.asarray([j.states for j in self.joints], dtype=np.int8).reshape(-1, 6)
         found[self.tied_mask()] = State.LOCKED
         return found
