@@ -25,6 +25,9 @@ ToolMethod = Literal["compiled", "saddle_point", "null_space", "condensed", "spa
 #: Poses from which the compiled kernel is worth loading.
 COMPILED_FROM = 256
 
+#: As many of variants of one structure, each of which the dense solvers would take by itself.
+VARIANTS_FROM = 64
+
 #: Poses solved at once by the dense solvers: keeps a stack of frames within some megabytes.
 CHUNK = 128
 
@@ -104,8 +107,8 @@ def compliance_and_outcome(
             "One of: compiled, " + ", ".join(METHODS),
         )
     program = None
-    poses = max(system.poses, expected_poses(placed.structure))
-    if method == "compiled" or (method is None and poses >= COMPILED_FROM):
+    many = system.poses >= COMPILED_FROM or expected_poses(placed.structure) >= VARIANTS_FROM
+    if method == "compiled" or (method is None and many):
         program = program_of(system) if available() else None
         if program is None and method == "compiled":
             raise ModelError(
