@@ -139,9 +139,9 @@ def _cover(
         )
     solved = int(np.count_nonzero(found["status"].to_numpy() == 0))
     lost = len(study) - solved
-    text = f"All {len(study)} machines can be."
+    text = f"All {len(study)} machines can be built."
     if lost:
-        text = f"{solved} of {len(study)} machines can be; {MACHINES} says why the others cannot."
+        text = f"{solved} of {len(study)} machines can be built; {MACHINES} says why the others cannot."
     blocks: list[Answers | Text | Figure] = [Answers(tuple(said)), Text(text)]
     drawn = [*parameters[:DRAWN], *answers[:DRAWN]]
     titles, values = zip(*(_read(c) for c in drawn), strict=True)

@@ -255,7 +255,7 @@ class Study:
             said = Counter(words[i] for i in arrays["reason"].tolist())
             raise ModelError(
                 "study",
-                f"none of its {len(self)} machines can be: {said.most_common(1)[0][0]}",
+                f"none of its {len(self)} machines can be built: {said.most_common(1)[0][0]}",
                 "Change the ranges of its parameters.",
             )
         return analysed(self, study_dataset(self, arrays, words))

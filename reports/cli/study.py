@@ -144,7 +144,7 @@ def _print(study: Study, found: xr.Dataset, result: dict[str, Any]) -> None:
     where = f"{counted(poses, 'pose')} and home" if poses else "home"
     out.print(
         f"{counted(result['machines'], 'machine')} ({study.drawn.kind}), each at {where}; "
-        f"{result['solved']} can be",
+        f"{result['solved']} can be built",
         markup=False,
     )
     for reason, count in result["dropped_by_reason"].items():

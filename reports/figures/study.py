@@ -46,7 +46,7 @@ def parallel(titles: Sequence[str], values: Sequence[ArrayLike], colour: int) ->
                 "rangefont": {"size": 1, "color": "rgba(0,0,0,0)"},
             }
         ],
-        "layout": layout(margin={"l": 70, "r": 50, "t": 96, "b": 24}),
+        "layout": layout(margin={"l": 70, "r": 80, "t": 96, "b": 24}),
     }
 
 

@@ -112,7 +112,7 @@ def test_a_machine_that_cannot_be_is_flagged_and_the_others_go_on() -> None:
     numbers = found["stiffness_free_worst"].to_numpy()
     assert np.isnan(numbers[0]).all()
     assert np.isfinite(numbers[1]).all()
-    with pytest.raises(ModelError, match=r"none of its 1 machines can be: section cylinder"):
+    with pytest.raises(ModelError, match=r"none of its 1 machines can be built: section cylinder"):
         Study.of(MACHINES / "6-ups.toml", {path: ["60 mm"]}, workspace={}).run()
 
 
