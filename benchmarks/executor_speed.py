@@ -230,15 +230,11 @@ def main() -> None:
             f"{peak():.2f} GB of memory at most"
         )
         return
-<<<<<<< HEAD
     poses = 2000 if chosen.smallest else chosen.stream or 250_000
-    shown(table(poses, smallest=chosen.smallest), DOCUMENT, chosen)
-=======
-    text = table(smallest=chosen.smallest)
+    text = table(poses, smallest=chosen.smallest)
     # the page's second part is that of benchmarks.variant_speed
     kept = DOCUMENT.read_text("utf-8").partition("\n## Variants")
     shown(text.rstrip("\n") + "\n" + kept[1] + kept[2], DOCUMENT, chosen)
->>>>>>> stack
 
 
 if __name__ == "__main__":

@@ -141,7 +141,7 @@ def _cover(
     lost = len(study) - solved
     text = f"All {len(study)} machines can be built."
     if lost:
-        text = f"{solved} of {len(study)} machines can be built; {MACHINES} says why the others cannot."
+        text = f"{solved} of {len(study)} machines can be built; {MACHINES} says why others cannot."
     blocks: list[Answers | Text | Figure] = [Answers(tuple(said)), Text(text)]
     drawn = [*parameters[:DRAWN], *answers[:DRAWN]]
     titles, values = zip(*(_read(c) for c in drawn), strict=True)
