@@ -235,7 +235,11 @@ _UNITS: dict[str, tuple[Decimal, Powers]] = {
         ("%", "1e-2", (0, 0, 0, 0)),
     )
     for name in names.split()
-} | dict.fromkeys(("deg", "°"), (_PI / 180, (0, 0, 0, 1)))
+} | {
+    "deg": (_PI / 180, (0, 0, 0, 1)),
+    "°": (_PI / 180, (0, 0, 0, 1)),
+    "rpm": (_PI / 30, (0, 0, -1, 1)),
+}
 
 
 @lru_cache(maxsize=512)
