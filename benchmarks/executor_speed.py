@@ -231,10 +231,7 @@ def main() -> None:
         )
         return
     poses = 2000 if chosen.smallest else chosen.stream or 250_000
-    text = table(poses, smallest=chosen.smallest)
-    # the page's second part is that of benchmarks.variant_speed
-    kept = DOCUMENT.read_text("utf-8").partition("\n## Variants")
-    shown(text.rstrip("\n") + "\n" + kept[1] + kept[2], DOCUMENT, chosen)
+    shown(table(poses, smallest=chosen.smallest), DOCUMENT, chosen)
 
 
 if __name__ == "__main__":

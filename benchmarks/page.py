@@ -109,6 +109,13 @@ PARTS = (
         "time, which the table states.",
     ),
     Part(
+        "variant_speed",
+        "Variants",
+        "performance-variants.md",
+        "each machine by itself",
+        "The frequency, which is computed machine by machine, mostly in Python.",
+    ),
+    Part(
         "solid_speed",
         "Solids",
         "performance-solids.md",
