@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -89,10 +89,10 @@ class Design:
     parameters: tuple[Parameter, ...]
     objectives: tuple[Objective, ...]
     constraints: tuple[Constraint, ...] = ()
-    search: Search = Search()
+    search: Search = field(default_factory=Search)
     workspace: TaskGrid | None = None
-    cost: Cost = Cost()
-    vibration: Asked = Asked("vibration")
+    cost: Cost = field(default_factory=Cost)
+    vibration: Asked = field(default_factory=lambda: Asked("vibration"))
 
     def __post_init__(self) -> None:
         if not self.objectives:
@@ -121,7 +121,7 @@ class Design:
         *objectives: str | Objective,
         constraints: Sequence[Constraint] = (),
         workspace: Mapping[str, Any] | TaskGrid | None = None,
-        cost: Cost = Cost(),
+        cost: Cost | None = None,
         **search: int,
     ) -> Design:
         """A design from names and plain values.
@@ -139,7 +139,8 @@ class Design:
         workspace : mapping of direction to (n,), or TaskGrid, optional
             Values along each, m and rad or texts with units; the machine's own by default, {} for
             home alone.
-        cost : Cost
+        cost : Cost, optional
+            Nothing by default.
         **search : int
             population, generations and seed, as of `Search`.
 
@@ -158,7 +159,7 @@ class Design:
             tuple(constraints),
             Search(**search),
             grid,
-            cost,
+            cost or Cost(),
         )
 
     def __repr__(self) -> str:

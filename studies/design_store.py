@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -14,15 +13,14 @@ from numpy.typing import NDArray
 
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
-from strutwork.files import write_text, write_whole
-from strutwork.machines.model_edit import edited_text
+from strutwork.files import write_whole
 from strutwork.names import visible
 from strutwork.studies.chunks import Arrays, ChunkStore
 from strutwork.studies.dataset_files import write_netcdf
-from strutwork.studies.design import STATUS, Design, Judged
-from strutwork.studies.design_dataset import MACHINE, Archive, judged_of
+from strutwork.studies.design import Design, Judged
+from strutwork.studies.design_dataset import Archive, judged_of
 from strutwork.studies.design_search import generations
-from strutwork.studies.parametric import Parametric
+from strutwork.studies.design_table import design_rows, reasons_of
 from strutwork.studies.progress import Progress
 
 Array = NDArray[Any]
@@ -149,80 +147,16 @@ def read_design_result(path: str | Path) -> xr.Dataset:
     return found
 
 
-def changes_of(found: xr.Dataset, number: int) -> dict[str, float]:
-    """Numbers of a machine of the front by their paths, SI; factors are multiplied out.
+def parts_of(design: Design, path: Path) -> Path:
+    """Folder of the finished generations of a design, until its result is written.
 
     Parameters
     ----------
-    found : xarray.Dataset
-        Result of a design.
-    number : int
-        On the front, counted from one.
-
-    Raises
-    ------
-    ModelError
-        The front has no such machine, or the machine no longer states these numbers.
+    design : Design
+    path : Path
+        Of its result.
     """
-    front = found["front"].to_numpy()
-    if not 1 <= number <= len(front):
-        raise ModelError(
-            f"machine {number}", "is not on the front.", f"Name one from 1 to {len(front)}."
-        )
-    machine = _machine(found)
-    changes: dict[str, float] = {}
-    for name in (str(p) for p in found["parameter"].to_numpy()):
-        column = found[name]
-        value = float(column.to_numpy()[front[number - 1]])
-        for path in json.loads(column.attrs["paths"]):
-            stated = machine.matching(path)[0].value
-            changes[path] = stated * value if column.attrs["relative"] else value
-    return changes
-
-
-def write_machine(found: xr.Dataset, number: int, path: str | Path) -> Path:
-    """Write a machine of the front as a model file; the comments of the original stay.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of a design.
-    number : int
-        On the front, counted from one.
-    path : str or Path
-        Ends in .toml. Where the original names files, as of meshes, it belongs beside them.
-
-    Returns
-    -------
-    Path
-
-    Raises
-    ------
-    ModelError
-        As `changes_of`; the machine is one of the catalogue; another ending.
-    OutputError
-        The file cannot be written.
-    """
-    changes = changes_of(found, number)
-    text = str(found.attrs.get("model_file", ""))
-    if not text:
-        raise ModelError(
-            f"machine {number}",
-            "is a variant of a machine of the catalogue, which has no model file.",
-            "Make it in Python: strutwork.studies.Parametric.of(NAME).model({...}).",
-        )
-    if Path(path).suffix != ".toml":
-        raise ModelError(str(path), "names no model file.", "End it in .toml.")
-    machine = _machine(found)
-    places = {machine.paths[p].places: value for p, value in changes.items()}
-    return write_text(Path(path), edited_text(text, places, f"machine {number} of a design"))
-
-
-def _machine(found: xr.Dataset) -> Parametric:
-    text = str(found.attrs.get("model_file", ""))
-    if not text:
-        return Parametric.of(json.loads(found.attrs["settings"])["machine"])
-    return Parametric.of(text)
+    return ChunkStore(_parts(path), design.key).path(0).parent
 
 
 def _parts(path: Path) -> Path:
@@ -256,10 +190,8 @@ def _there(path: Path, design: Design) -> xr.Dataset | None:
 
 
 def _most(found: xr.Dataset) -> str:
-    texts = [str(t) for t in found["reason_text"].to_numpy()]
-    counts = np.bincount(found["reason"].to_numpy(), minlength=len(texts))
-    counts[0] = 0
-    return f"{texts[int(np.argmax(counts))]} ({int(counts.max())} of them)."
+    text, count = next(iter(reasons_of(found).items()))
+    return f"{text} ({count} of them)."
 
 
 def _arrays(shares: Array, judged: Judged) -> Arrays:
@@ -281,46 +213,9 @@ def _from_arrays(arrays: Arrays) -> tuple[Array, Judged]:
 def _write(path: Path, found: xr.Dataset, design: Design) -> None:
     write_netcdf(path, found)
     _write_csv(path.with_suffix(".csv"), found)
-    store = ChunkStore(_parts(path), design.key)
-    shutil.rmtree(store.path(0).parent, ignore_errors=True)
+    shutil.rmtree(parts_of(design, path), ignore_errors=True)
     if _parts(path).is_dir() and not any(_parts(path).iterdir()):
         _parts(path).rmdir()
-
-
-def design_rows(found: xr.Dataset) -> tuple[list[str], list[list[Any]]]:
-    """Heads and rows of all machines, those of the front first, in order.
-
-    Parameters
-    ----------
-    found : xarray.Dataset
-        Result of a design.
-    """
-    names = [str(p) for p in found["parameter"].to_numpy()]
-    names += [n for n in found.data_vars if found[n].dims == (MACHINE,) and _is_quantity(n, found)]
-    heads = [
-        n if found[n].attrs["units"] == "1" else f"{n} [{found[n].attrs['units']}]" for n in names
-    ]
-    texts = [str(t) for t in found["reason_text"].to_numpy()]
-    front = found["front"].to_numpy().tolist()
-    others = sorted(set(range(found.sizes[MACHINE])) - set(front))
-    columns = [found[n].to_numpy() for n in names]
-    status, reason = found["status"].to_numpy(), found["reason"].to_numpy()
-    born = found["generation"].to_numpy()
-    rows = [
-        [
-            place + 1 if place < len(front) else "",
-            *("" if np.isnan(c[i]) else repr(float(c[i])) for c in columns),
-            STATUS[int(status[i])],
-            texts[int(reason[i])],
-            int(born[i]),
-        ]
-        for place, i in enumerate([*front, *others])
-    ]
-    return ["front", *heads, "status", "reason", "generation"], rows
-
-
-def _is_quantity(name: Any, found: xr.Dataset) -> bool:
-    return found[name].dtype.kind == "f" and "stated" in found[name].attrs
 
 
 def _write_csv(path: Path, found: xr.Dataset) -> Path:
