@@ -73,10 +73,16 @@ def comparison(found: xr.Dataset) -> str:
     )
     numbers = better(found)
     if not numbers:
-        return f"The machine as described ({words}) is beaten in every objective by none."
+        return (
+            "No machine of the front is at least as good in every objective as the machine as "
+            f"described ({words})."
+        )
     which = f"machine {numbers[0]}" if len(numbers) == 1 else f"machines {_range(numbers)}"
     verb = "is" if len(numbers) == 1 else "are"
-    return f"The machine as described has {words}; {which} of the front {verb} better in every objective."
+    return (
+        f"The machine as described has {words}; {which} of the front {verb} at least as good in "
+        "every objective."
+    )
 
 
 def _range(numbers: Sequence[int]) -> str:

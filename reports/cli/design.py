@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from strutwork.names import visible
+from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table, tell
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.design_words import comparison, extremes, on_front, unit_of
@@ -41,7 +42,12 @@ def run(
     with shown("machines") as started:
         progress = started(f"design of {visible(design.machine.source or design.machine.title)}")
         found = _searched(
-            design, out, resume=resume, workers=workers, progress=progress, told=_told(design)
+            design,
+            out,
+            resume=resume,
+            workers=workers,
+            progress=progress,
+            told=_told(design) if MANNER.whole else None,
         )
     result = _result(file, found)
     if out is not None:
@@ -103,7 +109,7 @@ def _result(file: str, found: xr.Dataset) -> dict[str, Any]:
 
 def _print(found: xr.Dataset, result: dict[str, Any]) -> None:
     out = console()
-    out.print(visible(result["title"].capitalize()), markup=False, style="bold")
+    out.print(visible(result["title"][0].upper() + result["title"][1:]), markup=False, style="bold")
     generations = counted(int(found.attrs["generations"]), "generation")
     out.print(
         f"{counted(result['machines'], 'machine')} in {generations}; {result['feasible']} feasible",
