@@ -31,6 +31,7 @@ from strutwork.reports.design_words import (
     limits_words,
     machine_code,
     on_front,
+    parameter_words,
     unit_of,
     value_words,
 )
@@ -74,7 +75,8 @@ def write_design_report(found: xr.Dataset, folder: Path) -> WrittenReport:
     settings = json.loads(found.attrs["settings"])
     title = str(found.attrs["title"])
     title = title[0].upper() + title[1:]
-    closing = closing_chapter(title, settings, {}, chapters, "")
+    short = {k: settings[k] for k in ("machine", "population", "seed")}
+    closing = closing_chapter(title, short, {"design": settings}, chapters, "")
     machines = count(int(found.sizes["machine"]), "machine")
     subtitle = f"{machines} in {count(int(found.attrs['generations']), 'generation')}"
     every = (*chapters, closing)
@@ -87,14 +89,16 @@ def _cover(found: xr.Dataset) -> Chapter:
         Answer(f"{title}: ", value, f" with {which}.", "the-front")
         for title, value, which in extremes(found)
     ]
+    said.append(Answer(*comparison(found), "the-front"))
     front = on_front(design_objectives(found)[0][0], found).values
     feasible = int(np.count_nonzero(found["status"].to_numpy() == 0))
     limits = limits_words(found)
     kept = f" Limits: {'; '.join(limits)}." if limits else ""
     number = count(len(front), "machine")
     text = (
-        f"{comparison(found)} {feasible} of {found.sizes['machine']} machines are feasible; no "
-        f"other one is better in every objective than the {number} of the front.{kept}"
+        f"{feasible} of {found.sizes['machine']} machines are feasible; no "
+        f"other one is better in every objective than the {number} of the front.{kept} "
+        f"Parameters: {parameter_words(found)}."
     )
     blocks: list[Block] = [Answers(tuple(said)), _picture(found), Text(text), _picks(found)]
     heads, rows = design_rows(found)

@@ -61,28 +61,26 @@ def better(found: xr.Dataset) -> list[int]:
     return (np.flatnonzero(wins) + 1).tolist()
 
 
-def comparison(found: xr.Dataset) -> str:
-    """How the machine as described stands beside the front, in a sentence."""
+def comparison(found: xr.Dataset) -> tuple[str, str, str]:
+    """How the machine as described stands beside the front: a sentence in three parts.
+
+    The one in the middle names machines of the front.
+    """
     objectives = design_objectives(found)
     stated = [float(found[c.name].attrs["stated"]) for c, _ in objectives]
     if not np.isfinite(stated).all():
-        return "The machine as described has no value of some objective."
+        return "The machine as described has no value of some objective.", "", ""
     words = ", ".join(
         f"{title_of(c)} {value_words(c, v, found)}"
         for (c, _), v in zip(objectives, stated, strict=True)
     )
     numbers = better(found)
+    before = f"The machine as described ({words}): "
     if not numbers:
-        return (
-            "No machine of the front is at least as good in every objective as the machine as "
-            f"described ({words})."
-        )
+        return before, "no machine", " of the front is at least as good in every objective."
     which = f"machine {numbers[0]}" if len(numbers) == 1 else f"machines {_range(numbers)}"
     verb = "is" if len(numbers) == 1 else "are"
-    return (
-        f"The machine as described has {words}; {which} of the front {verb} at least as good in "
-        "every objective."
-    )
+    return before, which, f" of the front {verb} at least as good in every objective."
 
 
 def _range(numbers: Sequence[int]) -> str:
@@ -110,3 +108,17 @@ def machine_code(changes: Mapping[str, float], machine: str) -> str:
     """Python that makes a machine of the catalogue with other numbers."""
     numbers = ", ".join(f"{path!r}: {value:.12g}" for path, value in changes.items())
     return f"strutwork.studies.Parametric.of({machine!r}).model({{{numbers}}})"
+
+
+def parameter_words(found: xr.Dataset) -> str:
+    """The parameters with their ranges or values."""
+    settings = json.loads(found.attrs["settings"])["parameters"]
+    said = []
+    for column, one in zip(design_parameters(found), settings.values(), strict=True):
+        if "values" in one:
+            values = [value_words(column, v, found) for v in one["values"]]
+            said.append(f"{title_of(column)} {' or '.join(values)}")
+        else:
+            low, high = (value_words(column, v, found) for v in one["range"])
+            said.append(f"{title_of(column)} from {low} to {high}")
+    return "; ".join(said)

@@ -263,7 +263,7 @@ class Design:
         for row in np.flatnonzero(good):
             status[row], reasons[row] = self._verdict(values[row])
         if self.every_pose:
-            missed = (status == FEASIBLE) & (reached < 1.0)
+            missed = good & (reached < 1.0)
             status[missed] = MISSES
             for row in np.flatnonzero(missed):
                 reasons[row] = "misses some of the poses"
@@ -300,7 +300,7 @@ class Design:
     def _verdict(self, values: Array) -> tuple[np.int8, str]:
         for quantity, value in zip(self.quantities, values.tolist(), strict=True):
             if not np.isfinite(value):
-                return NOT_FINITE, f"{quantity.name} is not finite"
+                return NOT_FINITE, f"{quantity.name.replace('_', ' ')} is not finite"
         at = {q.name: v for q, v in zip(self.quantities, values.tolist(), strict=True)}
         for constraint in self.constraints:
             why = constraint.why(at[constraint.quantity.name])

@@ -145,10 +145,11 @@ class Constraint:
         value : float
             In the unit of the quantity, any unit.
         """
+        name = self.quantity.name.replace("_", " ")
         if self.at_least is not None and value < self.at_least:
-            return f"{self.quantity.name} is below its limit"
+            return f"{name} is below its limit"
         if self.at_most is not None and value > self.at_most:
-            return f"{self.quantity.name} is above its limit"
+            return f"{name} is above its limit"
         return ""
 
 

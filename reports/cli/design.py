@@ -139,4 +139,4 @@ def _print(found: xr.Dataset, result: dict[str, Any]) -> None:
         out.print(f"Report: {visible(result['report'])}", markup=False, soft_wrap=True)
     for title, value, which in extremes(found):
         out.print(f"{title}: {value}, {visible(which)}.", markup=False, soft_wrap=True)
-    out.print(visible(comparison(found)), markup=False, soft_wrap=True)
+    out.print(visible("".join(comparison(found))), markup=False, soft_wrap=True)
