@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicSpline
 
 from strutwork.errors import ModelError, NumericalError
-from strutwork.fea import modes
+from strutwork.fea.modes import modes
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa import PlacedStructure, axis_stiffness_free, compliance_budget, tool_compliance
 from strutwork.studies.chunks import Arrays
