@@ -9,6 +9,8 @@ import pytest
 from strutwork.studies.design_store import read_design_result
 from tests.cli.conftest import Program
 
+pytest.importorskip("pymoo")
+
 RPS = Path(__file__).parents[2] / "examples/machines/3-rps.toml"
 SHORT = f"""
 machine = "{RPS}"

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from strutwork.reports.design_page import write_design_report
 from strutwork.studies.design import Design
 from strutwork.studies.design_store import read_design_result, run_design
 from tests.reports.browser import Browser
+
+pytest.importorskip("pymoo")
 
 RPS = Path(__file__).parents[2] / "examples/machines/3-rps.toml"
 

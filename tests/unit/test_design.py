@@ -21,6 +21,8 @@ from strutwork.studies.design_table import reasons_of
 from strutwork.studies.design_terms import Constraint, Cost, CostOf, Objective
 from strutwork.studies.parametric import Parametric
 
+pytest.importorskip("pymoo")
+
 MACHINES = Path(__file__).parents[2] / "examples/machines"
 RPS = MACHINES / "3-rps.toml"
 OUTER = "sections.cylinder.outer_diameter"
