@@ -162,7 +162,7 @@ class CostOf:
     name : str
         Of the parameter.
     amount : float
-        In the currency.
+        In the currency, any unit.
     per : float or str
         For so much of the parameter: SI or text with its unit, of a factor a plain number.
     """
@@ -179,7 +179,7 @@ class Cost:
     Parameters
     ----------
     fixed : float
-        In the currency.
+        In the currency, any unit.
     per_kg : float
         Currency per kg of the mass.
     parts : tuple of CostOf
