@@ -142,10 +142,10 @@ def _picture(found: xr.Dataset) -> Figure:
         [float(found[c.name].attrs["stated"]) * unit_of(c, found)[1] for c in columns],
         labels,
     )
-    words = " and ".join(f"{goal.removesuffix('e')}ed {title_of(c)}" for c, goal in _two(found))
+    goals = " and ".join(f"{goal.removesuffix('e')}ed {title_of(c)}" for c, goal in _two(found))
     return Figure(
         KEY,
-        f"The front: {words}. Click a point, or choose a machine below, to see what it is.",
+        f"The front: {goals}. Click a point, or choose a machine below, to see what it is.",
         spec,
         "Machines as points over two objectives, those of the front joined and numbered below.",
         FRONT,

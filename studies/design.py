@@ -18,6 +18,15 @@ from strutwork.machines.model import Model
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import versions
+from strutwork.studies.design_judged import (
+    CANNOT_BE,
+    FEASIBLE,
+    MISSES,
+    NOT_FINITE,
+    OUTSIDE,
+    WORST,
+    Judged,
+)
 from strutwork.studies.design_quantities import COST, REACH, Quantity, share_reached, taken
 from strutwork.studies.design_terms import Constraint, Cost, Objective, Search
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
@@ -26,35 +35,6 @@ from strutwork.studies.question import Asked
 from strutwork.studies.variants import Variants
 
 Array = NDArray[Any]
-
-#: What became of a machine, by its code.
-STATUS = ("feasible", "cannot_be", "not_finite", "outside_limits", "misses_poses")
-FEASIBLE, CANNOT_BE, NOT_FINITE, OUTSIDE, MISSES = map(np.int8, range(5))
-
-#: Violation of a machine that has no numbers: worse than any that misses a limit.
-WORST = 1e6
-
-
-@dataclass(frozen=True)
-class Judged:
-    """What n machines are worth.
-
-    Parameters
-    ----------
-    values : (n, q)
-        Of the quantities of a design, each in its unit, any unit; missing (NaN) without.
-    status : (n,)
-        Codes of `STATUS`.
-    reached : (n,)
-        Share of the poses, no unit.
-    reasons : tuple of n str
-        Why a machine is not feasible; empty where it is.
-    """
-
-    values: Array
-    status: NDArray[np.int8]
-    reached: Array
-    reasons: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -174,8 +154,8 @@ class Design:
     @cached_property
     def quantities(self) -> tuple[Quantity, ...]:
         """What is computed of each machine: of the objectives first, each once."""
-        every = [*self.objectives, *self.constraints]
-        return tuple({t.quantity.name: t.quantity for t in every}.values())
+        every = [o.quantity for o in self.objectives] + [c.quantity for c in self.constraints]
+        return tuple({q.name: q for q in every}.values())
 
     @cached_property
     def rates(self) -> Array:

@@ -16,7 +16,8 @@ import strutwork
 from strutwork.errors import ModelError
 from strutwork.machines.model_file import file_text
 from strutwork.studies.description import versions
-from strutwork.studies.design import FEASIBLE, STATUS, Design, Judged
+from strutwork.studies.design import Design
+from strutwork.studies.design_judged import FEASIBLE, STATUS, Judged
 from strutwork.studies.design_search import Generation, front_of
 from strutwork.studies.parametric import Tables
 from strutwork.studies.variables import named

@@ -188,7 +188,8 @@ def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Ar
         at = [i for i, label in enumerate(labels) if quantity.label in ("", str(label))]
     if not at:
         return np.full(len(found), np.nan)
-    return (found[:, at].max if quantity.goal == "minimise" else found[:, at].min)(axis=1)
+    worst = np.max if quantity.goal == "minimise" else np.min
+    return np.asarray(worst(found[:, at], axis=1))
 
 
 def share_reached(found: Arrays, poses: int) -> Array:

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.studies.design import FEASIBLE, Design, Judged
+from strutwork.studies.design import Design
+from strutwork.studies.design_judged import FEASIBLE, Judged
 
 Array = NDArray[Any]
 

@@ -17,8 +17,9 @@ from strutwork.files import write_whole
 from strutwork.names import visible
 from strutwork.studies.chunks import Arrays, ChunkStore
 from strutwork.studies.dataset_files import write_netcdf
-from strutwork.studies.design import Design, Judged
+from strutwork.studies.design import Design
 from strutwork.studies.design_dataset import Archive, judged_of
+from strutwork.studies.design_judged import Judged
 from strutwork.studies.design_search import generations
 from strutwork.studies.design_table import design_rows, reasons_of
 from strutwork.studies.progress import Progress

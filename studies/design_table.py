@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from strutwork.studies.dataset_units import stated_unit
-from strutwork.studies.design import STATUS
 from strutwork.studies.design_dataset import MACHINE
+from strutwork.studies.design_judged import STATUS
 from strutwork.studies.study_table import NumberColumn
 
 

@@ -13,7 +13,8 @@ from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.msa.mass import total_mass as mass_of
 from strutwork.studies import design_search
-from strutwork.studies.design import CANNOT_BE, FEASIBLE, MISSES, OUTSIDE, Design
+from strutwork.studies.design import Design
+from strutwork.studies.design_judged import CANNOT_BE, FEASIBLE, MISSES, OUTSIDE
 from strutwork.studies.design_pick import changes_of, write_machine
 from strutwork.studies.design_search import front_of
 from strutwork.studies.design_store import parts_of, read_design_result, run_design
@@ -72,6 +73,38 @@ def test_the_front_is_what_no_machine_beats() -> None:
         {OUTER: float(found[OUTER][row]), MODULUS: float(found[MODULUS][row])}
     )
     assert mass[row] == pytest.approx(total_mass(model), rel=1e-12)
+
+
+def test_the_lightest_machine_that_keeps_its_stiffness() -> None:
+    """Of lists every machine can be made: the best one is known without a search."""
+    stated = small().stated.values[0, 0]
+    design = Design.of(
+        RPS,
+        {
+            OUTER: [f"{d} mm" for d in (54, 58, 62, 66, 70, 75, 80, 85)],
+            "sections.cylinder.inner_diameter": [
+                f"{d} mm" for d in (30, 34, 38, 42, 46, 50, 54, 60)
+            ],
+            MODULUS: ["200 GPa", "205 GPa", "210 GPa"],
+        },
+        "mass",
+        constraints=[Constraint.of("stiffness_z", at_least=float(stated))],
+        workspace={},
+        population=12,
+        generations=7,
+        seed=1,
+    )
+    axes = [(np.arange(n) + 0.5) / n for n in (8, 8, 3)]
+    shares = np.stack(np.meshgrid(*axes), axis=-1).reshape(-1, 3)
+    judged = design.judge(design.samples(shares))
+    mass = judged.values[:, 0]
+    good = judged.status == FEASIBLE
+    assert 0 < np.count_nonzero(good) < len(shares)
+    found = run_design(design)
+    assert found.sizes["machine"] < len(shares) / 2
+    (row,) = found["front"].to_numpy()
+    assert float(found["mass"][row]) == mass[good].min()
+    assert float(found["stiffness_z"][row]) >= stated
 
 
 def test_the_same_seed_gives_the_same_machines() -> None:
