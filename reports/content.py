@@ -255,7 +255,47 @@ class Points:
     kind: ClassVar[str] = "points"
 
 
-Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Details | Links
+@dataclass(frozen=True)
+class Pick:
+    """One of several things that a reader chooses from.
+
+    Parameters
+    ----------
+    title : str
+    facts : tuple of (str, str)
+        Names with values.
+    commands : tuple of str
+        To be copied.
+    """
+
+    title: str
+    facts: tuple[tuple[str, str], ...]
+    commands: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Picks:
+    """What is chosen from a list, or by a click on a point of a figure above.
+
+    Parameters
+    ----------
+    label : str
+        What is chosen.
+    figure : str
+        Key of the figure; the `customdata` of its points count the items from zero.
+    items : tuple of Pick
+    note : str
+        Before the commands.
+    """
+
+    label: str
+    figure: str
+    items: tuple[Pick, ...]
+    note: str = ""
+    kind: ClassVar[str] = "picks"
+
+
+Block = Points | Text | Note | Answers | Facts | Table | Figure | Row | Details | Links | Picks
 
 
 @dataclass(frozen=True)

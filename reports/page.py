@@ -70,7 +70,7 @@ def render(page: Page, carried: Carried | None = None) -> str:
             carried=carried or Carried(),
             style=_asset("style.css"),
             paper=_asset("print.css") + Markup(_edges(page)),  # noqa: S704 - escaped
-            scripts=[_asset("keys.js"), _asset("print.js"), _asset("files.js")],
+            scripts=[_asset(f"{name}.js") for name in ("keys", "picks", "print", "files")],
             script=_asset("report.js"),
             plotly=Markup(_closed(get_plotlyjs())),  # noqa: S704 - the library's own text
         )

@@ -10,6 +10,11 @@ from strutwork.studies.dataset_files import (
     write_long_csv,
     write_netcdf,
 )
+from strutwork.studies.design import Design
+from strutwork.studies.design_file import read_design
+from strutwork.studies.design_pick import write_machine
+from strutwork.studies.design_store import read_design_result, run_design
+from strutwork.studies.design_terms import Constraint, Cost, CostOf, Objective
 from strutwork.studies.dynamic import dynamic_stiffness, frequency_responses
 from strutwork.studies.dynamic_map import Vibration, dynamic_map
 from strutwork.studies.executor import Executor, Threads, default_executor
@@ -47,12 +52,17 @@ __all__ = [
     "UNSCALED",
     "AxisSummary",
     "CheckPoints",
+    "Constraint",
+    "Cost",
+    "CostOf",
+    "Design",
     "Executor",
     "Fall",
     "Filters",
     "JointScaling",
     "Lines",
     "MachineFunction",
+    "Objective",
     "Parameter",
     "Parametric",
     "PoseStatus",
@@ -79,10 +89,13 @@ __all__ = [
     "on_plane",
     "plane_map",
     "power_law",
+    "read_design",
+    "read_design_result",
     "read_netcdf",
     "read_result",
     "read_study",
     "removal_exponents",
+    "run_design",
     "run_to_file",
     "scale_study",
     "scaled",
@@ -97,5 +110,6 @@ __all__ = [
     "write_csv",
     "write_json",
     "write_long_csv",
+    "write_machine",
     "write_netcdf",
 ]

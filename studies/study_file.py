@@ -11,6 +11,7 @@ from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model_errors import model_error
 from strutwork.machines.model_file import file_text, toml_of
+from strutwork.machines.model_motion_schema import WorkspaceTable
 from strutwork.machines.model_motion_tables import grid_of_table
 from strutwork.machines.naming import is_machine
 from strutwork.studies.parameter import Parameter
@@ -50,15 +51,12 @@ def read_study(path: str | Path) -> Study:
         tables = StudyTable.model_validate(data)
     except ValidationError as error:
         raise model_error(error, data, str(path), StudyTable, PAGE) from None
-    source = tables.machine
-    if source.endswith(".toml") or not is_machine(source):
-        source = str(place.parent / source)
-    machine = Parametric.of(source)
-    grid = _grid(tables, machine)
+    machine = machine_beside(place, tables.machine)
+    grid = poses_of(tables.workspace, machine)
     default = ("home",) if grid is None else ("worst", "mean", "home")
     return Study(
         machine,
-        tuple(_parameter(i, table) for i, table in enumerate(tables.parameters)),
+        tuple(parameter_of(i, table) for i, table in enumerate(tables.parameters)),
         _sample(tables.sample),
         tuple(_question(tables, name) for name in tables.answers),
         grid,
@@ -66,7 +64,39 @@ def read_study(path: str | Path) -> Study:
     )
 
 
-def _parameter(number: int, table: ParameterTable) -> Parameter:
+def machine_beside(place: Path, name: str) -> Parametric:
+    """The machine that a file names: one of the catalogue, or a model file beside it.
+
+    Parameters
+    ----------
+    place : Path
+        Of the file.
+    name : str
+
+    Raises
+    ------
+    ModelError
+        As `Parametric.of`.
+    """
+    if name.endswith(".toml") or not is_machine(name):
+        name = str(place.parent / name)
+    return Parametric.of(name)
+
+
+def parameter_of(number: int, table: ParameterTable) -> Parameter:
+    """A parameter from its table.
+
+    Parameters
+    ----------
+    number : int
+        In the file, counted from zero.
+    table : ParameterTable
+
+    Raises
+    ------
+    ModelError
+        Both values and a range, or neither.
+    """
     scattered = table.distribution is not None
     if not scattered and bool(table.values) == (table.range is not None):
         what = "both values and range" if table.values else "neither values nor range"
@@ -103,10 +133,16 @@ def _question(tables: StudyTable, name: str) -> Question:
     return Asked(name, tables.vibration.band, tables.vibration.count)
 
 
-def _grid(tables: StudyTable, machine: Parametric) -> TaskGrid | None:
-    """Poses: the file's, else the machine's own; an empty table is home alone."""
-    if tables.workspace is None:
+def poses_of(table: WorkspaceTable | None, machine: Parametric) -> TaskGrid | None:
+    """Poses: the file's, else the machine's own; an empty table is home alone.
+
+    Parameters
+    ----------
+    table : WorkspaceTable or None
+    machine : Parametric
+    """
+    if table is None:
         return machine.origin.model.workspace
-    if not any(getattr(tables.workspace, d) is not None for d in DIRECTIONS):
+    if not any(getattr(table, d) is not None for d in DIRECTIONS):
         return None
-    return grid_of_table(tables.workspace)
+    return grid_of_table(table)

@@ -54,6 +54,7 @@ COMMANDS = {
     "singularities": f"{_HERE}.singularities_command:singularities",
     "trajectory": f"{_HERE}.trajectory_command:trajectory",
     "study": f"{_HERE}.study_command:study",
+    "design": f"{_HERE}.design_command:design",
     "report": f"{_HERE}.report_command:report",
 }
 

@@ -83,6 +83,10 @@
       const view = drawing.querySelector("#scene");
       if (view) view.id = `${figure.id}-scene`;
       if (spec.motion) swing(figure, drawing, spec.motion);
+      drawing.on("plotly_click", ({ points: [{ customdata }] }) => {
+        figure.dispatchEvent(new CustomEvent("chosen", { detail: customdata }));
+      });
+      figure.dispatchEvent(new CustomEvent("drawn"));
     } catch (error) {
       drawing.textContent = "This plot could not be drawn here; its numbers are in the data files.";
       failures.push(figure.id);

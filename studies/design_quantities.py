@@ -1,0 +1,207 @@
+"""What a design can be judged by: numbers of a machine by their names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strutwork.errors import ModelError
+from strutwork.kinematics import DIRECTIONS
+from strutwork.names import choices
+from strutwork.studies.answers import Column
+from strutwork.studies.chunks import Arrays
+from strutwork.studies.dataset_units import LabelledUnits
+from strutwork.studies.variables import AXES
+from strutwork.units import (
+    FORCE,
+    FREQUENCY,
+    MASS,
+    MOMENT,
+    NUMBER,
+    ROTATIONAL_STIFFNESS,
+    STIFFNESS,
+    Dimension,
+)
+
+Array = NDArray[Any]
+
+Goal = Literal["minimise", "maximise"]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number by which machines are judged.
+
+    Parameters
+    ----------
+    name : str
+    question : str
+        Of `strutwork.studies.question.QUESTIONS`; empty where it is no answer of the machine.
+    column : str
+        Of that answer.
+    label : str
+        Along the column; empty: the worst of all labels.
+    dimension : Dimension
+    goal : "minimise" or "maximise"
+        Unless a file states the other.
+    meaning : str
+    """
+
+    name: str
+    question: str
+    column: str
+    label: str
+    dimension: Dimension
+    goal: Goal
+    meaning: str
+
+    @property
+    def unit(self) -> str:
+        """SI; "1" for none."""
+        return self.dimension.unit or "1"
+
+
+def _quantities() -> dict[str, Quantity]:
+    found = [
+        Quantity(
+            f"{prefix}stiffness_{d}",
+            "stiffness",
+            f"stiffness_{kind}",
+            d,
+            ROTATIONAL_STIFFNESS if d.startswith("r") else STIFFNESS,
+            "maximise",
+            f"worst stiffness along {d} with the other directions {kind}"
+            if not d.startswith("r")
+            else f"worst stiffness about {d[1:]} with the other directions {kind}",
+        )
+        for prefix, kind in (("", "free"), ("blocked_", "blocked"))
+        for d in DIRECTIONS
+    ]
+    dynamic = "least_dynamic_stiffness"
+    words = "least dynamic stiffness in the band"
+    found += [
+        Quantity(
+            "first_frequency",
+            "frequency",
+            "first_frequency",
+            "",
+            FREQUENCY,
+            "maximise",
+            "lowest natural frequency at home",
+        ),
+        Quantity(
+            "lowest_frequency",
+            "vibration",
+            "natural_frequency",
+            "1",
+            FREQUENCY,
+            "maximise",
+            "lowest natural frequency over the poses",
+        ),
+        Quantity(dynamic, "vibration", dynamic, "", STIFFNESS, "maximise", f"{words}, along x y z"),
+        *(
+            Quantity(
+                f"{dynamic}_{axis}",
+                "vibration",
+                dynamic,
+                axis,
+                STIFFNESS,
+                "maximise",
+                f"{words} along {axis}",
+            )
+            for axis in AXES
+        ),
+        Quantity("mass", "mass", "mass", "", MASS, "minimise", "mass of all parts"),
+        Quantity(
+            "locked_in_force",
+            "assembly",
+            "worst_case",
+            "N",
+            FORCE,
+            "minimise",
+            "largest joint force that the tolerances allow",
+        ),
+        Quantity(
+            "locked_in_moment",
+            "assembly",
+            "worst_case",
+            "N m",
+            MOMENT,
+            "minimise",
+            "largest joint moment that the tolerances allow",
+        ),
+        Quantity("reach", "", "", "", NUMBER, "maximise", "share of the poses that are reached"),
+        Quantity("cost", "", "", "", NUMBER, "minimise", "cost"),
+    ]
+    return {q.name: q for q in found}
+
+
+#: By name.
+QUANTITIES: Mapping[str, Quantity] = _quantities()
+
+#: Those that are no answer of the machine.
+REACH, COST = "reach", "cost"
+
+
+def quantity_of(name: str, part: str) -> Quantity:
+    """A quantity by its name.
+
+    Parameters
+    ----------
+    name, part : str
+        The part is named in an error.
+
+    Raises
+    ------
+    ModelError
+        There is none.
+    """
+    if name not in QUANTITIES:
+        raise ModelError(
+            part, f'names "{name}", which is unknown.', choices("Quantities", name, QUANTITIES)
+        )
+    return QUANTITIES[name]
+
+
+def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Array) -> Array:
+    """A quantity of n machines from the array of its column, (n,), in its unit, any unit.
+
+    Parameters
+    ----------
+    quantity : Quantity
+    column : Column
+    labels : tuple
+        Along the column; empty where it has one number a machine.
+    found : (n, ...)
+        Reduced over the poses, in the unit of the column, any unit.
+    """
+    if not column.dims:
+        return found
+    if isinstance(column.unit, LabelledUnits):
+        # joint quantities of one unit
+        at = [i for i, unit in enumerate(column.unit.units) if unit == quantity.label]
+    else:
+        at = [i for i, label in enumerate(labels) if quantity.label in ("", str(label))]
+    if not at:
+        return np.full(len(found), np.nan)
+    worst = np.max if quantity.goal == "minimise" else np.min
+    return np.asarray(worst(found[:, at], axis=1))
+
+
+def share_reached(found: Arrays, poses: int) -> Array:
+    """Share of the poses that each of n machines reaches, (n,), no unit.
+
+    Parameters
+    ----------
+    found : dict of str to (n, ...)
+        From `strutwork.studies.variants.Variants.values`, any unit.
+    poses : int
+        That are asked beside home; 0: home alone.
+    """
+    if not poses:
+        return np.asarray(found["status"] == 0, dtype=float)
+    return np.asarray(found["poses_kept"] / poses)

@@ -1,0 +1,231 @@
+"""The result of a design on disk: each generation is kept until the whole is written."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from strutwork.csv_rows import RowWriter
+from strutwork.errors import ModelError
+from strutwork.files import write_whole
+from strutwork.names import visible
+from strutwork.studies.chunks import Arrays, ChunkStore
+from strutwork.studies.dataset_files import write_netcdf
+from strutwork.studies.design import Design
+from strutwork.studies.design_dataset import Archive, judged_of
+from strutwork.studies.design_judged import Judged
+from strutwork.studies.design_search import generations
+from strutwork.studies.design_table import design_rows, reasons_of
+from strutwork.studies.progress import Progress
+
+Array = NDArray[Any]
+
+ENDING = ".nc"
+
+
+def run_design(
+    design: Design,
+    path: str | Path | None = None,
+    *,
+    resume: bool = False,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    told: Callable[[int, int, int], None] | None = None,
+) -> xr.Dataset:
+    """Search for designs.
+
+    Parameters
+    ----------
+    design : Design
+    path : str or Path, optional
+        Where the result is written, ending in .nc, with a CSV of the front beside it; finished
+        generations are kept beside it until then.
+    resume : bool
+        Go on from finished generations, or from a result with fewer generations; a result that is
+        complete is read.
+    workers : int, optional
+        Threads; default one per processor.
+    progress : callable, optional
+        Called with how many machines are judged, and of how many.
+    told : callable, optional
+        Called after each generation with its number from one, the feasible machines so far and
+        those of the front.
+
+    Returns
+    -------
+    xarray.Dataset
+        Every machine along `machine`, with its parameters, quantities, status and reason; `front`
+        are the numbers of those that no other one beats.
+
+    Raises
+    ------
+    ModelError
+        Another ending; the file holds something else; finished generations are there and `resume`
+        is not given; no machine is feasible (with the reason of most); pymoo is not installed.
+    OutputError
+        The file cannot be written: finished generations stay.
+    """
+    before: xr.Dataset | None = None
+    store: ChunkStore | None = None
+    if path is not None:
+        place = Path(path)
+        before = _there(place, design)
+        if before is not None and resume and _complete(before, design):
+            return before
+        store = ChunkStore(_parts(place), design.key)
+        if not resume and store.path(0).exists():
+            raise ModelError(
+                str(store.path(0).parent),
+                "holds finished generations of this design, which was interrupted.",
+                "Give --resume (resume=True) to go on from them, or remove the folder.",
+            )
+    archive = Archive(design)
+
+    def known(number: int, shares: Array) -> Judged | None:
+        kept = judged_of(before, design, number) if resume and before is not None else None
+        if kept is None and store is not None:
+            arrays = store.read(number)
+            kept = None if arrays is None else _from_arrays(arrays)
+        return kept[1] if kept is not None and np.array_equal(kept[0], shares) else None
+
+    total = design.search.population * design.search.generations
+    feasible = 0
+    if progress is not None:
+        progress(0, total)
+    for generation in generations(design, workers, known):
+        archive.add(generation)
+        feasible += int(np.count_nonzero(generation.judged.status == 0))
+        if store is not None:
+            store.write(generation.number, _arrays(generation.shares, generation.judged))
+        if progress is not None:
+            progress(archive.count, total)
+        if told is not None:
+            told(generation.number + 1, feasible, len(archive.front))
+    found = archive.dataset()
+    if not archive.front.size:
+        raise ModelError(
+            "design",
+            f"none of its {archive.count} machines is feasible: {_most(found)}",
+            "Change the ranges of its parameters or its constraints.",
+        )
+    if path is not None:
+        _write(Path(path), found, design)
+    return found
+
+
+def read_design_result(path: str | Path) -> xr.Dataset:
+    """Read the result of a design.
+
+    Parameters
+    ----------
+    path : str or Path
+        Ends in .nc.
+
+    Raises
+    ------
+    ModelError
+        It is missing, or no result of a design.
+    """
+    place = Path(path)
+    if not place.exists():
+        raise ModelError(str(path), "does not exist.", "Check the path.")
+    try:
+        with xr.open_dataset(place, engine="h5netcdf") as file:
+            found = file.load()
+    # libraries raise what they like for a damaged file
+    except Exception as error:
+        raise ModelError(
+            str(path), f"cannot be read ({visible(str(error))}).", "Write it again."
+        ) from error
+    if "design_key" not in found.attrs:
+        raise ModelError(str(path), "is no result of a design.", "Name one that a design wrote.")
+    return found
+
+
+def parts_of(design: Design, path: Path) -> Path:
+    """Folder of the finished generations of a design, until its result is written.
+
+    Parameters
+    ----------
+    design : Design
+    path : Path
+        Of its result.
+    """
+    return ChunkStore(_parts(path), design.key).path(0).parent
+
+
+def _parts(path: Path) -> Path:
+    return path.with_name(f"{path.name}.parts")
+
+
+def _complete(found: xr.Dataset, design: Design) -> bool:
+    """Whether it has as many generations as are asked for, or no more machines were left."""
+    have, asked = int(found.attrs["generations"]), int(found.attrs["asked_generations"])
+    return have >= design.search.generations or have < asked
+
+
+def _there(path: Path, design: Design) -> xr.Dataset | None:
+    if path.suffix != ENDING:
+        raise ModelError(str(path), "names no kind of file.", "End it in .nc for NetCDF.")
+    if not path.exists():
+        return None
+    remedy = "Name another file, or remove this one."
+    try:
+        found = read_design_result(path)
+    except ModelError as error:
+        raise ModelError(str(path), f"is there already and {error.problem}", remedy) from error
+    if found.attrs["design_key"] != design.key:
+        raise ModelError(
+            str(path),
+            f"holds the result of another design ({found.attrs.get('title', '')}), or of this one "
+            "by other code or other versions of libraries.",
+            remedy,
+        )
+    return found
+
+
+def _most(found: xr.Dataset) -> str:
+    text, count = next(iter(reasons_of(found).items()))
+    return f"{text} ({count} of them)."
+
+
+def _arrays(shares: Array, judged: Judged) -> Arrays:
+    return {
+        "shares": shares,
+        "values": judged.values,
+        "status": judged.status,
+        "reached": judged.reached,
+        "reasons": np.array(judged.reasons, dtype=str),
+    }
+
+
+def _from_arrays(arrays: Arrays) -> tuple[Array, Judged]:
+    reasons = tuple(str(r) for r in arrays["reasons"])
+    judged = Judged(arrays["values"], arrays["status"], arrays["reached"], reasons)
+    return arrays["shares"], judged
+
+
+def _write(path: Path, found: xr.Dataset, design: Design) -> None:
+    write_netcdf(path, found)
+    _write_csv(path.with_suffix(".csv"), found)
+    shutil.rmtree(parts_of(design, path), ignore_errors=True)
+    if _parts(path).is_dir() and not any(_parts(path).iterdir()):
+        _parts(path).rmdir()
+
+
+def _write_csv(path: Path, found: xr.Dataset) -> Path:
+    heads, rows = design_rows(found)
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+            writer = RowWriter(file)
+            writer.writerow(heads)
+            writer.writerows(rows)
+
+    return write_whole(path, write)
