@@ -16,7 +16,12 @@ from strutwork.studies.study_descriptions import DESCRIPTIONS
 from strutwork.studies.study_schema_file import FILE_NAME, study_schema
 
 ROOT = Path(__file__).parents[2]
-EXAMPLES = sorted((ROOT / "examples/studies").glob("*.toml"))
+# a file of a design has tables of its own
+EXAMPLES = [
+    file
+    for file in sorted((ROOT / "examples/studies").glob("*.toml"))
+    if not file.name.endswith("-design.toml")
+]
 BASE: dict[str, Any] = {"machine": "m.toml", "parameters": [{"path": "a", "values": ["2 mm", 3]}]}
 
 
