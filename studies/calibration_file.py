@@ -6,14 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from pydantic import ValidationError
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.beside_model import tables_beside_model
 from strutwork.machines.model import Model
-from strutwork.machines.model_errors import model_error
-from strutwork.machines.model_file import file_text, toml_of
-from strutwork.machines.naming import is_machine
 from strutwork.studies.calibration_schema import (
     CalibrationTable,
     CandidatesTable,
@@ -29,6 +26,7 @@ from strutwork.studies.measured_files import frequencies_of_file, frf_of_file
 from strutwork.studies.measured_frequencies import MeasuredFrequencies
 from strutwork.studies.measurement import Measurement, checked_scatter
 from strutwork.studies.parametric import Parametric
+from strutwork.studies.study_file import machine_beside
 from strutwork.studies.unknown import Unknown
 
 #: Where the file is described.
@@ -75,22 +73,9 @@ def read_calibration(path: str | Path) -> CalibrationFile:
         A pose that the machine cannot take.
     """
     place = Path(path)
-    data = toml_of(file_text(place, "calibration file"), str(path), PAGE)
-    if "nodes" in data:
-        raise ModelError(
-            str(path),
-            "is a model file, not a calibration file.",
-            f'A calibration file names it: machine = "{place.name}". See {PAGE}.',
-        )
-    try:
-        tables = CalibrationTable.model_validate(data)
-    except ValidationError as error:
-        raise model_error(error, data, str(path), CalibrationTable, PAGE) from None
-    source, own = tables.machine, None
-    if source.endswith(".toml") or not is_machine(source):
-        own = place.parent / source
-        source = str(own)
-    machine = Parametric.of(source)
+    tables = tables_beside_model(place, "calibration", CalibrationTable, PAGE)
+    machine = machine_beside(place, tables.machine)
+    own = Path(machine.source) if machine.source.endswith(".toml") else None
     unknowns = tuple(_unknown(machine, table) for table in tables.parameters)
     return CalibrationFile(
         experiment_of(machine, unknowns, tables, place.parent, str(path)),

@@ -8,10 +8,8 @@ from pydantic import BeforeValidator, Field, StrictBool, StrictInt
 
 from strutwork import units
 from strutwork.machines.model_fields import (
-    Angle,
     Force,
     Frequency,
-    Length,
     Moment,
     Name,
     Quantity,
@@ -21,6 +19,7 @@ from strutwork.machines.model_fields import (
     Table,
 )
 from strutwork.machines.model_motion_schema import AngleSpan, LengthSpan
+from strutwork.machines.model_schema import Displacement
 from strutwork.studies.study_schema import Path
 from strutwork.studies.study_schema import Quantity as Value
 
@@ -49,15 +48,8 @@ class UnknownTable(Table):
     name: Name | None = None
 
 
-class PoseTable(Table):
+class PoseTable(Displacement):
     """Where the tool stood."""
-
-    x: Length | None = None
-    y: Length | None = None
-    z: Length | None = None
-    rx: Angle | None = None
-    ry: Angle | None = None
-    rz: Angle | None = None
 
 
 class FrequenciesTable(Table):

@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pydantic import ValidationError
-
-from strutwork.errors import ModelError
-from strutwork.machines.model_errors import model_error
-from strutwork.machines.model_file import file_text, toml_of
+from strutwork.machines.beside_model import tables_beside_model
 from strutwork.studies.design import Design
 from strutwork.studies.design_schema import CostTable, DesignTable
 from strutwork.studies.design_terms import Constraint, Cost, CostOf, Objective, Search
@@ -34,17 +30,7 @@ def read_design(path: str | Path) -> Design:
         The file or the model cannot be read, a key is unknown or wrong, or as `Design`.
     """
     place = Path(path)
-    data = toml_of(file_text(place, "design file"), str(path), PAGE)
-    if "nodes" in data:
-        raise ModelError(
-            str(path),
-            "is a model file, not a design file.",
-            f'A design file names it: machine = "{place.name}". See {PAGE}.',
-        )
-    try:
-        tables = DesignTable.model_validate(data)
-    except ValidationError as error:
-        raise model_error(error, data, str(path), DesignTable, PAGE) from None
+    tables = tables_beside_model(place, "design", DesignTable, PAGE)
     machine = machine_beside(place, tables.machine)
     search, vibration = tables.search, tables.vibration
     return Design(

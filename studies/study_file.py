@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from pydantic import ValidationError
-
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
-from strutwork.machines.model_errors import model_error
-from strutwork.machines.model_file import file_text, toml_of
+from strutwork.machines.beside_model import tables_beside_model
 from strutwork.machines.model_motion_schema import WorkspaceTable
 from strutwork.machines.model_motion_tables import grid_of_table
 from strutwork.machines.naming import is_machine
@@ -40,17 +37,7 @@ def read_study(path: str | Path) -> Study:
         The file or the model cannot be read, a key is unknown or wrong, or as `Study`.
     """
     place = Path(path)
-    data = toml_of(file_text(place, "study file"), str(path), PAGE)
-    if "nodes" in data:
-        raise ModelError(
-            str(path),
-            "is a model file, not a study file.",
-            f'A study file names it: machine = "{place.name}". See {PAGE}.',
-        )
-    try:
-        tables = StudyTable.model_validate(data)
-    except ValidationError as error:
-        raise model_error(error, data, str(path), StudyTable, PAGE) from None
+    tables = tables_beside_model(place, "study", StudyTable, PAGE)
     machine = machine_beside(place, tables.machine)
     grid = poses_of(tables.workspace, machine)
     default = ("home",) if grid is None else ("worst", "mean", "home")
