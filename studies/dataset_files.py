@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_text, write_whole
+from strutwork.names import visible
 from strutwork.studies.dataset_units import (
     stated_unit,
     unit_at,
@@ -21,6 +22,37 @@ from strutwork.studies.dataset_units import (
 )
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.netcdf import netcdf_bytes
+
+
+def read_result_file(path: Path, engine: str, key: str, what: str) -> xr.Dataset:
+    """Read what a study or a design wrote, all of it.
+
+    Parameters
+    ----------
+    path : Path
+    engine : str
+        Of xarray.
+    key : str
+        Attribute that every such result has.
+    what : str
+        What wrote it, for messages, such as "study".
+
+    Raises
+    ------
+    ModelError
+        It cannot be read, or something else wrote it.
+    """
+    try:
+        with xr.open_dataset(path, engine=engine) as file:
+            found = file.load()
+    # libraries raise what they like for a damaged file
+    except Exception as error:
+        raise ModelError(
+            str(path), f"cannot be read ({visible(str(error))}).", "Write it again."
+        ) from error
+    if key not in found.attrs:
+        raise ModelError(str(path), f"is no result of a {what}.", f"Name one that a {what} wrote.")
+    return found
 
 
 def write_netcdf(path: Path, dataset: xr.Dataset) -> Path:

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
-from strutwork.names import visible
 from strutwork.studies.chunks import Arrays, ChunkStore
-from strutwork.studies.dataset_files import write_netcdf
+from strutwork.studies.dataset_files import read_result_file, write_netcdf
 from strutwork.studies.design import Design
 from strutwork.studies.design_dataset import Archive, judged_of
 from strutwork.studies.design_judged import Judged
@@ -135,17 +134,7 @@ def read_design_result(path: str | Path) -> xr.Dataset:
     place = Path(path)
     if not place.exists():
         raise ModelError(str(path), "does not exist.", "Check the path.")
-    try:
-        with xr.open_dataset(place, engine="h5netcdf") as file:
-            found = file.load()
-    # libraries raise what they like for a damaged file
-    except Exception as error:
-        raise ModelError(
-            str(path), f"cannot be read ({visible(str(error))}).", "Write it again."
-        ) from error
-    if "design_key" not in found.attrs:
-        raise ModelError(str(path), "is no result of a design.", "Name one that a design wrote.")
-    return found
+    return read_result_file(place, "h5netcdf", "design_key", "design")
 
 
 def parts_of(design: Design, path: Path) -> Path:

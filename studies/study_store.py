@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
-from typing import Any
 
 import xarray as xr
 
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError, OutputError
 from strutwork.files import write_error, write_whole
-from strutwork.names import visible
 from strutwork.staging import staging
-from strutwork.studies.dataset_files import write_netcdf
+from strutwork.studies.dataset_files import read_result_file, write_netcdf
 from strutwork.studies.executor import Executor
 from strutwork.studies.executor import place as kept_elsewhere
 from strutwork.studies.progress import Progress
@@ -153,18 +151,8 @@ def read_result(path: str | Path) -> xr.Dataset:
         raise ModelError(str(path), "does not exist.", "Check the path.")
     if place.suffix == ".zarr":
         _require_zarr(place)
-    try:
-        engine: Any = "zarr" if place.suffix == ".zarr" else "h5netcdf"
-        with xr.open_dataset(place, engine=engine) as file:
-            found = file.load()
-    # libraries raise what they like for a damaged file
-    except Exception as error:
-        raise ModelError(
-            str(path), f"cannot be read ({visible(str(error))}).", "Write it again."
-        ) from error
-    if "study_key" not in found.attrs:
-        raise ModelError(str(path), "is no result of a study.", "Name one that a study wrote.")
-    return found
+    engine = "zarr" if place.suffix == ".zarr" else "h5netcdf"
+    return read_result_file(place, engine, "study_key", "study")
 
 
 def _there(path: Path, study: Study) -> xr.Dataset | None:
