@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from strutwork.kinematics.frames import dot
 from strutwork.machines.legs import Leg, LegPlacement, square_root
 from strutwork.machines.radial import Radial
 from strutwork.machines.three_legs import ThreeLegs
+from strutwork.msa.sections import Section
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +41,8 @@ class Proposed3PPRS(ThreeLegs):
     first_link_length : float or None
         m. A first link of constant length, a ram that the slide moves as a whole and that is
         held this far inside the slider; None for one from the guide to the slider.
+    first_link_section : Section or None
+        Of the first links; None for the section of the links. The paper has one tube.
     """
 
     link_length: float = 0.216
@@ -47,6 +50,7 @@ class Proposed3PPRS(ThreeLegs):
     pole_height: float = 0.126
     shortest_first_link: float = 1e-3
     first_link_length: float | None = None
+    first_link_section: Section | None = None
 
     @property
     def lengths(self) -> tuple[str, ...]:
@@ -84,7 +88,10 @@ class Proposed3PPRS(ThreeLegs):
                 self.ball,
             ),
             beams=(
-                self.beam("first link", "carriage", "overhang"),
+                replace(
+                    self.beam("first link", "carriage", "overhang"),
+                    section=self.first_link_section or self.section,
+                ),
                 self.beam("link", "root", "end"),
             ),
             rigid=(Body("carriage", ("centre", "carriage")),),

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.names import choices
 from strutwork.studies.design_quantities import Goal, Quantity, quantity_of
 from strutwork.studies.parameter import Value, Varied
 from strutwork.units import quantity
@@ -18,6 +19,12 @@ Array = NDArray[Any]
 
 #: Machines and generations of a search at most: larger ones are typing errors.
 MOST_MACHINES = 10_000_000
+#: Starts of a search along gradients at most.
+MOST_STARTS = 1000
+
+#: How is searched: NSGA-II, SLSQP with gradients from several starts, or the first and then the
+#: second from each machine of the front.
+EVOLUTION, GRADIENT, BOTH = METHODS = ("evolution", "gradient", "both")
 
 
 @dataclass(frozen=True)
@@ -231,7 +238,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Search:
-    """How long is searched.
+    """How, and how long, is searched.
 
     Parameters
     ----------
@@ -240,18 +247,53 @@ class Search:
     generations : int
     seed : int
         The same seed gives the same machines.
+    method : str
+        Of `METHODS`.
+    starts : int
+        Of the method "gradient": the machine as described, and points spread over the ranges.
 
     Raises
     ------
     ModelError
-        Fewer than four machines or one generation, or more than can be meant.
+        Fewer than four machines or one generation, or more than can be meant; no start; an unknown
+        method.
     """
 
     population: int = 48
     generations: int = 40
     seed: int = 0
+    method: str = EVOLUTION
+    starts: int = 3
+
+    @property
+    def rounds(self) -> int:
+        """In how many steps machines are judged: generations, starts, and one that finishes."""
+        if self.method == GRADIENT:
+            return self.starts
+        return self.generations + (self.method == BOTH)
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What decides which machines are judged, as plain values, but for how many rounds."""
+        if self.method == GRADIENT:
+            return {"method": self.method, "starts": self.starts, "seed": self.seed}
+        evolution = {"population": self.population, "seed": self.seed}
+        if self.method == EVOLUTION:
+            return evolution
+        # the last round finishes what the others leave
+        return {"method": self.method, "generations": self.generations, **evolution}
 
     def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            raise ModelError(
+                "search",
+                f'names the method "{self.method}", which is unknown.',
+                choices("Methods", self.method, METHODS),
+            )
+        if not 1 <= self.starts <= MOST_STARTS:
+            raise ModelError(
+                "search", f"has {self.starts} starts.", f"Give one at least, {MOST_STARTS} at most."
+            )
         if self.population < 4 or self.generations < 1:
             raise ModelError(
                 "search",
