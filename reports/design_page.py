@@ -32,6 +32,7 @@ from strutwork.reports.design_words import (
     machine_code,
     on_front,
     parameter_words,
+    rounds_words,
     unit_of,
     value_words,
 )
@@ -75,10 +76,10 @@ def write_design_report(found: xr.Dataset, folder: Path) -> WrittenReport:
     settings = json.loads(found.attrs["settings"])
     title = str(found.attrs["title"])
     title = title[0].upper() + title[1:]
-    short = {k: settings[k] for k in ("machine", "population", "seed")}
+    keys = ("machine", "method", "population", "starts", "seed")
+    short = {k: settings[k] for k in keys if k in settings}
     closing = closing_chapter(title, short, {"design": settings}, chapters, "")
-    machines = count(int(found.sizes["machine"]), "machine")
-    subtitle = f"{machines} in {count(int(found.attrs['generations']), 'generation')}"
+    subtitle = rounds_words(found)
     every = (*chapters, closing)
     files = tuple(f for chapter in every for f in chapter.files)
     return write_page(Composed(page_of(title, subtitle, every), files), folder, title)

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from strutwork.reports.numbers import count
 from strutwork.reports.study_words import machine_words, read_value, reading, title_of
 from strutwork.studies.design_table import design_objectives, design_parameters
 from strutwork.studies.study_table import NumberColumn
@@ -31,6 +32,20 @@ def value_words(column: NumberColumn, value: float, found: xr.Dataset, digits: i
     if currency:
         return f"{value:.{digits}g} {currency}"
     return read_value(column, value, digits)
+
+
+def rounds_words(found: xr.Dataset) -> str:
+    """How many machines were made, and how: "24 machines in 3 generations"."""
+    machines = count(int(found.sizes["machine"]), "machine")
+    rounds, method = int(found.attrs["generations"]), str(found.attrs.get("method", ""))
+    if method.startswith("SLSQP"):
+        return f"{machines} along the gradients from {count(rounds, 'start')} (SLSQP)"
+    if "SLSQP" in method:
+        return (
+            f"{machines} in {count(rounds - 1, 'generation')} and along the gradients from the "
+            "front (SLSQP)"
+        )
+    return f"{machines} in {count(rounds, 'generation')}"
 
 
 def extremes(found: xr.Dataset) -> list[tuple[str, str, str]]:

@@ -26,6 +26,7 @@ from strutwork.studies.design_judged import (
     Judged,
 )
 from strutwork.studies.design_quantities import COST, REACH, Quantity, share_reached, taken
+from strutwork.studies.design_smooth import require_smooth
 from strutwork.studies.design_terms import Constraint, Cost, Objective, Search
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
 from strutwork.studies.parametric import Parametric
@@ -62,7 +63,7 @@ class Design:
     ------
     ModelError
         No objective, one named twice, parameters that scatter or do not exist; the machine as
-        stated lacks what is asked for.
+        stated lacks what is asked for; a search along gradients of what has none.
     """
 
     machine: Parametric
@@ -92,6 +93,13 @@ class Design:
             raise ModelError("cost", "is asked for and not stated.", "Give a table [cost].")
         # their errors come now
         _ = self.rates, self.variants
+        require_smooth(
+            self.search,
+            self.objectives,
+            self.quantities,
+            self.varied,
+            self.machine.origin.model,
+        )
 
     @classmethod
     def of(

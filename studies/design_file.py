@@ -67,7 +67,9 @@ def _poses(tables: DesignTable, machine: Parametric) -> PoseSet | None:
             machine, one.radius, one.lattice, one.rolls, ranges, one.condition_limit
         )
     if named == ["poses"]:
-        rows = [{d: v for d in DIRECTIONS if (v := getattr(t, d)) is not None} for t in tables.poses]
+        rows = [
+            {d: v for d in DIRECTIONS if (v := getattr(t, d)) is not None} for t in tables.poses
+        ]
         if any(row.keys() != rows[0].keys() for row in rows):
             raise ModelError(
                 "poses", "do not all name the same directions.", "Give each pose the same ones."

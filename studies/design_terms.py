@@ -273,6 +273,19 @@ class Search:
         return self.generations + (self.method == BOTH)
 
     @property
+    def machines(self) -> int:
+        """Machines that are judged in all, but for those on the way along gradients."""
+        return self.starts if self.method == GRADIENT else self.population * self.generations
+
+    @property
+    def words(self) -> str:
+        """The method in words."""
+        if self.method == GRADIENT:
+            return f"SLSQP with adjoint gradients from {self.starts} start{'s' * (self.starts > 1)}"
+        more = ", then SLSQP with adjoint gradients from each machine of the front"
+        return f"NSGA-II{more if self.method == BOTH else ''}"
+
+    @property
     def settings(self) -> dict[str, Any]:
         """What decides which machines are judged, as plain values, but for how many rounds."""
         if self.method == GRADIENT:

@@ -24,8 +24,6 @@ from strutwork.studies.description import plain, versions
 from strutwork.studies.executor import Executor
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
 from strutwork.studies.parametric import Parametric
-from strutwork.studies.progress import Progress
-from strutwork.studies.question import Question, asked, completed
 from strutwork.studies.pose_sets import (
     PoseList,
     PoseSet,
@@ -33,6 +31,8 @@ from strutwork.studies.pose_sets import (
     first_pose_can_be_asked,
     settings_of,
 )
+from strutwork.studies.progress import Progress
+from strutwork.studies.question import Question, asked, completed
 from strutwork.studies.run import Chunk, Run, fill
 from strutwork.studies.sample import Drawn, Sample, drawn
 from strutwork.studies.standing import Stand
