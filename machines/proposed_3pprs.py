@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,8 @@ from strutwork.kinematics import Body, Joint, angle, axes_frame
 from strutwork.kinematics.frames import dot
 from strutwork.machines.legs import Leg, LegPlacement, square_root
 from strutwork.machines.radial import Radial
-from strutwork.machines.three_legs import ThreeLegs
+from strutwork.machines.three_legs import TUBE_19_14, ThreeLegs
+from strutwork.machines.variant import Variant
 from strutwork.msa.sections import Section
 
 
@@ -141,3 +143,17 @@ class Proposed3PPRS(ThreeLegs):
             elevation=elevation,
             faults={"its joint centre is higher above the guide than the link is long": missing},
         )
+
+
+def _two_tubes(*, apparent: bool = False) -> Proposed3PPRS:
+    made = Proposed3PPRS(first_link_section=TUBE_19_14)
+    return made.apparent() if apparent else made
+
+
+def models_with_two_tubes() -> tuple[Variant, ...]:
+    """The machine of the static tables whose links and first links may have different tubes."""
+    words = "with a tube for the first links and one for the links, both as printed"
+    return (
+        Variant("two-tubes", f"as static, {words}", _two_tubes),
+        Variant("apparent-two-tubes", f"as apparent, {words}", partial(_two_tubes, apparent=True)),
+    )

@@ -93,6 +93,12 @@ class Design:
             raise ModelError("cost", "is asked for and not stated.", "Give a table [cost].")
         # their errors come now
         _ = self.rates, self.variants
+        if any(c.kept for c in self.constraints):
+            own = dict(zip((q.name for q in self.quantities), self.stated.values[0], strict=True))
+            limits = tuple(c.known(float(own[c.quantity.name])) for c in self.constraints)
+            object.__setattr__(self, "constraints", limits)
+            # judged without these limits
+            del self.__dict__["stated"]
         require_smooth(
             self.search,
             self.objectives,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,9 @@ from strutwork.studies.parameter import Value, Varied
 from strutwork.units import quantity
 
 Array = NDArray[Any]
+
+#: In place of a limit: what the machine as described has.
+STATED = "stated"
 
 #: Machines and generations of a search at most: larger ones are typing errors.
 MOST_MACHINES = 10_000_000
@@ -79,11 +82,15 @@ class Constraint:
     quantity : Quantity
     at_least, at_most : float or None
         In the SI unit of the quantity, any unit.
+    kept : tuple of str
+        Of "at_least" and "at_most", those that are the value of the machine as described; a design
+        puts the number in their place.
     """
 
     quantity: Quantity
     at_least: float | None = None
     at_most: float | None = None
+    kept: tuple[str, ...] = ()
 
     @classmethod
     def of(
@@ -96,7 +103,7 @@ class Constraint:
         name : str
             Of `strutwork.studies.design_quantities.QUANTITIES`.
         at_least, at_most : float or str, optional
-            SI, or text with its unit.
+            SI, or text with its unit; "stated" for what the machine as described has.
 
         Raises
         ------
@@ -109,9 +116,11 @@ class Constraint:
         part = f"constraint {name}"
         if at_least is None and at_most is None:
             raise ModelError(part, "has no limit.", "Give at_least, at_most or both.")
+        limits = {"at_least": at_least, "at_most": at_most}
+        kept = tuple(key for key, v in limits.items() if v == STATED)
         low, high = (
-            None if v is None else quantity(v, found.dimension, f"{part}.{key}")
-            for key, v in (("at_least", at_least), ("at_most", at_most))
+            None if v is None or key in kept else quantity(v, found.dimension, f"{part}.{key}")
+            for key, v in limits.items()
         )
         if low is not None and high is not None and low > high:
             raise ModelError(
@@ -119,7 +128,30 @@ class Constraint:
                 f"has at_least = {low:g} above at_most = {high:g}.",
                 "Exchange the two.",
             )
-        return cls(found, low, high)
+        return cls(found, low, high, kept)
+
+    def known(self, stated: float) -> Constraint:
+        """The same with numbers for what is kept of the machine as described.
+
+        Parameters
+        ----------
+        stated : float
+            What this machine has, in the unit of the quantity, any unit.
+
+        Raises
+        ------
+        ModelError
+            It has no value.
+        """
+        if not self.kept:
+            return self
+        if not np.isfinite(stated):
+            raise ModelError(
+                f"constraint {self.quantity.name}",
+                "keeps what the machine as described has, and this has no value.",
+                "Give a number.",
+            )
+        return replace(self, kept=(), **dict.fromkeys(self.kept, stated))
 
     @property
     def settings(self) -> dict[str, Any]:
