@@ -33,6 +33,7 @@ from strutwork.reports.design_words import (
     on_front,
     parameter_words,
     rounds_words,
+    starts_words,
     unit_of,
     value_words,
 )
@@ -99,7 +100,7 @@ def _cover(found: xr.Dataset) -> Chapter:
     text = (
         f"{feasible} of {found.sizes['machine']} machines are feasible; no "
         f"other one is better in every objective than the {number} of the front.{kept} "
-        f"Parameters: {parameter_words(found)}."
+        f"Parameters: {parameter_words(found)}. {starts_words(found)}".rstrip()
     )
     blocks: list[Block] = [Answers(tuple(said)), _picture(found), Text(text), _picks(found)]
     heads, rows = design_rows(found)

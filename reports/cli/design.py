@@ -12,7 +12,14 @@ from strutwork.names import visible
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table, tell
 from strutwork.reports.cli.progress import shown
-from strutwork.reports.design_words import comparison, extremes, on_front, rounds_words, unit_of
+from strutwork.reports.design_words import (
+    comparison,
+    extremes,
+    on_front,
+    rounds_words,
+    starts_words,
+    unit_of,
+)
 from strutwork.reports.study_words import title_of
 from strutwork.studies.design import Design
 from strutwork.studies.design_file import read_design
@@ -116,6 +123,8 @@ def _print(found: xr.Dataset, result: dict[str, Any]) -> None:
     out.print(f"{rounds_words(found)}; {result['feasible']} feasible", markup=False, soft_wrap=True)
     for reason, count in result["dropped_by_reason"].items():
         out.print(f"  {count}: {visible(reason)}", markup=False, soft_wrap=True)
+    if starts_words(found):
+        out.print(visible(starts_words(found)), markup=False, soft_wrap=True)
     columns = [*design_quantities(found), *design_parameters(found)]
     units = [unit_of(c, found) for c in columns]
     values = [on_front(c, found).values for c in columns]
