@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -151,7 +151,9 @@ class Constraint:
                 "keeps what the machine as described has, and this has no value.",
                 "Give a number.",
             )
-        return replace(self, kept=(), **dict.fromkeys(self.kept, stated))
+        low = stated if "at_least" in self.kept else self.at_least
+        high = stated if "at_most" in self.kept else self.at_most
+        return Constraint(self.quantity, low, high)
 
     @property
     def settings(self) -> dict[str, Any]:

@@ -111,10 +111,12 @@ def _meaning(kept: Kept) -> str:
 
 def _poses(study: Study, made: dict[str, xr.Variable]) -> dict[str, xr.Variable]:
     """Where the poses stand, of those that variables name by number."""
-    none = study.workspace is None or isinstance(study.workspace, PoseList)
-    if none or not any("pose" in v.dims or name.endswith("_pose") for name, v in made.items()):
+    workspace = study.workspace
+    if workspace is None or isinstance(workspace, PoseList):
         return {}
-    task = study.workspace.task()
+    if not any("pose" in v.dims or name.endswith("_pose") for name, v in made.items()):
+        return {}
+    task = workspace.task()
     found = {}
     for direction, values in task.items():
         unit = "rad" if direction in DIRECTIONS[3:] else "m"

@@ -111,12 +111,13 @@ class Tangents:
         UnreachableError
             A pose that the machine cannot take.
         """
+        asked: dict[str, Array] = {}
+        held: list[str] = []
+        found, tool = None, None
         if placement_of is not None:
-            base, tool = placement_of(self.model).require_reachable(), None
-            asked, held, found = {}, [], None
+            base = placement_of(self.model).require_reachable()
         elif not task:
-            base, tool = self.model.placement.flat(), None
-            asked, held, found = {}, [], None
+            base = self.model.placement.flat()
         else:
             asked = {d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in task.items()}
             found, base = moved(self.model, asked)
