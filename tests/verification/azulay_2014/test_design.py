@@ -42,12 +42,12 @@ from strutwork.studies.pose_sets import hemisphere_poses
 
 Array = NDArray[np.float64]
 
-FILE = Path(__file__).parents[3] / "examples/studies/lightest-struts.toml"
+FILE = Path(__file__).parents[3] / "examples/studies/struts-design.toml"
 LOW, HIGH = np.array([14e-3, 8e-3] * 2), np.array([22e-3, 20e-3] * 2)
 
 
 def few_points(*, apparent: bool = False) -> Design:
-    """The design of the example over 13 check points with six rolls."""
+    """The design of the example over 13 check points with four rolls."""
     machine = Proposed3PPRS(first_link_section=TUBE_19_14)
     made = Parametric.of(machine.apparent() if apparent else machine)
     ranges = {"outer": ("14 mm", "22 mm"), "inner": ("8 mm", "20 mm")}
@@ -62,7 +62,7 @@ def few_points(*, apparent: bool = False) -> Design:
         constraints=[
             Constraint.of(f"mean_blocked_stiffness_{a}", at_least="stated") for a in "xyz"
         ],
-        workspace=hemisphere_poses(made, 4e-3, 2, 6, ("revolute",)),
+        workspace=hemisphere_poses(made, 4e-3, 2, 4, ("revolute",)),
         method="gradient",
         starts=1,
     )
@@ -90,11 +90,11 @@ def test_no_lighter_tubes_are_as_stiff() -> None:
     assert mass < 0.95 * design.stated.values[0, 0]
     assert (values[1:] >= kept).all()
     rng = np.random.default_rng(1)
-    shares = np.clip(rng.random((25, 4)), 0.0, 1.0)
-    near = np.clip((best + rng.normal(0.0, 3e-4, (40, 4)) - LOW) / (HIGH - LOW), 0.0, 1.0)
+    shares = np.clip(rng.random((16, 4)), 0.0, 1.0)
+    near = np.clip((best + rng.normal(0.0, 3e-4, (24, 4)) - LOW) / (HIGH - LOW), 0.0, 1.0)
     judged = design.judge(design.samples(np.concatenate([shares, near])))
     good = judged.status == FEASIBLE
-    assert np.count_nonzero(good) > 5
+    assert np.count_nonzero(good) > 3
     assert judged.values[good, 0].min() >= mass * (1.0 - 1e-6)
     # Karush, Kuhn and Tucker: the slope of the mass is a combination of those of active limits
     rates = Gradients(design, (0, 1, 2, 3)).rates(best)
