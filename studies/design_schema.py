@@ -9,7 +9,6 @@ from pydantic import Field, StrictFloat, StrictInt
 from strutwork.machines.model_fields import Name, Size, Table
 from strutwork.machines.model_motion_schema import WorkspaceTable
 from strutwork.machines.model_schema import Displacement
-from strutwork.studies.design_terms import EVOLUTION
 from strutwork.studies.study_schema import ParameterTable, Quantity, VibrationTable
 
 Amount = StrictFloat | StrictInt
@@ -50,7 +49,7 @@ class CostTable(Table):
 class SearchTable(Table):
     """How, and how long, is searched."""
 
-    method: Name = EVOLUTION
+    method: Literal["evolution", "gradient", "both"] = "evolution"
     starts: Annotated[int, Field(strict=True, ge=1)] = 3
     population: Annotated[int, Field(strict=True, ge=4)] = 48
     generations: Annotated[int, Field(strict=True, ge=1)] = 40

@@ -92,6 +92,8 @@ class Descent:
 
         first = self.start[list(self._along)]
         stated = self._value(first)
+        # what has no derivative anywhere is refused now
+        self._rate(first)
         own = stated[self.objective.quantity.name]
         self._scale = float(np.abs(own).min()) or 1.0
         x = first
@@ -110,8 +112,9 @@ class Descent:
                 constraints=[kept] if self.limits or self._several else [],
                 options={"ftol": ACCURACY, "maxiter": STEPS},
             )
-        except _CannotGoOnError as stop:
-            return str(stop)
+        except StrutworkError as error:
+            # it stands at a machine that has no gradient
+            return f"{error.part}: {error.problem}"
         return str(found.message)
 
     def _shares(self, x: Array) -> Array:
@@ -140,10 +143,7 @@ class Descent:
         shares = self._shares(x)
         key = shares.tobytes()
         if self._rates is None or self._rates[0] != key:
-            try:
-                found = self._gradients.rates(self.design.samples(shares[None])[0])
-            except StrutworkError as error:
-                raise _CannotGoOnError(f"{error.part}: {error.problem}") from error
+            found = self._gradients.rates(self.design.samples(shares[None])[0])
             widths = self._widths(shares)[:, None]
             self._rates = key, {name: widths * rate for name, rate in found.items()}
         return self._rates[1]
@@ -220,10 +220,6 @@ class Descent:
             last[len(whole) - len(found[-1]) :] = -1.0
             whole = np.hstack([whole, last])
         return np.asarray(whole)
-
-
-class _CannotGoOnError(Exception):
-    """The search stands at a machine that has no gradient."""
 
 
 def _single(quantity: Quantity, design: Design) -> bool:
