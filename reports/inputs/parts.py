@@ -17,8 +17,9 @@ T = TypeVar("T", Material, Section)
 
 
 def used_materials(model: Model) -> dict[str, Material]:
-    """Every material of a beam or solid, by its name; of one name with other values, each."""
+    """Every material of a part, by its name; of one name with other values, each."""
     found = [beam.material for beam in model.structure.beams]
+    found += [flexure.material for flexure in model.flexures.values()]
     found += [material for solid in model.solids for material in solid.made_of]
     return _by_name(found)
 
