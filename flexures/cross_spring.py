@@ -102,7 +102,8 @@ class CrossSpring(Flexure):
             c, s = cos(self.angle / 2.0), side * sin(self.angle / 2.0)
             axes = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
             middle = (0.5 - self.crossing) * self.length * axes[:, 0]
-            found.append((strip, axes, middle + [0.0, 0.0, place * spacing]))
+            middle[2] = place * spacing
+            found.append((strip, axes, middle))
         return tuple(found)
 
     @cached_property

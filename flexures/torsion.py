@@ -39,11 +39,11 @@ def torsion(profile: Profile, width: float, bending: float, shear: float) -> Tor
     """Torsion between ends that stay plane.
 
     A strip along x at the distance z from the axis is a Timoshenko beam: it deflects by θ(x) z and
-    its sections turn by φ(x) z. With B = E h³ b³/144, S = κ G h b³/12 and T = G J/4 the energy is
-    ½ ∫ B φ'² + S (θ' - φ)² + T (θ' + φ)² dx, φ = 0 at both ends: the plate of Mindlin with a
-    deflection linear in z. Without shear it is Vlasov's torsion with the secondary warping
-    constant b³ h³/144, which constrained leaf springs are computed by (Brouwer, Meijaard and
-    Jonker 2013); long flexures have Saint-Venant's ∫ dx/(G J).
+    its sections turn by φ(x) z. With B = E h³ b³/144, S = κ G h b³/12 and 1/T = 4/(G J) - 1/S the
+    energy is ½ ∫ B φ'² + S (θ' - φ)² + T (θ' + φ)² dx, φ = 0 at both ends: the plate of Mindlin
+    with a deflection linear in z, and with J of the rectangle. Without shear it is Vlasov's
+    torsion with the secondary warping constant b³ h³/144, by which constrained leaf springs are
+    computed (Brouwer, Meijaard and Jonker 2013); long flexures have Saint-Venant's ∫ dx/(G J).
 
     Parameters
     ----------
@@ -59,11 +59,11 @@ def torsion(profile: Profile, width: float, bending: float, shear: float) -> Tor
     step = np.diff(x)
     h = 0.5 * (profile.station_thickness[1:] + profile.station_thickness[:-1])
     constant = _torsion_constants(h, width)
-    b, s, t = (
-        bending * (h * width) ** 3 / 144.0,
-        shear * h * width**3 / 14.4,
-        shear * constant / 4.0,
-    )
+    b = bending * (h * width) ** 3 / 144.0
+    # κ = 5/6, as Reissner's for plates
+    s = shear * h * width**3 / 14.4
+    # sections much thicker than wide, at the thick end of a notch, hardly twist: no negative T
+    t = 1.0 / np.maximum(4.0 / (shear * constant) - 1.0 / s, 0.2 / (shear * constant))
     held = 4.0 * s * t / (s + t)
     given = (s - t) / (s + t)
     # linear elements; the ends are held
@@ -79,8 +79,9 @@ def torsion(profile: Profile, width: float, bending: float, shear: float) -> Tor
     mean = 0.5 * (turn[1:] + turn[:-1])
     twist = (1.0 + (s - t) * mean) / (s + t)
     curved = bending * np.abs(np.diff(turn)) / step * (h * width) / 4.0
-    # Saint-Venant's share of the torque over the least modulus of the section
-    sheared = shear * constant * 0.5 * np.abs(mean + twist) / _torsion_moduli(h, width)
+    # Saint-Venant's share of the torque, and 3/2 of the mean of what shears the edges beside it
+    sheared = 2.0 * t * np.abs(mean + twist) / _torsion_moduli(h, width)
+    sheared += 0.625 * shear * width * np.abs(twist - mean - t / s * (twist + mean))
     return Torsion(float(twist @ step), _at_stations(curved), _at_stations(sheared))
 
 
