@@ -143,6 +143,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "pitch": "of a helical joint: travel along the axis per right-handed turn",
         "flexure": "of a bushing: name of the flexure whose sizes give its stiffness",
     },
+    "FlexureTable": _FLEXURE,
     "CircularNotchTable": {
         "shape": "a hinge of two circular notches",
         "radius": "radius of both notches",

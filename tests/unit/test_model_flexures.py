@@ -19,7 +19,7 @@ from strutwork.studies.gradient import gradient
 from strutwork.studies.parametric import Parametric
 from tests.model_files import EXAMPLES, Content, Edit, drop, put, toml
 
-STAGE = next(path for path in EXAMPLES if path.stem == "11_flexure_stage")
+STAGE = next(path for path in EXAMPLES if path.stem == "09_flexure_stage")
 
 SMALL: Content = {
     "materials": {"steel": {"youngs_modulus": "200 GPa", "poissons_ratio": 0.3}},
