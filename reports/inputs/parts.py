@@ -17,9 +17,8 @@ T = TypeVar("T", Material, Section)
 
 
 def used_materials(model: Model) -> dict[str, Material]:
-    """Every material of a part, by its name; of one name with other values, each."""
+    """Every material of a beam or solid, by its name; of one name with other values, each."""
     found = [beam.material for beam in model.structure.beams]
-    found += [flexure.material for flexure in model.flexures.values()]
     found += [material for solid in model.solids for material in solid.made_of]
     return _by_name(found)
 
@@ -27,6 +26,8 @@ def used_materials(model: Model) -> dict[str, Material]:
 def materials(model: Model) -> Echo:
     """Elasticity, density and damping of every material that a part is made of."""
     found = used_materials(model)
+    # of flexures neither density nor loss factor count, so other chapters need not know these
+    found |= {f.material.name: f.material for f in model.flexures.values()}
     columns = (
         Column("material", "", False),
         Column("Young's modulus", "GPa"),
