@@ -21,6 +21,9 @@ LARGE_ROTATION = 0.1
 #: Share of the buckling force beyond which a linear stiffness is not trusted.
 LARGE_COMPRESSION = 0.1
 
+#: Largest Poisson's ratio of isotropic materials, with room for rounded moduli.
+ISOTROPIC = 0.51
+
 Bending = Literal["beam", "plate"]
 
 
@@ -72,6 +75,12 @@ class Flexure(ABC):
             value = getattr(self, size)
             if value is not None and not (isfinite(value) and value > 0):
                 raise self.error(f"{size} is {value!r}.", "Give a positive number.")
+        if not self.material.poissons_ratio <= ISOTROPIC:
+            raise self.error(
+                f"its material {self.material.name} has a Poisson's ratio of "
+                f"{self.material.poissons_ratio:.3g} by its moduli, more than 0.5.",
+                "Check youngs_modulus and shear_modulus: a flexure is isotropic.",
+            )
         if self.allowable_stress is not None and not self.allowable_stress > 0:
             raise self.error(
                 f"allowable_stress is {self.allowable_stress!r}.", "Give a positive number."

@@ -113,6 +113,7 @@ def test_plates_by_their_proportions_or_as_stated() -> None:
     ("make", "words"),
     [
         (lambda: replace(HINGE, radius=0.0), "radius"),
+        (lambda: replace(HINGE, material=Material(200e9, 60e9)), "isotropic"),
         (lambda: replace(HINGE, thickness=float("nan")), "thickness"),
         (lambda: replace(HINGE, thickness=12e-3), "no hinge"),
         (lambda: replace(HINGE, height=4e-4), "height"),
