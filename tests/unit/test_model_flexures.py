@@ -144,7 +144,7 @@ def test_sizes_outside_the_range_of_the_formulas_are_a_warning() -> None:
         (put("flexures.hinge.thickness", "12 mm"), "flexure hinge", "no hinge"),
         (put("flexures.hinge.bending", "shell"), "flexures.hinge.bending", "not known"),
         (put("flexures.hinge.length", "1 mm"), "flexures.hinge.length", "not a known key"),
-        (drop("flexures.hinge.shape"), "flexures.hinge.shape", "is missing"),
+        (drop("flexures.hinge.shape"), "flexures.hinge.shape", "shape of the flexure"),
         (drop("flexures.hinge.radius"), "flexures.hinge.radius", "is missing"),
     ],
 )
