@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -56,14 +57,14 @@ class Notch(Flexure):
             )
 
     @property
+    @abstractmethod
     def half_length(self) -> float:
         """Semi-axis along x, m."""
-        raise NotImplementedError
 
     @property
+    @abstractmethod
     def half_height(self) -> float:
         """Semi-axis along y, m."""
-        raise NotImplementedError
 
     @property
     def ratio(self) -> float:
