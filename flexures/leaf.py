@@ -75,7 +75,7 @@ class Leaf(Flexure):
         wrench : (..., 6)
             At the joint, joint axes, N and N·m.
         """
-        return np.maximum(-np.asarray(wrench, dtype=float)[..., 0], 0.0) / self.strip.buckling_force
+        return self.strip.compression(wrench)
 
 
 def leaf_doubts(length: float, thickness: float, width: float) -> tuple[str, ...]:

@@ -134,7 +134,7 @@ class Notch(Flexure):
         wrench : (..., 6)
             At the joint, joint axes, N and N·m.
         """
-        return np.maximum(-np.asarray(wrench, dtype=float)[..., 0], 0.0) / self.strip.buckling_force
+        return self.strip.compression(wrench)
 
 
 @dataclass(frozen=True)

@@ -116,3 +116,14 @@ class Strip:
         least = float(self.profile.station_thickness.min())
         inertia = self.width * least**3 / 12.0
         return pi**2 * self.bending_modulus * inertia / self.effective_length**2
+
+    def compression(self, wrench: ArrayLike) -> Array:
+        """Axial compression by the buckling force, no unit, (...).
+
+        Parameters
+        ----------
+        wrench : (..., 6)
+            On the far side, N and N·m.
+        """
+        pushed = np.maximum(-np.asarray(wrench, dtype=float)[..., 0], 0.0)
+        return np.asarray(pushed / self.buckling_force)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from strutwork.errors import ModelError
 from strutwork.machines.model import ModelWarning
@@ -119,7 +119,7 @@ def _flexure(
     )
 
     first = (name, material, table.thickness, table.width)
-    common = {
+    common: dict[str, Any] = {
         "bending": table.bending,
         "allowable_stress": table.allowable_stress,
         "stress_concentration": table.stress_concentration,
