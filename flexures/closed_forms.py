@@ -30,7 +30,7 @@ def rotational_compliance(
     first = ((1.0 + b) / g**2 + (3.0 + 2.0 * b + b**2) / (g * s)) * root
     angle = atan(sqrt((2.0 + b) / b) * (g - b) / root)
     second = 6.0 * (1.0 + b) / s**1.5 * angle
-    return 3.0 / (2.0 * youngs_modulus * width * radius**2) * (first + second) / s
+    return float(3.0 / (2.0 * youngs_modulus * width * radius**2) * (first + second) / s)
 
 
 def rotational_compliance_thin(
@@ -45,7 +45,7 @@ def rotational_compliance_thin(
     width, thickness, radius : float
         b, t and R, m.
     """
-    return 9.0 * pi * sqrt(radius) / (2.0 * youngs_modulus * width * thickness**2.5)
+    return float(9.0 * pi * sqrt(radius) / (2.0 * youngs_modulus * width * thickness**2.5))
 
 
 def axial_compliance(

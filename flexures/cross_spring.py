@@ -164,9 +164,7 @@ class CrossSpring(Flexure):
             At the joint, joint axes, N and N·m.
         """
         pairs = zip(self.strips, self._shares(wrench), strict=True)
-        shares = [
-            np.maximum(-six[..., 0], 0.0) / leaf.buckling_force for (leaf, _, _), six in pairs
-        ]
+        shares = [leaf.compression(six) for (leaf, _, _), six in pairs]
         return np.asarray(np.max(shares, axis=0))
 
     def _shares(self, wrench: ArrayLike) -> list[Array]:

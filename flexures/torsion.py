@@ -87,7 +87,7 @@ def torsion(profile: Profile, width: float, bending: float, shear: float) -> Tor
 
 def _at_stations(values: Array) -> Array:
     """The larger of the two intervals that meet at a station, (m,)."""
-    return np.maximum(np.append(values, values[-1]), np.insert(values, 0, values[0]))
+    return np.asarray(np.maximum(np.append(values, values[-1]), np.insert(values, 0, values[0])))
 
 
 def _torsion_constants(thickness: Array, width: float) -> Array:
