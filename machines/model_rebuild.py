@@ -130,6 +130,9 @@ def _joints(model: Model, before: ModelTable, after: ModelTable) -> tuple[Joint,
             if name not in _OF_FORCE
         ):
             return None
+        if new.bearing is not None:
+            # its stiffness stands in a catalogue
+            return None
         joint = joint_of(new)
         if joint.states != made[i].states:
             return None

@@ -45,6 +45,10 @@ def _print(found: ModelSolution) -> None:
         _six(out, "Displacements", "node", _MOVED, moved, kept=found.model.tool)
         for title, what, key in FORCE_TABLES:
             _six(out, title, what, _FORCE, tables[key])
+        if found.equilibria:
+            from strutwork.reports.cli.bearings import print_states
+
+            print_states(out, found, number)
     if found.compliance is not None:
         _print_tool(out, found, found.compliance)
 
