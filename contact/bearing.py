@@ -15,7 +15,10 @@ Array = NDArray[Any]
 DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
 #: Points at which the secant averages the tangent along the way.
-POINTS = 12
+POINTS = 8
+
+#: A load below this share of the sum of the forces on all elements is rounding.
+ROUNDING = 1e-12
 
 
 class Geometry(Protocol):
@@ -111,9 +114,9 @@ class Bearing:
         # rotations as translations at the bearing's size
         s, y = np.asarray(mean) * np.outer(scale, scale), self.loads(q) * scale
         p = q / scale
-        square = float(p @ p)
-        if square > 0.0:
-            left = y - s @ p
+        square, left = float(p @ p), y - s @ p
+        # less is rounding: the loads are differences from those of the preload
+        if float(np.abs(left).max()) > ROUNDING * float(self.contacts.elements(self.start).sum()):
             s = s + (np.outer(left, p) + np.outer(p, left)) / square
             s = s - (left @ p) * np.outer(p, p) / square**2
         return np.asarray(s / np.outer(scale, scale))

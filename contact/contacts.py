@@ -146,7 +146,7 @@ class Contacts:
         motion[:, 0, 4], motion[:, 0, 5] = z, -y
         motion[:, 1, 3], motion[:, 1, 5] = -z, x
         motion[:, 2, 3], motion[:, 2, 4] = y, -x
-        result = np.einsum("nai,nab,nbj->ij", motion, local, motion)
+        result = motion.reshape(-1, 6).T @ (local @ motion).reshape(-1, 6)
         return np.asarray(0.5 * (result + result.T))
 
     def _state(self, displacement: ArrayLike) -> tuple[Array, Array, Array]:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.kinematics import State, characteristic_length
+from strutwork.kinematics import Joint, State, characteristic_length
 from strutwork.msa.assembly import System
 from strutwork.msa.elimination import elimination_order, elimination_tape, ints, symbolic_factor
 from strutwork.msa.loops import LARGEST_ROWS, Loop, closed_loops
