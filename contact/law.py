@@ -46,7 +46,7 @@ class ContactLaw:
     Parameters
     ----------
     constant : float
-        C, N/mⁿ.
+        C, N over the nth power of m; its unit follows from n.
     exponent : float
         n, no unit: 3/2 of point contact, 10/9 of line contact.
 

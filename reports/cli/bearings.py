@@ -10,6 +10,7 @@ import numpy as np
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.bearing_catalogue import package_catalogue
 from strutwork.machines.bearing_entry import BearingEntry
+from strutwork.msa import axis_stiffness_free, tool_compliance
 from strutwork.reports.cli.output import console, print_json, print_table
 
 if TYPE_CHECKING:
@@ -17,6 +18,9 @@ if TYPE_CHECKING:
 
     from strutwork.machines.model import Model
     from strutwork.reports.model_solution import ModelSolution
+
+#: A displacement below this share of the largest is rounding.
+ROUNDING = 1e-9
 
 _STIFFNESS = [f"{d}, {'kN·m/rad' if d.startswith('r') else 'N/µm'}" for d in DIRECTIONS]
 
@@ -55,7 +59,9 @@ def print_states(out: Console, found: ModelSolution, number: int) -> None:
     from strutwork.reports.cli.solve import SHORT
 
     states = found.equilibria[number].states
-    moved = [s for s in states if np.any(s.displacement[:3])]
+    far = max(float(np.linalg.norm(s.displacement[:3])) for s in states)
+    # less is rounding
+    moved = [s for s in states if np.linalg.norm(s.displacement[:3]) > ROUNDING * far]
     moved.sort(key=lambda s: -float(np.linalg.norm(s.load[:3])))
     shown = moved if MANNER.whole else moved[:SHORT]
     rows = []
@@ -74,6 +80,14 @@ def print_states(out: Console, found: ModelSolution, number: int) -> None:
         out.print(
             f"Only the most loaded are shown; --verbose lists {len(moved) - len(shown)} more.",
             markup=False,
+        )
+    if found.compliance is not None:
+        free = 1e-6 * axis_stiffness_free(tool_compliance(found.equilibria[number].tangent))[:3]
+        words = ", ".join(f"{k:.4g} N/µm in {d}" for k, d in zip(free, "xyz", strict=True))
+        out.print(
+            f"Under this load the stiffness at {found.model.tool}, others free, is {words}.",
+            markup=False,
+            soft_wrap=True,
         )
     if MANNER.verbose:
         steps = found.equilibria[number].steps

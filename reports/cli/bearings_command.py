@@ -13,7 +13,7 @@ def bearings(
     target: Annotated[
         str | None,
         typer.Argument(
-            metavar="[FILE_OR_MACHINE]",
+            metavar="FILE_OR_MACHINE",
             help="A model file, or a machine: NAME or NAME:VARIANT; the package's catalogue by "
             "default.",
             autocompletion=targets,

@@ -92,6 +92,8 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
         rows.append((axis, unit, *(float(v[i]) * scale for v in (free, blocked))))
     title = f"Stiffness at the tool {found.model.tool}"
+    if found.equilibria:
+        title += ", bearings at their preload"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))
     if not np.isfinite(free[:3]).any():
         return

@@ -1,5 +1,6 @@
 """What a model was given, in tables, and what it left out, in sentences."""
 
+from strutwork.reports.inputs.bearings import bearings
 from strutwork.reports.inputs.echo import Echo
 from strutwork.reports.inputs.joints import drives, joints, springs
 from strutwork.reports.inputs.loads import acting
@@ -13,6 +14,7 @@ __all__ = [
     "acting",
     "assumed",
     "beams",
+    "bearings",
     "drives",
     "force_limits",
     "joints",
