@@ -139,6 +139,8 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "pitch": "of a helical joint: travel along the axis per right-handed turn",
         "bearing": "name of the bearing or guide that gives its stiffness",
     },
+    "ContactTable": _CONTACTS,
+    "CatalogueTable": {"bearings": "bearings and guides by name"},
     "AngularContactTable": _CONTACTS
     | {
         "type": "angular contact ball bearing of one row, or a pair",

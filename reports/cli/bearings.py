@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 #: A displacement below this share of the largest is rounding.
 ROUNDING = 1e-9
 
-_STIFFNESS = [f"{d}, {'kN·m/rad' if d.startswith('r') else 'N/µm'}" for d in DIRECTIONS]
-
 
 def run(model: Model | None, json: bool) -> None:
     """Print the entries that a machine's joints use, or those of the package."""
@@ -42,7 +40,8 @@ def run(model: Model | None, json: bool) -> None:
             return
         print_table(out, "Bearings of joints", ["joint", "bearing"], _joints(used))
     rows = [(name, *_stiffness(entry), entry.preload or "") for name, entry in entries.items()]
-    print_table(out, "Stiffness at preload", ["bearing", *_STIFFNESS, "preload"], rows)
+    title = "Stiffness at preload, N/µm and kN·m/rad"
+    print_table(out, title, ["bearing", *DIRECTIONS, "preload"], rows)
     for entry in entries.values():
         out.print(
             f"{entry.name} ({entry.type}, {entry.origin}): {entry.source}",
@@ -73,9 +72,8 @@ def print_states(out: Console, found: ModelSolution, number: int) -> None:
         ]
         force = float(np.linalg.norm(state.load[:3]))
         rows.append((state.joint, state.entry.name, force, *along, f"{100 * state.loaded:.0f} %"))
-    columns = ["joint", "bearing", "force, N", "at preload, N/µm", "secant, N/µm", "tangent, N/µm"]
-    title = "Bearings, along their displacement"
-    print_table(out, title, [*columns, "elements loaded"], rows)
+    columns = ["joint", "bearing", "force, N", "at preload", "secant", "tangent", "loaded"]
+    print_table(out, "Bearings along their displacement, N/µm", columns, rows)
     if len(shown) < len(moved):
         out.print(
             f"Only the most loaded are shown; --verbose lists {len(moved) - len(shown)} more.",

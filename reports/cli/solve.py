@@ -93,7 +93,7 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
         rows.append((axis, unit, *(float(v[i]) * scale for v in (free, blocked))))
     title = f"Stiffness at the tool {found.model.tool}"
     if found.equilibria:
-        title += ", bearings at their preload"
+        title += ", at preload"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))
     if not np.isfinite(free[:3]).any():
         return
