@@ -41,4 +41,5 @@ def test_spring_constant_of_the_standard(length: float) -> None:
 @pytest.mark.parametrize("force", [100.0, 1000.0, 10_000.0])
 def test_approach_of_one_raceway_in_palmgrens_units(force: float) -> None:
     law = CylindricalRollers(6, 10e-3).law()
+    # the formula itself, to rounding
     assert 1e3 * law.approach(force) == pytest.approx(2 * 3.84e-5 * force**0.9 / 10**0.8, rel=1e-9)
