@@ -123,6 +123,13 @@ def borne_stiffness(table: JointTable, entry: BearingEntry) -> Borne:
             f"has a stiffness in {', '.join(twice)} beside that of its bearing {entry.name}.",
             "Leave it out, or the bearing.",
         )
+    moved = [d for d in entry.held if d in table.driven]
+    if moved:
+        raise ModelError(
+            part,
+            f"drives {', '.join(moved)}, where its bearing {entry.name} resists.",
+            "Drive a direction in which it is free.",
+        )
     held = DIRECTIONS if table.type == "bushing" else JOINT_TYPES[table.type]
     free = [d for d in entry.held if d not in held]
     if free:

@@ -16,7 +16,10 @@ from strutwork.machines.bearing_equilibrium import equilibrium
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
 from strutwork.msa import tool_compliance
+from strutwork.msa.assembly import system_of
+from strutwork.msa.program_builder import compile_program
 from strutwork.reports.model_solution import solve_model
+from strutwork.studies.error_inputs import DriveError, with_servos
 
 Array = NDArray[Any]
 
@@ -175,6 +178,38 @@ def test_the_tangent_at_the_load_is_the_slope_of_the_displacement() -> None:
     assert abs(slope / at_preload - 1.0) > 1e-3
 
 
+def test_the_compiled_kernel_leaves_coupled_stiffnesses_to_the_other_solvers() -> None:
+    """It has one stiffness for each coordinate; a bearing that is tilted couples two."""
+    model = parse_model(
+        """
+[nodes]
+seat = [0, 0, 0]
+shaft = [0, 0, 0]
+nose = [0, 0, 0.1]
+[[supports]]
+node = "seat"
+fixed = "all"
+[[bodies]]
+name = "shaft"
+nodes = ["shaft", "nose"]
+[[joints]]
+name = "rollers"
+type = "revolute"
+between = ["seat", "shaft"]
+bearing = "roller-row-6"
+driven = ["rz"]
+[[loads]]
+node = "nose"
+force = ["200 N", "30 N", 0]
+[tool]
+tcp = "nose"
+"""
+    )
+    loaded = equilibrium(model, model.cases[0]).tangent
+    assert compile_program(system_of(model.placed)) is not None
+    assert compile_program(system_of(loaded)) is None
+
+
 def test_energy_is_the_work_of_the_load() -> None:
     model = shaft()
     case = model.case("push")
@@ -280,6 +315,10 @@ tcp = "table"
     assert moved[2] == pytest.approx(100.0 / 50e6, rel=1e-9)
     contacts = model.bearings["guide"].bearing
     assert contacts is not None
+    servo = with_servos(model.structure, [DriveError("guide", "z", servo_stiffness=150e6)])
+    soft = servo.linkage.joints[0].stiffness_matrix
+    assert soft[2, 2] == pytest.approx(37.5e6)
+    assert soft[1, 1] == contacts.tangent()[1, 1]
     assert contacts.loads(found.states[0].displacement)[1] == pytest.approx(-300.0, rel=1e-8)
 
 
@@ -307,6 +346,7 @@ tcp = "table"
         ('bearing = "rear"', 'bearing = "reer"', r"names the unknown bearing .reer"),
         ('type = "cylindrical"', 'type = "planar"', "fits joints of the type fixed or revolute"),
         ('type = "revolute"', 'type = "spherical"', "free in rx, ry"),
+        ('driven = ["rz"]', 'driven = ["z"]', "drives z, where its bearing front resists"),
         ('driven = ["rz"]', "stiffness = { x = 1e8 }", "has a stiffness in x beside"),
         (
             'clearance = "-6 um"',
