@@ -66,7 +66,7 @@ class CylindricalRollers:
         place = np.tile(self.length * middle, self.rollers)
         zero, one = np.zeros_like(turn), np.ones_like(turn)
         radial = np.stack([np.cos(turn), np.sin(turn), zero], axis=-1)
-        whole = self.law()
+        roller = self.law()
         contacts = Contacts(
             points=np.stack([zero, zero, place], axis=-1),
             normals=radial,
@@ -74,7 +74,7 @@ class CylindricalRollers:
             distances=np.inf * one,
             shifts=-0.5 * self.clearance * radial,
             rows=np.zeros(len(turn), dtype=np.intp),
-            law=ContactLaw(whole.constant / self.slices, whole.exponent),
+            law=ContactLaw(roller.constant / self.slices, roller.exponent),
         )
         return Bearing(
             contacts, HELD, ("the row",), size=0.5 * self.length, around=self.clearance < 0.0
