@@ -147,7 +147,7 @@ def _geometry(
     table: AngularContactTable | CylindricalRollersTable | BallRailTable,
 ) -> tuple[Geometry, str]:
     if isinstance(table, CylindricalRollersTable):
-        words = f"clearance {1e6 * table.clearance:g} µm"
+        words = f"clearance {1e6 * table.clearance:g} µm".replace("-", "−")
         return (
             CylindricalRollers(table.rollers, table.length, table.clearance, table.slices),
             words,

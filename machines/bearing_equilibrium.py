@@ -51,6 +51,7 @@ def equilibrium(model: Model, case: LoadCase) -> Equilibrium:
     size = np.array([1.0, 1.0, 1.0, length, length, length])
     matrices = {joint: bearing.tangent() for joint, bearing in found.items()}
     before: Array | None = None
+    stretches: dict[str, Array] = {}
     placed, steps = _with(model, matrices), 0
     for _ in range(STEPS):
         steps += 1

@@ -88,13 +88,16 @@ def joined(found: Sequence[Equilibrium]) -> StaticSolution:
         At least one.
     """
     parts = [one.solution for one in found]
-    last = {
-        name: np.concatenate([getattr(part, name) for part in parts], axis=-1)
-        for name in ("displacements", "joint_forces", "beam_forces", "strain_energy")
-    }
+
+    def last(name: str) -> Array:
+        return np.concatenate([getattr(part, name) for part in parts], axis=-1)
+
     return replace(
         parts[0],
         cases=tuple(name for part in parts for name in part.cases),
         residual=np.max([part.residual for part in parts], axis=0),
-        **last,
+        displacements=last("displacements"),
+        joint_forces=last("joint_forces"),
+        beam_forces=last("beam_forces"),
+        strain_energy=last("strain_energy"),
     )
