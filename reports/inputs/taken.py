@@ -65,9 +65,7 @@ def _joints(model: Model) -> Iterator[str]:
         verb = "holds its" if len(stiff) == 1 else "hold their"
         yield f"{_some(stiff)} {verb} driven direction rigidly: no stiffness of the drive is given."
     if any(entry.geometry is not None for entry in model.bearings.values()):
-        yield (
-            "Bearings have the stiffness of their preload; under the load cases it follows the load."
-        )
+        yield "Bearings have the stiffness at their preload; in load cases it follows the load."
     if model.supports:
         yield "Supports are rigid."
     if own:
