@@ -81,7 +81,10 @@ def print_states(out: Console, found: ModelSolution, number: int) -> None:
         )
     if found.compliance is not None:
         free = 1e-6 * axis_stiffness_free(tool_compliance(found.equilibria[number].tangent))[:3]
-        words = ", ".join(f"{k:.4g} N/µm in {d}" for k, d in zip(free, "xyz", strict=True))
+        words = ", ".join(
+            f"{k:.4g} N/µm in {d}" if np.isfinite(k) else f"infinite in {d}"
+            for k, d in zip(free, "xyz", strict=True)
+        )
         out.print(
             f"Under this load the stiffness at {found.model.tool}, others free, is {words}.",
             markup=False,

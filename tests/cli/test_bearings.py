@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from tests.cli.conftest import Program
 
 SPINDLE = Path(__file__).parents[2] / "examples/bearings/spindle.toml"
@@ -29,3 +31,34 @@ def test_lost_preload_is_an_error_that_names_the_bearing(
     run = strutwork("check", file)
     assert run.status == 1
     assert "bearings.front-pair.source: is missing" in run.err
+
+
+@pytest.mark.filterwarnings("ignore:tool. does not move:strutwork.errors.ModelWarning")
+def test_a_rigid_direction_beside_a_bearing(strutwork: Program, tmp_path: Path) -> None:
+    file = tmp_path / "guide.toml"
+    file.write_text(
+        """
+[nodes]
+rail = [0, 0, 0]
+table = [0, 0, 0]
+[[supports]]
+node = "rail"
+fixed = "all"
+[[joints]]
+name = "guide"
+type = "prismatic"
+between = ["rail", "table"]
+bearing = "rail-contacts"
+driven = ["z"]
+[[loads]]
+node = "table"
+force = [0, "-300 N", 0]
+[tool]
+tcp = "table"
+""",
+        encoding="utf-8",
+    )
+    run = strutwork("solve", file)
+    assert run.status == 0
+    assert "infinite in z" in run.out
+    assert "│ guide │ rail-contacts │" in run.out
