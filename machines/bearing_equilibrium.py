@@ -148,7 +148,8 @@ def _require_closed(model: Model, case: LoadCase, stretches: Mapping[str, Array]
         load = bearing.loads(q)
         raise ContactError(
             f"bearing {model.bearings[joint].name} of the joint {joint}",
-            f"loses its preload under the case {case.name}: {' and '.join(rows)} bears nothing at "
+            f"loses its preload under the case {case.name}: {' and '.join(rows)} "
+            f"{'bears' if len(rows) == 1 else 'bear'} nothing at "
             f"{_words(load)}. It opens at {_words(bearing.loads(share * q))}.",
             f"Its preload ({model.bearings[joint].preload}) is too small for this load: give the "
             "entry more, choose a larger bearing, or lower the load.",
