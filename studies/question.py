@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -22,6 +22,7 @@ from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import ONE_PERCENT
 from strutwork.studies.frequency_answer import HomeFrequency
 from strutwork.studies.model_damping import model_damping
+from strutwork.studies.models_together import masses
 from strutwork.studies.stability_answer import Stability
 from strutwork.studies.transmission_answer import Transmission
 
@@ -124,6 +125,16 @@ class Mass:
         value = float(np.ravel(total_mass(placed[:1]))[0])
         poses = placed.batch
         return {"mass": np.full(poses, value)}, Outcome.good(poses)
+
+    @staticmethod
+    def of_many(models: Sequence[Model | None]) -> Array:
+        """As `strutwork.studies.models_together.masses`, (n,), kg.
+
+        Parameters
+        ----------
+        models : sequence of n Model or None
+        """
+        return masses(models)
 
 
 def _stiffness(_: Asked, model: Model) -> Answer:

@@ -159,19 +159,39 @@ class Machines:
             missing = np.int8(PoseStatus.UNSOLVED)
             found["pose_status"] = np.full((count, self.poses - 1), missing)
         words = [""]
-        for i in range(count):
-            try:
-                why = self._ask(chunk.start + i, i, found)
-            except StrutworkError as error:
-                why = " ".join(f"{error.part}: {error.problem}".split())
+        models = [self._made(number) for number in range(chunk.start, chunk.stop)]
+        known = self._together([m for m, _ in models])
+        for i, (model, wrong) in enumerate(models):
+            why = wrong if model is None else self._why(model, i, found, known)
             if why not in words:
                 words.append(why)
             found["reason"][i] = words.index(why)
         return found | {"reasons": np.array(words[1:], dtype=str)}
 
-    def _ask(self, number: int, row: int, found: Arrays) -> str:
+    def _made(self, number: int) -> tuple[Model | None, str]:
+        """One machine, or why it cannot be."""
+        try:
+            return self.model(number), ""
+        except StrutworkError as error:
+            return None, _words(error)
+
+    def _together(self, models: list[Model | None]) -> Arrays:
+        """Answers of one number a machine that all can be asked at once, by question, (n,)."""
+        found: Arrays = {}
+        for question in self.questions:
+            many = getattr(question.of(self.machine.origin.model), "of_many", None)
+            if many is not None:
+                found[question.name] = many(models)
+        return found
+
+    def _why(self, model: Model, row: int, found: Arrays, known: Arrays) -> str:
+        try:
+            return self._ask(model, row, found, known)
+        except StrutworkError as error:
+            return _words(error)
+
+    def _ask(self, model: Model, row: int, found: Arrays, known: Arrays) -> str:
         """Fill the row of one machine; why it has no numbers, empty where it has."""
-        model = self.model(number)
         standing = self.stand(model)
         status = standing.status.copy()
         reasons = [r for r in standing.reasons if r]
@@ -181,7 +201,12 @@ class Machines:
             placed = model.structure.at(standing.placement)
             answers: dict[str, dict[str, Array]] = {}
             for question in self.questions:
-                values, outcome = question.of(model)(placed)
+                answer = question.of(model)
+                if question.name in known and np.isfinite(known[question.name][row]):
+                    value = np.full(placed.batch, known[question.name][row])
+                    answers[question.name] = {answer.columns[0].name: value}
+                    continue
+                values, outcome = answer(placed)
                 answers[question.name] = values
                 reasons += [outcome.reason(int(i)) for i in np.flatnonzero(~outcome.solved)]
                 status[standing.good[~outcome.solved]] = PoseStatus.UNSOLVED
@@ -219,3 +244,7 @@ class Machines:
                 out[row] = value
                 if reduction == "worst":
                     found[f"{kept.name}_pose"][row] = np.where(np.isnan(value), -1, at)
+
+
+def _words(error: StrutworkError) -> str:
+    return " ".join(f"{error.part}: {error.problem}".split())
