@@ -139,7 +139,7 @@ def _beam_parts(system: System, solution: StaticSolution, case: LoadCase) -> Arr
     per_length = system.per_length_loads(case)
     loads = np.zeros((system.poses, len(structure.beams), 2, 3))
     if per_length is not None:
-        loads = np.einsum("pbij,...bkj->pbki", axes, per_length)
+        loads = np.swapaxes(axes @ np.swapaxes(per_length, -1, -2), -1, -2)
     near, change = loads[:, :, 0], loads[:, :, 1] - loads[:, :, 0]
     forces = np.empty((system.poses, len(beam), POINTS, 6))
     for i, point in enumerate(gauss_points()[0]):

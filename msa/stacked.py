@@ -19,6 +19,11 @@ from strutwork.msa.placed_structure import PlacedStructure
 from strutwork.msa.structure import Structure
 from strutwork.msa.variant_of import origin_of
 
+_KEPT = "_singles"
+
+#: Placements of which a structure keeps what they decide: home, and one of the poses.
+PLACEMENTS = 2
+
 
 @dataclass(frozen=True)
 class PlacedStack(PlacedStructure):
@@ -90,10 +95,11 @@ def stacked(structures: Sequence[Structure], placement: Placement) -> PlacedStac
     """
     origin = origin_of(structures[0]) or structures[0]
     # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
-    kept = origin.__dict__.get("_single")
-    if kept is None or kept[0] is not placement:
-        kept = placement, PlacedStructure(origin, placement[None])
-        origin.__dict__["_single"] = kept
+    kept = origin.__dict__.get(_KEPT, ())
+    single = next((one for place, one in kept if place is placement), None)
+    if single is None:
+        single = PlacedStructure(origin, placement[None])
+        origin.__dict__[_KEPT] = ((placement, single), *kept)[:PLACEMENTS]
     every = placement[None][np.zeros(len(structures), dtype=np.intp)]
     numbers = PartNumbers.stacked([s.numbers for s in structures])
-    return PlacedStack(origin, every, own=numbers, single=kept[1])
+    return PlacedStack(origin, every, own=numbers, single=single)

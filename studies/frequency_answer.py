@@ -16,6 +16,7 @@ from strutwork.msa import PlacedStructure
 from strutwork.outcome import Outcome
 from strutwork.studies.answers import Column
 from strutwork.studies.models_together import first_frequencies
+from strutwork.studies.standing import Standing
 
 Array = NDArray[Any]
 
@@ -63,11 +64,11 @@ class HomeFrequency:
         return {"first_frequency": np.full(poses, value)}, Outcome.good(poses)
 
     @staticmethod
-    def of_many(models: Sequence[Model | None]) -> Array:
+    def of_many(standing: Sequence[tuple[Model, Standing] | None]) -> Array:
         """As `strutwork.studies.models_together.first_frequencies`, (n,), Hz.
 
         Parameters
         ----------
-        models : sequence of n Model or None
+        standing : sequence of n (Model, Standing) or None
         """
-        return first_frequencies(models)
+        return first_frequencies(standing)

@@ -24,6 +24,7 @@ from strutwork.studies.frequency_answer import HomeFrequency
 from strutwork.studies.model_damping import model_damping
 from strutwork.studies.models_together import masses
 from strutwork.studies.stability_answer import Stability
+from strutwork.studies.standing import Standing
 from strutwork.studies.transmission_answer import Transmission
 
 Array = NDArray[Any]
@@ -127,14 +128,14 @@ class Mass:
         return {"mass": np.full(poses, value)}, Outcome.good(poses)
 
     @staticmethod
-    def of_many(models: Sequence[Model | None]) -> Array:
+    def of_many(standing: Sequence[tuple[Model, Standing] | None]) -> Array:
         """As `strutwork.studies.models_together.masses`, (n,), kg.
 
         Parameters
         ----------
-        models : sequence of n Model or None
+        standing : sequence of n (Model, Standing) or None
         """
-        return masses(models)
+        return masses(standing)
 
 
 def _stiffness(_: Asked, model: Model) -> Answer:
