@@ -9,7 +9,8 @@ without it a tenth is searched, and its time extrapolated.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,13 +25,13 @@ from benchmarks.measure import (
     require,
     shown,
 )
+from strutwork.fea.lowest import natural_frequencies
+from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
 from strutwork.msa import axis_stiffness_free, compliance_and_outcome
 from strutwork.studies.design import Design
 from strutwork.studies.design_store import run_design
-from strutwork.studies.frequency_answer import HomeFrequency
 from strutwork.studies.parameter import Parameter
-from strutwork.studies.standing import Stand
 from strutwork.studies.variants import Variants
 
 DOCUMENT = DOCUMENTS / "performance-variants.md"
@@ -68,16 +69,13 @@ class Row:
     processors: float
 
 
-def _timed(what: str, threads: int, machines: int, task: Callable[[], object]) -> Row:
+@contextmanager
+def _timed(rows: list[Row], what: str, threads: int, machines: int) -> Iterator[None]:
+    """Add a row of what is done inside."""
     clock, processors = time.perf_counter(), time.process_time()
-    task()
-    return Row(
-        what,
-        threads,
-        machines,
-        time.perf_counter() - clock,
-        time.process_time() - processors,
-    )
+    yield
+    clock, processors = time.perf_counter() - clock, time.process_time() - processors
+    rows.append(Row(what, threads, machines, clock, processors))
 
 
 def _samples(count: int, stated: list[float]) -> np.ndarray:
@@ -86,48 +84,41 @@ def _samples(count: int, stated: list[float]) -> np.ndarray:
 
 def measured(machines: int, alone: int) -> list[Row]:
     """Each way of asking; together and alone agree to 1e-9."""
-    rows = []
+    rows: list[Row] = []
     workspace = {"x": POINTS, "y": POINTS}
     for answers in (("stiffness",), ("stiffness", "frequency", "mass")):
         variants = Variants.of(HEXAPOD, PATHS, *answers, workspace=workspace)
         machine = variants.study.machine
         samples = _samples(machines, [machine.matching(path)[0].value for path in PATHS])
         # the kernel is loaded before
-        variants.values(samples[:4], workers=1)
+        found = variants.values(samples[:4], workers=1)
         for workers in (1, 2):
-            found = {}
-
-            def ask(
-                found: dict = found, variants: Variants = variants, workers: int = workers
-            ) -> None:
-                found |= variants.values(samples, workers=workers)
-
-            rows.append(_timed(", ".join(answers), workers, machines, ask))
+            with _timed(rows, ", ".join(answers), workers, machines):
+                found = variants.values(samples, workers=workers)
             require(bool((found["status"] == 0).all()), "some machines were not solved")
-        models = [
-            machine.model(dict(zip(PATHS, row, strict=True))) for row in samples[:alone].tolist()
-        ]
-
-        def one_by_one(found: dict = found, models: list = models) -> None:
-            axes = [a.ravel() for a in np.meshgrid(POINTS, POINTS, indexing="ij")]
-            for i, model in enumerate(models):
-                _, placement = moved(model, dict(zip("xy", axes, strict=True)))
-                compliance, _ = compliance_and_outcome(model.structure.at(placement))
-                worst = axis_stiffness_free(compliance).min(axis=0)
-                np.testing.assert_allclose(found["stiffness_free_worst"][i], worst, rtol=1e-9)
-
-        def first(found: dict = found, models: list = models) -> None:
-            stand = Stand(None)
-            for i, model in enumerate(models):
-                answer, _ = HomeFrequency(model)(model.structure.at(stand(model).placement))
-                value = answer["first_frequency"][0]
-                np.testing.assert_allclose(found["first_frequency"][i], value, rtol=1e-9)
-
+        each = [dict(zip(PATHS, row, strict=True)) for row in samples[:alone].tolist()]
         if answers == ("stiffness",):
-            rows.append(_timed("stiffness, each machine by itself", 1, alone, one_by_one))
+            with _timed(rows, "stiffness, each machine by itself", 1, alone):
+                _stiffness_alone([machine.model(m) for m in each], found["stiffness_free_worst"])
         else:
-            rows.append(_timed("frequency at home, each machine by itself", 1, alone, first))
+            with _timed(rows, "frequency at home, each machine by itself", 1, alone):
+                _frequency_alone([machine.model(m) for m in each], found["first_frequency"])
     return rows
+
+
+def _stiffness_alone(models: list[Model], found: np.ndarray) -> None:
+    axes = [a.ravel() for a in np.meshgrid(POINTS, POINTS, indexing="ij")]
+    for i, model in enumerate(models):
+        _, placement = moved(model, dict(zip("xy", axes, strict=True)))
+        compliance, _ = compliance_and_outcome(model.structure.at(placement))
+        worst = axis_stiffness_free(compliance).min(axis=0)
+        np.testing.assert_allclose(found[i], worst, rtol=1e-9)
+
+
+def _frequency_alone(models: list[Model], found: np.ndarray) -> None:
+    for i, model in enumerate(models):
+        frequencies, _ = natural_frequencies(model.vibrating, 1)
+        np.testing.assert_allclose(found[i], frequencies.item(), rtol=1e-9)
 
 
 def front(machines: int) -> tuple[Row, int]:
@@ -141,16 +132,13 @@ def front(machines: int) -> tuple[Row, int]:
         population=population,
         generations=machines // population,
     )
-    found = []
     # pymoo and the kernel are loaded before
     design.judge(np.ones((4, len(PATHS))))
-    row = _timed(
-        "three objectives, NSGA-II",
-        2,
-        design.search.population * design.search.generations,
-        lambda: found.append(run_design(design, workers=2)),
-    )
-    return row, int(found[0]["front"].size)
+    rows: list[Row] = []
+    total = design.search.population * design.search.generations
+    with _timed(rows, "front", 2, total):
+        found = run_design(design, workers=2)
+    return rows[0], int(found["front"].size)
 
 
 def table(rows: list[Row], search: Row, best: int) -> str:
