@@ -62,6 +62,22 @@ class Reduced:
         """Number of rigid-body modes at every pose, (p,)."""
         return np.asarray(np.any(self.rigid, axis=1).sum(axis=-1))
 
+    def at_poses(self, poses: NDArray[np.intp]) -> Reduced:
+        """The same at some of the poses.
+
+        Parameters
+        ----------
+        poses : (q,)
+            Their numbers.
+        """
+        return Reduced(
+            System(self.system.placed[poses], self.system.topology),
+            self.basis[poses],
+            self.stiffness[poses],
+            self.mass[poses],
+            self.rigid[poses],
+        )
+
     def at_node(self, node: str) -> Array:
         """Displacement of a mesh node per unit coordinate, (p, 6, c).
 

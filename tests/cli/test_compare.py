@@ -136,6 +136,7 @@ def test_at_another_pose(strutwork: Program) -> None:
     assert rows_of(moved)["worst_stiffness_free_z"] == rows_of(home)["worst_stiffness_free_z"]
 
 
+@pytest.mark.slow
 def test_kept_parts_serve_the_same_comparison_again(
     strutwork: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -9,10 +9,15 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelWarning
+from strutwork.fea import lowest
+from strutwork.fea.eigen import Eigen, solve_eigen
 from strutwork.fea.lowest import natural_frequencies
+from strutwork.fea.modes import lowest as lowest_of
 from strutwork.fea.preload import preloaded
+from strutwork.fea.reduction import Reduced, reduce_system
 from strutwork.machines.model import Model
 from strutwork.msa import compliance_and_outcome, solve, tool
+from strutwork.msa.assembly import system_of
 from strutwork.msa.mass import total_mass
 from strutwork.msa.stacked import can_stack, stacked
 from strutwork.studies.models_together import first_frequencies, masses
@@ -134,3 +139,25 @@ def test_tool_compliance_of_a_stack_is_not_that_of_the_first_machine(
     for i, model in enumerate(models):
         alone, _ = compliance_and_outcome(model.placed, "saddle_point")
         np.testing.assert_allclose(found[i], alone, rtol=1e-8, atol=1e-9 * np.abs(alone).max())
+
+
+def test_poses_that_do_not_converge_are_solved_whole_and_the_others_kept(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    machine = Parametric.of(HEXAPOD)
+    models = [machine.model({"sections.ram.diameter": d}) for d in (0.02, 0.03, 0.05, 0.09)]
+    stack = stacked([m.structure for m in models], models[0].placement)
+    whole = lowest_of(solve_eigen(reduce_system(system_of(stack))), 1)[0]
+    asked: list[int] = []
+
+    def counting(reduced: Reduced) -> Eigen:
+        asked.append(len(reduced.basis))
+        return solve_eigen(reduced)
+
+    monkeypatch.setattr(lowest, "solve_eigen", counting)
+    for rounds in range(1, 6):
+        monkeypatch.setattr(lowest, "ROUNDS", rounds)
+        found = natural_frequencies(stack, 1)[0]
+        np.testing.assert_allclose(found, whole, rtol=1e-10)
+    # with some number of rounds, some have converged and others not
+    assert any(0 < poses < len(models) for poses in asked)
