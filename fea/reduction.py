@@ -29,6 +29,10 @@ from strutwork.stages import stage
 Array = NDArray[Any]
 
 
+class AllLockedError(ModelError):
+    """No coordinate is left: every direction is locked."""
+
+
 @dataclass(frozen=True)
 class Reduced:
     """A structure on its independent coordinates at p poses.
@@ -109,7 +113,7 @@ def reduce_system(system: System) -> Reduced:
 
     Raises
     ------
-    ModelError
+    AllLockedError
         No coordinate is left: every direction is locked.
     NumericalError
         The structure does not stand under its preload; names the critical share of it.
@@ -135,7 +139,7 @@ def _reduced(system: System) -> Reduced:
         null = np.swapaxes(right, -1, -2) * ~keep[:, None, :]
         basis = basis @ null[..., int(keep.sum(axis=1).min()) :]
     if basis.shape[-1] == 0 or not np.any(basis):
-        raise ModelError(
+        raise AllLockedError(
             "structure",
             "has no degree of freedom: every direction is locked.",
             "Release a support, or make a joint direction elastic.",
