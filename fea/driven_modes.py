@@ -147,32 +147,23 @@ def driven_modes(
     mass = mass_matrix(system)[0]
     shift, braced = _motor_shapes(system, motors, flexible, rigid, mass)
     columns = np.concatenate([shapes[:, keep], rigid, shift], axis=1)
-    k, q = int(keep.sum()), len(motors)
-    own = k + rigid.shape[1]
+    own = columns.shape[1] - len(motors)
     inertia = columns.T @ mass @ columns
     # modes are orthonormal but for rounding
     inertia[:own, :own] = np.eye(own)
     inertia[own:, own:] += np.diag([m.inertia for m in motors])
     stiff = np.zeros_like(inertia)
-    stiff[np.arange(k), np.arange(k)] = circular[keep] ** 2
+    stiff[: len(circular[keep]), : len(circular[keep])] = np.diag(circular[keep] ** 2)
     stiff[own:, own:] = braced
-    viscous, structural, background = _parts(system, damping)
-    drag = np.zeros_like(inertia)
-    drag[np.arange(k), np.arange(k)] = _of_modes(background, circular[keep])
-    if background is not None:
-        drag[np.arange(k, own), np.arange(k, own)] = background.rigid
-    equivalent = background is not None and background.structural > 0
-    if structural is not None and np.any(structural):
-        root = 1.0 / np.sqrt(circular[keep])
-        lossy = shapes[:, keep] * root
-        drag[:k, :k] += lossy.T @ structural @ lossy
-        equivalent = True
-    late = np.zeros((n, 0))
-    prompt = flexible[:, ~massive]
-    if viscous is not None:
+    drag, equivalent = _background(system, damping, columns, circular[keep], own)
+    late, prompt = np.zeros((n, 0)), flexible[:, ~massive]
+    pull: Array = np.zeros((0, n))
+    if isinstance(damping, PartDamping):
+        viscous = part_matrices(system, damping)[0][0]
         viscous = viscous - _across_motors(system, motors, np.eye(n))
         longest = float(1.0 / circular.min()) if len(circular) else 0.0
         late, prompt = split_massless(prompt, viscous, longest)
+        pull = late.T @ viscous
         drag += columns.T @ viscous @ columns + _across_motors(system, motors, columns, own)
     rest = flexible[:, massive][:, ~keep]
     return DrivenModes(
@@ -184,13 +175,37 @@ def driven_modes(
         drag,
         stiff,
         late,
-        late.T @ viscous @ late if viscous is not None else np.zeros((0, 0)),
-        late.T @ viscous @ columns if viscous is not None else np.zeros((0, own + q)),
+        pull @ late,
+        pull @ columns,
         np.concatenate([prompt, rest], axis=1),
         rest,
         square[massive][~keep],
         equivalent,
     )
+
+
+def _background(
+    system: System, damping: AnyDamping, columns: Array, circular: Array, own: int
+) -> tuple[Array, bool]:
+    """Damping of the modes, and whether a loss factor is in it.
+
+    Of the coordinates, the first are the modes of the circular frequencies; `own` are no motors.
+    """
+    k = len(circular)
+    drag = np.zeros((columns.shape[1],) * 2)
+    background = damping.background if isinstance(damping, PartDamping) else damping
+    equivalent = False
+    if background is not None:
+        viscous = background.viscous(circular**-2.0) * circular**2
+        drag[:k, :k] = np.diag(viscous + background.structural * circular)
+        drag[k:own, k:own] = background.rigid * np.eye(own - k)
+        equivalent = background.structural > 0
+    if isinstance(damping, PartDamping):
+        structural = part_matrices(system, damping)[1][0]
+        lossy = columns[:, :k] / np.sqrt(circular)
+        drag[:k, :k] += lossy.T @ structural @ lossy
+        equivalent = equivalent or bool(np.any(structural))
+    return drag, equivalent
 
 
 def _kept(circular: Array, modes: int | None, highest: float | None) -> NDArray[np.bool_]:
@@ -199,21 +214,6 @@ def _kept(circular: Array, modes: int | None, highest: float | None) -> NDArray[
     if highest is None:
         return np.ones(len(circular), dtype=bool)
     return np.asarray(circular <= 2.0 * np.pi * highest)
-
-
-def _parts(system: System, damping: AnyDamping) -> tuple[Array | None, Array | None, Any]:
-    if not isinstance(damping, PartDamping):
-        return None, None, damping
-    viscous, structural = part_matrices(system, damping)
-    return viscous[0], structural[0], damping.background
-
-
-def _of_modes(background: Any, circular: Array) -> Array:
-    """Coefficient of the rate of every mode of unit mass, 1/s."""
-    if background is None:
-        return np.zeros(len(circular))
-    found = background.viscous(circular**-2.0) * circular**2 + background.structural * circular
-    return np.asarray(found)
 
 
 def _motor_shapes(

@@ -260,15 +260,35 @@ def _rows(found: DrivenModes, place: Place) -> _Row:
         moved[len(found.mass) - len(found.motors) + _index(found, place)] = 1.0
         return _Row(moved, np.zeros(found.late.shape[1]), np.zeros(found.prompt.shape[1]))
     row = port_row(found.system, place)
-    moved, late, prompt = row @ found.shapes, row @ found.late, row @ found.prompt
-    size = np.linalg.norm(row) * np.abs(found.shapes).max(initial=0.0)
-    if max(np.abs(x).max(initial=0.0) for x in (moved, late, prompt)) <= STILL * size:
+    if not port_moves(found, place):
         raise ModelError(
             f"port {place}",
             "does not move: its node is held in that direction.",
             "Choose another node or direction.",
         )
-    return _Row(moved, late, prompt)
+    return _Row(row @ found.shapes, row @ found.late, row @ found.prompt)
+
+
+def port_moves(found: DrivenModes, port: Port) -> bool:
+    """Whether a port can move at all.
+
+    Parameters
+    ----------
+    found : DrivenModes
+    port : Port
+
+    Raises
+    ------
+    ModelError
+        An unknown node.
+    """
+    row = port_row(found.system, port)
+    for shapes in (found.shapes, found.late, found.prompt):
+        # columns have sizes of their own: a mode moves by metres per √(N m), a motor by its way
+        size = np.linalg.norm(row) * np.linalg.norm(shapes, axis=0)
+        if np.any(np.abs(row @ shapes) > STILL * size):
+            return True
+    return False
 
 
 def port_row(system: System, port: Port) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError, NumericalError
 from strutwork.fea.coupled import AnyDamping
-from strutwork.fea.driven_modes import driven_modes, without_motors
+from strutwork.fea.driven_modes import DrivenModes, driven_modes, without_motors
 from strutwork.fea.motor_shapes import Motor
 from strutwork.fea.port_states import Observed, PortStates, port_states
 from strutwork.fea.ports import Port
@@ -94,6 +94,11 @@ class ClosedLoop:
         """Whether every motion decays."""
         return not self.unstable
 
+    @property
+    def slowest(self) -> LoopPole:
+        """The pole that decays most slowly, or grows fastest."""
+        return max(self.poles, key=lambda pole: pole.value.real)
+
     @cached_property
     def margins(self) -> tuple[DriveMargins, ...]:
         """Margins of every drive's loops."""
@@ -163,7 +168,7 @@ class ClosedLoop:
         """
         if not self.unstable:
             return
-        worst = max(self.unstable, key=lambda pole: pole.value.real)
+        worst = self.slowest
         raise UnstableLoopError(
             "closed loop",
             f"is unstable: {worst.part} grows at {worst.frequency:.4g} Hz, with a damping ratio "
@@ -231,7 +236,21 @@ def closed_loop(
     if not ports:
         raise ModelError("ports", "are missing.", "Name at least one port.")
     motors = [Motor(s.joint, s.direction, s.inertia) for s in servos]
-    found = driven_modes(placed, motors, damping, modes, highest)
+    return loop_of(driven_modes(placed, motors, damping, modes, highest), servos, ports)
+
+
+def loop_of(found: DrivenModes, servos: Sequence[Servo], ports: Sequence[Port]) -> ClosedLoop:
+    """Closed loops around coordinates at hand.
+
+    Errors as `closed_loop`.
+
+    Parameters
+    ----------
+    found : DrivenModes
+        Its motors are those of the servos, in their order.
+    servos : sequence of Servo
+    ports : sequence of Port
+    """
     connected = connection(found, servos, ports)
     held = without_motors(found)
     locked = None

@@ -17,6 +17,9 @@ Array = NDArray[Any]
 #: Growth of a pole by its size, above which it counts as unstable and not as rounding.
 GROWTH = 1e-9
 
+#: Parts with this share of the largest take part in a pole alike.
+ALIKE = 0.9
+
 
 @dataclass(frozen=True)
 class LoopPole:
@@ -27,9 +30,10 @@ class LoopPole:
     value : complex
         s, 1/s.
     part : str
-        What takes part most: a mode with the motors held, or a drive.
+        What takes part most: a mode with the motors held, or a drive; several where they take
+        part alike, as the two motors of a gantry.
     share : float
-        Of it in the pole, no unit.
+        Of it or them in the pole, no unit.
     """
 
     value: complex
@@ -73,7 +77,9 @@ def loop_poles(closed: StateSpace, parts: Sequence[str]) -> tuple[LoopPole, ...]
     shares = shares / shares.sum(axis=0)
     upper = np.flatnonzero(values.imag >= 0)
     order = upper[np.argsort(np.abs(values[upper]), kind="stable")]
-    return tuple(
-        LoopPole(complex(values[k]), names[int(shares[:, k].argmax())], float(shares[:, k].max()))
-        for k in order
-    )
+    found = []
+    for k in order:
+        alike = np.flatnonzero(shares[:, k] >= ALIKE * shares[:, k].max())
+        part = " and ".join(names[i] for i in alike)
+        found.append(LoopPole(complex(values[k]), part, float(shares[alike, k].sum())))
+    return tuple(found)

@@ -56,6 +56,7 @@ _ROOMS = (
     "overconstraint",
     "papers",
     "reports",
+    "servo",
     "studies",
 )
 

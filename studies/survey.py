@@ -37,7 +37,17 @@ Array = NDArray[Any]
 CHUNK = 256
 
 #: Packages whose code decides a survey's numbers.
-_CODE = ("kinematics", "meshes", "msa", "fea", "overconstraint", "machines", "cutting", "studies")
+_CODE = (
+    "kinematics",
+    "meshes",
+    "msa",
+    "fea",
+    "overconstraint",
+    "machines",
+    "cutting",
+    "servo",
+    "studies",
+)
 
 
 def survey(
