@@ -42,20 +42,20 @@ class DrivenModes:
     frequencies : (k,)
         With the motors held, Hz.
     shapes : (n, k + r + q)
-        Φ, G and T.
+        Φ and G, 1/√kg, and T, no unit or m/rad.
     mass, damping, stiffness : (k + r + q, k + r + q)
         kg, N·s/m and N/m, with rad for m of rotations; modes have unit mass.
     late : (n, d)
-        Motions without mass that dashpots delay, of unit strain energy.
+        Motions without mass that dashpots delay, of unit strain energy, 1/√(N/m).
     late_damping : (d, d)
         Of theirs, s.
     late_pull : (d, k + r + q)
-        What the others' rates do to them.
+        What the others' rates do to them, √(N/m)·s for those in m.
     prompt : (n, s)
         Motions that follow at once, of unit strain energy: those without mass, and the modes
-        left out.
+        left out; 1/√(N/m).
     left_out : (n, l)
-        Modes left out, of unit strain energy.
+        Modes left out, of unit strain energy, 1/√(N/m).
     left_out_square : (l,)
         1/ω² of theirs, s².
     equivalent : bool

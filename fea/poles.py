@@ -201,6 +201,11 @@ def split_massless(massless: Array, viscous: Array, longest: float) -> tuple[Arr
         Dashpots, N·s/m and the like.
     longest : float
         s.
+
+    Returns
+    -------
+    delayed, prompt : (n, d) and (n, m − d)
+        Of unit strain energy, 1/√(N/m).
     """
     if not massless.shape[1]:
         return massless, massless

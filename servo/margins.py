@@ -41,7 +41,8 @@ class Margins:
     phase_frequency : float
         Of that crossing, Hz; NaN without one.
     crossover : float
-        Highest frequency at which the gain is one, Hz: the bandwidth of the loop; NaN without.
+        Lowest frequency at which the gain is one, Hz: the bandwidth of the loop, above which a
+        resonance may bring the gain back to one; NaN without.
     """
 
     gain: float
@@ -82,7 +83,7 @@ def loop_margins(loop: StateSpace) -> Margins:
     if len(unity):
         k = int(np.abs(phases).argmin())
         phase, phase_frequency = float(phases[k]), float(unity[k])
-        crossover = float(unity.max())
+        crossover = float(unity.min())
     return Margins(
         gain,
         gain_frequency,
