@@ -86,7 +86,7 @@ class DrivenModes:
     @property
     def count(self) -> int:
         """Number of modes with mass that there are, those left out included."""
-        return len(self.frequencies) + self.left_out.shape[1]
+        return len(self.frequencies) + int(self.left_out.shape[1])
 
 
 def driven_modes(
@@ -243,7 +243,7 @@ def _motor_shapes(
         held = np.flatnonzero(springs == 0)
         shift = np.zeros((system.topology.size, len(motors)))
         if len(held):
-            shift[:, held] = strained_shapes(system.placed, [motors[i] for i in held])
+            shift[:, held] = strained_shapes(system.placed, [motors[int(i)] for i in held])
         stiffness = system.stiffness[0] if preload is None else system.stiffness[0] + preload
         push = rows.T * springs
         left = stiffness @ shift - push

@@ -94,7 +94,7 @@ class TargetLoop:
         """|H| at the ports with the servos in the loop, and with the drives locked, (f, o)."""
 
         def size(response: Array) -> Array:
-            return np.abs(np.einsum("fii->fi", response))
+            return np.asarray(np.abs(np.einsum("fii->fi", response)))
 
         with_servos = size(self.loop.receptance(self.lines)) if self.loop.stable else None
         locked = None

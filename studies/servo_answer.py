@@ -111,7 +111,7 @@ class ControlledDrives:
         loop, band = self.question.ask(placed), self.question.band
         worst = loop.slowest
         locked = loop.least_locked(band)
-        result = {
+        result: dict[str, Any] = {
             "decay": -worst.value.real,
             "decay_frequency": worst.frequency,
             "unstable": 0.0 if loop.stable else 1.0,

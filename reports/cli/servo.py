@@ -107,10 +107,10 @@ def _print(found: TargetLoop) -> None:
             rows.append([str(one.servo), words, *margin_words(margins)])
     heads = ["drive", "loop", "gain margin", "phase margin", "crossover Hz"]
     out.print(table("Margins, the other drives in their loops", heads, rows, names=2))
-    rows = []
+    stiffnesses: list[list[object]] = []
     for i, port in enumerate(loop.ports):
         scale, unit = (1e-3, "kN·m/rad") if _turns(port.direction) else (1e-6, "N/µm")
-        rows.append(
+        stiffnesses.append(
             [
                 str(port),
                 unit,
@@ -120,7 +120,7 @@ def _print(found: TargetLoop) -> None:
         )
     heads = ["", "unit", "with servos", "at Hz", "static", "drives locked", "at Hz", "static"]
     title = f"Least dynamic stiffness from {found.band[0]:.4g} to {found.band[1]:.4g} Hz"
-    out.print(table(title, heads, rows, names=2))
+    out.print(table(title, heads, stiffnesses, names=2))
     if loop.stable:
         worst = loop.slowest
         line = (
