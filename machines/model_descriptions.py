@@ -277,6 +277,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "resolution": "smallest step of a sliding drive",
         "angular_resolution": "smallest step of a rotary drive",
     },
+    "ServosTable": {"servos": "controllers of the drives"},
     "ServoTable": {
         "joint": _FEW,
         "joints": _MANY,
