@@ -277,7 +277,6 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "resolution": "smallest step of a sliding drive",
         "angular_resolution": "smallest step of a rotary drive",
     },
-    "ServosTable": {"servos": "controllers of the drives"},
     "ServoTable": {
         "joint": _FEW,
         "joints": _MANY,

@@ -99,7 +99,11 @@ KINDS: dict[str, Kind] = {
         "Causes of displacements of the tool: docs/accuracy.md",
     ),
     "process": Kind(ProcessTable, MODEL, "A milling cut: docs/how-to/lobes.md"),
-    "servo": Kind(ServosTable, MODEL, "Controllers of drives: docs/how-to/servo.md"),
+    "servo": Kind(
+        ServosTable,
+        {**MODEL, "ServosTable": {"servos": MODEL["ModelTable"]["servos"]}},
+        "Controllers of drives: docs/how-to/servo.md",
+    ),
 }
 
 

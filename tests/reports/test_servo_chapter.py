@@ -20,10 +20,10 @@ def test_tables_figure_and_files_of_a_stable_loop() -> None:
     assert servo.missing(asked) == ""
     chapter = servo.write(asked)
     tables = [block for block in chapter.blocks if isinstance(block, Table)]
-    assert [table.file for table in tables] == [
+    assert [table.data for table in tables] == [
         *("drives-servo-response.csv", "drives-servo-margins.csv", "drives-servo-poles.csv")
     ]
-    assert {file.name for file in chapter.files} == {table.file for table in tables}
+    assert {file.name for file in chapter.files} == {table.data for table in tables}
     (figure,) = (block for block in chapter.blocks if isinstance(block, Figure))
     assert len(figure.spec["data"]) == 4
     assert "drives controlled" in chapter.answer
