@@ -6,12 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.linalg import eigvals
 
+import strutwork as sw
 from strutwork.errors import ModelError
 from strutwork.fea import ModalRatio, PartDamping, Port, minimum_dynamic_stiffness
+from strutwork.machines.model_file import parse_model
 from strutwork.machines.servos import Servo
 from strutwork.servo import UnstableLoopError, closed_loop
-from tests.drives import MASS, MOTOR, SPRING, cascade, looped, servo, slide
+from tests.drives import MASS, MOTOR, SLIDE, SPRING, cascade, looped, servo, slide
 
 BAND = (1.0, 2000.0)
 
@@ -177,3 +180,43 @@ def test_nothing_to_control_and_nowhere_to_look():
         closed_loop(model.placed, [servo()], [], ModalRatio(0.01))
     with pytest.raises(ModelError, match="does not move"):
         closed_loop(model.placed, [servo()], [Port("carriage", "y")], ModalRatio(0.01))
+
+
+def test_no_frequency_reaches_a_level_below_the_least_dynamic_stiffness():
+    """A level is reached at imaginary eigenvalues (Boyd and Balakrishnan 1990)."""
+    found = looped(slide(elastic=True), servo(delay=4e-4), 0.01)
+    (least,) = found.least((0.01, 1e5))
+    tool = found.tool
+    assert not np.any(tool.d)
+    for factor, reached in ((1.0 + 1e-4, True), (1.0 - 1e-4, False)):
+        level = 1.0 / (factor * least.value)
+        # of inputs and outputs of one size
+        b, c = tool.b / np.sqrt(level), tool.c / np.sqrt(level)
+        pencil = np.block([[tool.a, b @ b.T], [-c.T @ c, -tool.a.T]])
+        values = eigvals(pencil)
+        on_axis = np.abs(values.real) < 1e-7 * np.abs(values)
+        assert bool(on_axis.any()) is reached
+
+
+@pytest.mark.parametrize("name", ["mit-ss1", "examples/machines/6-ups.toml"])
+def test_parallel_machines_with_very_high_gains_are_those_with_locked_drives(name):
+    """Drives without stiffness, and drives with a transmission each under a preload."""
+    model = sw.load(name)
+    driven = [(j.name, d) for j in model.structure.linkage.joints for d in j.driven]
+    stiff = [Servo(joint, d, 1e4, 1e9, inertia=1.0) for joint, d in driven]
+    ports = [Port(model.tool, axis) for axis in "xyz"]
+    found = closed_loop(model.vibrating, stiff, ports, ModalRatio(0.01), highest=2000.0)
+    assert found.stable
+    frequencies = np.linspace(1.0, 300.0, 60)
+    locked = found.locked.response(frequencies)
+    off = np.abs(found.receptance(frequencies) - locked).max() / np.abs(locked).max()
+    assert off < 1e-3
+
+
+def test_rigid_drives_that_hold_one_another_are_named():
+    text = SLIDE.format(elastic="", more="")
+    second = text[text.index("[[joints]]") : text.index("[[supports]]")].replace("slide", "other")
+    model = parse_model(text.replace("[[supports]]", second + "[[supports]]"))
+    both = [servo(), replace(servo(), joint="other")]
+    with pytest.raises(ModelError, match="hold one another"):
+        closed_loop(model.placed, both, [Port("carriage", "x")], ModalRatio(0.01))
