@@ -18,8 +18,9 @@ from strutwork.servo.closed_loop import ClosedLoop, loop_of
 from strutwork.studies.covering_band import band_of
 from strutwork.studies.model_damping import model_damping
 
-#: Modes are kept up to this many times the end of the band.
-REACH = 2.0
+#: Modes are kept up to this many times the end of the band, and up to this frequency, Hz, at
+#: least: the phase of a loop crosses −180° beyond the band that is asked for.
+REACH, FARTHEST = 2.0, 2000.0
 
 #: Ends of a band where no mode says one, Hz.
 LOWEST, HIGHEST = 1.0, 1000.0
@@ -41,7 +42,8 @@ class LoopQuestion:
     band : (float, float)
         Hz.
     modes : int or None
-        Number of flexible modes that are kept; None for those up to `REACH` times the band.
+        Number of flexible modes that are kept; None for those up to `REACH` times the band and
+        up to `FARTHEST`.
     some : bool
         Whether ports that cannot move are left out.
     """
@@ -67,7 +69,8 @@ class LoopQuestion:
         """
         motors = [Motor(s.joint, s.direction, s.inertia) for s in self.servos]
         damping = self.damping or ModalRatio(0.0)
-        found = driven_modes(placed, motors, damping, self.modes, REACH * self.band[1])
+        highest = max(REACH * self.band[1], FARTHEST)
+        found = driven_modes(placed, motors, damping, self.modes, highest)
         if self.damping is None and len(found.frequencies):
             raise ModelError(
                 "damping",

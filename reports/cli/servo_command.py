@@ -38,8 +38,8 @@ def servo(
         int | None,
         typer.Option(
             min=1,
-            help="Number of modes that are kept; by default those up to twice the band. The "
-            "others count statically.",
+            help="Number of modes that are kept; by default those up to twice the band, and up "
+            "to 2000 Hz. The others count statically.",
         ),
     ] = None,
     over: Annotated[

@@ -84,6 +84,9 @@ def test_a_file_beside_the_model_and_another_pose(strutwork: Program, tmp_path: 
     expected = plain["dynamic_stiffness"][0]["with_servos"]["value"]
     assert both["least"]["value"] == pytest.approx(expected, rel=1e-6)
     assert over.result["over"]["unstable"] == 0
+    run = strutwork("servo", beside, "--servos", beside)
+    assert run.status == 1
+    assert "is a model file" in run.err
     run = strutwork("servo", beside)
     assert run.status == 1
     assert "Add [[servos]]" in run.err
