@@ -15,6 +15,7 @@ from strutwork.kinematics.motion import Motion
 
 if TYPE_CHECKING:
     # a file without solids, shapes or tolerances does not wait for what computes with them
+    from strutwork.flexures import Flexure
     from strutwork.kinematics import Placement, Poses
     from strutwork.kinematics.mesh_shapes import MeshShape
     from strutwork.kinematics.task_grid import TaskGrid
@@ -99,6 +100,8 @@ class Model:
         Of bodies, for interference.
     process : DescribedProcess or None
         The cut whose stability is reported.
+    flexures : mapping of joint name to Flexure
+        Of joints that are flexures; their stiffness is in the structure.
     """
 
     title: str
@@ -123,6 +126,7 @@ class Model:
     shapes: tuple[MeshShape, ...] = ()
     process: DescribedProcess | None = None
     servos: tuple[Servo, ...] = ()
+    flexures: Mapping[str, Flexure] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         kind = type(self).__name__

@@ -19,6 +19,7 @@ from strutwork.machines.model import Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
 from strutwork.machines.model_checks import check_tables, ground_name, support_name
 from strutwork.machines.model_couplings import couplings_of
+from strutwork.machines.model_flexures import flexures_of, joint_flexures, stiffness_rows
 from strutwork.machines.model_motion_tables import (
     drives_of,
     home_values,
@@ -65,7 +66,8 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         Names the part that is wrong.
     """
     check_tables(tables)
-    joints = tuple(joint_of(table) for table in tables.joints)
+    flexures = joint_flexures(tables, flexures_of(tables))
+    joints = tuple(joint_of(table, stiffness_rows(table, flexures)) for table in tables.joints)
     couplings = couplings_of(tables)
     follows = {
         (joints[tie.joint].name, DIRECTIONS[tie.direction])
@@ -134,6 +136,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         drives=drives_of(tables, {j.name: j for j in joints}),
         servos=servos_of(tables.servos, {j.name: j for j in joints}),
         shapes=_shapes(tables, folder, linkage, positions),
+        flexures=flexures,
     )
     if model.preload is not None:
         model.case(model.preload)

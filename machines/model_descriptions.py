@@ -24,6 +24,17 @@ _SPAN = {
     "to": "last value",
     "points": "number of values, evenly spaced, both ends included; 5 by default",
 }
+_FLEXURE = {
+    "material": "name of its material",
+    "thickness": "least thickness, along the joint's y axis",
+    "width": "width along the joint's z axis, about which it rotates; of a pivot, of each leaf",
+    "bending": "beam, or plate where the width prevents anticlastic curvature; by default chosen "
+    "from the proportions",
+    "allowable_stress": "with which solve compares the largest equivalent stress",
+    "stress_concentration": "factor on the stress of bending and of axial force; of notches by "
+    "default Neuber's, otherwise 1",
+}
+_NOTCH_HEIGHT = "height of the parts beside the notches; by default these are cut to their middle"
 _CASE = 'load case that it belongs to, "load" by default; loads of one case act together'
 _FEW = "one joint; or joints"
 _MANY = "several joints; or joint"
@@ -36,6 +47,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "preload": "name of the load case under whose forces the structure vibrates",
         "materials": "isotropic materials by name",
         "sections": "cross-sections of beams by name",
+        "flexures": "notch hinges, leaf springs and cross-spring pivots by name, for joints",
         "nodes": "places by name, [x, y, z] in global axes",
         "beams": "straight flexible links",
         "solids": "meshed parts, reduced to the nodes at which they meet the rest",
@@ -130,7 +142,38 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "limits": "range of the joint's coordinates by direction, counted from home",
         "matrix": "of a bushing: six symmetric rows of six, instead of stiffness",
         "pitch": "of a helical joint: travel along the axis per right-handed turn",
+        "flexure": "of a bushing: name of the flexure whose sizes give its stiffness",
     },
+    "FlexureTable": _FLEXURE,
+    "CircularNotchTable": {
+        "shape": "a hinge of two circular notches",
+        "radius": "radius of both notches",
+        "height": _NOTCH_HEIGHT,
+    }
+    | _FLEXURE,
+    "EllipticNotchTable": {
+        "shape": "a hinge of two elliptic notches",
+        "semi_axis_x": "semi-axis of both ellipses along the hinge",
+        "semi_axis_y": "semi-axis of both ellipses across its thickness",
+        "height": _NOTCH_HEIGHT,
+    }
+    | _FLEXURE,
+    "LeafTable": {
+        "shape": "a leaf spring",
+        "length": "length along the joint's x axis between the clamped ends",
+    }
+    | _FLEXURE,
+    "CrossSpringTable": {
+        "shape": "a cross-spring pivot: leaves that cross without touching",
+        "length": "length of each leaf between its clamped ends",
+        "angle": "angle between the leaves; 90° by default",
+        "crossing": "distance of the crossing from the first part along a leaf by its length; "
+        "0.5 by default",
+        "leaves": "2 (the default), or 3 with the outer ones half as wide",
+        "spacing": "distance between the middles of neighbouring leaves along the joint's z axis; "
+        "by default they touch",
+    }
+    | _FLEXURE,
     "SpringTable": {
         "name": "name of the spring; by default the names of its nodes",
         "node": "node that it ties to the ground; or between",

@@ -91,6 +91,8 @@ def _problem(
         case "union_tag_not_found":
             field, problem = f"{field}.shape", "is missing."
             remedy = "Name the shape of the section."
+            if loc[0] == "flexures":
+                remedy = "Name the shape of the flexure."
     return (UnitError if kind == "unit" else ModelError), field, problem, remedy
 
 

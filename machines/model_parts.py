@@ -168,12 +168,14 @@ def section_of(name: str, table: SectionTable) -> Section:
     return Section(table.area, table.Iy, table.Iz, table.J, None, shear, name)
 
 
-def joint_of(table: JointTable) -> Joint:
+def joint_of(table: JointTable, matrix: tuple[tuple[float, ...], ...] | None = None) -> Joint:
     """A joint of the file.
 
     Parameters
     ----------
     table : JointTable
+    matrix : (6, 6) nested tuples, optional
+        Stiffness of its flexure in joint axes, N/m, N and N·m/rad.
 
     Raises
     ------
@@ -192,7 +194,7 @@ def joint_of(table: JointTable) -> Joint:
         damping=by_direction(table.damping),
         driven=table.driven,
         limits=_limits(table),
-        matrix=table.matrix,
+        matrix=table.matrix if matrix is None else matrix,
         pitch=table.pitch,
     )
 
@@ -209,7 +211,7 @@ def _limits(table: JointTable) -> dict[str, tuple[float, float]]:
                 "Give the lower one first.",
             )
         held = {*JOINT_TYPES[table.type], *by_direction(table.stiffness)} - set(table.driven)
-        if direction in held or table.matrix is not None:
+        if direction in held or table.matrix is not None or table.flexure is not None:
             raise ModelError(
                 part,
                 f"has limits in {direction}, in which it does not move.",

@@ -42,6 +42,7 @@ from strutwork.machines.model_fields import (
     Table,
     Vector,
 )
+from strutwork.machines.model_flexure_schema import AnyFlexureTable
 from strutwork.machines.model_motion_schema import (
     CouplingTable,
     DriveTable,
@@ -221,6 +222,7 @@ class JointTable(Table):
     limits: LimitsTable = LimitsTable.model_construct()
     matrix: Annotated[Matrix | None, BeforeValidator(_empty_is_absent)] = None
     pitch: Length | None = None
+    flexure: Name | None = None
 
 
 class SpringTable(Table):
@@ -344,6 +346,7 @@ class ModelTable(Table):
     preload: Name | None = None
     materials: dict[Name, MaterialTable] = Field(default_factory=dict)
     sections: dict[Name, SectionTable] = Field(default_factory=dict)
+    flexures: dict[Name, AnyFlexureTable] = Field(default_factory=dict)
     nodes: dict[Name, Point]
     beams: tuple[BeamTable, ...] = ()
     solids: tuple[SolidTable, ...] = ()

@@ -21,6 +21,7 @@ from strutwork.msa import (
     tool_compliance,
     tool_stiffness,
 )
+from strutwork.reports.flexure_use import described_flexures, flexure_uses, warn_of_flexures
 from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 
 Array = NDArray[Any]
@@ -72,6 +73,8 @@ class ModelSolution:
             "undetermined_reactions": reactions,
             "near_mechanisms": near_mechanisms(self.model, self.near),
         }
+        if self.model.flexures:
+            beside["flexures"] = described_flexures(self.model)
         if self.compliance is None:
             return {"cases": cases, "tcp": None, **beside}
         return {
@@ -87,6 +90,7 @@ class ModelSolution:
         model, s = self.model, self.statics
         linkage = model.structure.linkage
         nodes = linkage.node_index
+        bent = {joint: use.to_dict() for joint, use in flexure_uses(model, s, m).items()}
         return {
             "displacements": {n: s.displacements[nodes[n], :, m].tolist() for n in model.nodes},
             # a support's joint has global axes, and its second node is the structure's
@@ -106,7 +110,7 @@ class ModelSolution:
                 for b, beam in enumerate(model.structure.beams)
             },
             "strain_energy": float(s.strain_energy[m]),
-        }
+        } | ({"flexures": bent} if bent else {})
 
     def _force(self, joint: str, m: int) -> list[float | None]:
         """Force of a joint, None in directions that are not determined."""
@@ -143,7 +147,8 @@ def solve_model(model: Model) -> ModelSolution:
     -----
     ModelWarning
         The load cases can be solved, but the compliance at the tool cannot; forces that are
-        not determined; motions that coordinates of few digits hold.
+        not determined; motions that coordinates of few digits hold; flexures stressed or moved
+        too far.
     """
     if not model.cases and model.tool is None:
         raise ModelError(
@@ -166,6 +171,7 @@ def solve_model(model: Model) -> ModelSolution:
     near = near_motions(model.structure.linkage, model.placement)
     warn_of_near(near)
     found = ModelSolution(model, statics, compliance, stiffness, near)
+    warn_of_flexures(model, statics)
     _warn_of_undetermined(found.undetermined)
     return found
 

@@ -26,6 +26,7 @@ PACKAGES = (
     "msa",
     "fea",
     "overconstraint",
+    "flexures",
     "machines",
     "cutting",
     "studies",

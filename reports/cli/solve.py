@@ -11,8 +11,10 @@ from rich.console import Console
 
 from strutwork.machines.model import Model
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
+from strutwork.reports.cli.flexures import print_flexure_uses, print_flexures
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, print_table, show, table
+from strutwork.reports.flexure_use import flexure_uses
 from strutwork.reports.model_solution import ModelSolution, solve_model
 from strutwork.reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
 
@@ -45,6 +47,8 @@ def _print(found: ModelSolution) -> None:
         _six(out, "Displacements", "node", _MOVED, moved, kept=found.model.tool)
         for title, what, key in FORCE_TABLES:
             _six(out, title, what, _FORCE, tables[key])
+        print_flexure_uses(out, flexure_uses(found.model, found.statics, number))
+    print_flexures(out, found.model.flexures)
     if found.compliance is not None:
         _print_tool(out, found, found.compliance)
 

@@ -1,6 +1,7 @@
 """What a model was given, in tables, and what it left out, in sentences."""
 
 from strutwork.reports.inputs.echo import Echo
+from strutwork.reports.inputs.flexures import flexures
 from strutwork.reports.inputs.joints import drives, joints, springs
 from strutwork.reports.inputs.loads import acting
 from strutwork.reports.inputs.masses import masses, solids
@@ -14,6 +15,7 @@ __all__ = [
     "assumed",
     "beams",
     "drives",
+    "flexures",
     "force_limits",
     "joints",
     "masses",

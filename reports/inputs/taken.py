@@ -66,6 +66,8 @@ def _joints(model: Model) -> Iterator[str]:
         yield "Supports are rigid."
     if own:
         yield "Joints have no mass and no size of their own."
+    if model.flexures:
+        yield "Flexures have the stiffness that they have without load, and no mass or damping."
 
 
 def _heavy(model: Model) -> Iterator[str]:
