@@ -123,9 +123,9 @@ def _sentence(found: TargetLoop) -> str:
 
 
 def _stiffness(found: TargetLoop) -> Table:
-    rows: list[list[Cell]] = []
+    rows: list[list[str | Cell]] = []
     for i, port in enumerate(found.loop.ports):
-        row: list[Cell] = [str(port)]
+        row: list[str | Cell] = [str(port)]
         for each, none in ((found.least, "unstable"), (found.locked, "rigid")):
             if each is None:
                 row += [none, "", ""]

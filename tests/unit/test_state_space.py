@@ -68,8 +68,10 @@ def test_dashpots_couple_modes_and_stay_in_the_equations():
     model = sw.load("examples/08_column_on_mounts.toml")
     damping = model_damping(model)
     at = ports(model)
-    expected = frequency_response(model.vibrating, at, at, FREQUENCIES, damping).receptance
-    found = state_space(model.vibrating, at, at, damping).response(FREQUENCIES)
+    # below half of the cutoff of its solid
+    lines = FREQUENCIES[FREQUENCIES < 400.0]
+    expected = frequency_response(model.vibrating, at, at, lines, damping).receptance
+    found = state_space(model.vibrating, at, at, damping).response(lines)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
@@ -121,6 +123,7 @@ def test_python_control_computes_the_same(gantry):
         assert np.abs(system.poles - pole).min() < 1e-9 * abs(pole)
 
 
+@pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning:control")
 def test_python_control_closes_the_same_loop():
     control = pytest.importorskip("control")
     drive = servo(delay=4e-4, order=2)
