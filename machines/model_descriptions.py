@@ -35,6 +35,12 @@ _FLEXURE = {
     "default Neuber's, otherwise 1",
 }
 _NOTCH_HEIGHT = "height of the parts beside the notches; by default these are cut to their middle"
+_SOURCE = "where the numbers come from; required"
+_CONTACTS = {
+    "source": _SOURCE,
+    "youngs_modulus": "of balls and raceways; 207 GPa by default",
+    "poissons_ratio": "of balls and raceways; 0.3 by default",
+}
 _CASE = 'load case that it belongs to, "load" by default; loads of one case act together'
 _FEW = "one joint; or joints"
 _MANY = "several joints; or joint"
@@ -72,6 +78,8 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "servos": "controllers of the drives",
         "damping": "damping of the entire structure; give exactly one kind",
         "process": "milling cut whose stability the report states",
+        "bearings": "bearings and guides by name, to which joints refer",
+        "catalogue": "file of bearings beside the model file or below it",
     },
     "MaterialTable": {
         "youngs_modulus": "Young's modulus",
@@ -143,6 +151,51 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "matrix": "of a bushing: six symmetric rows of six, instead of stiffness",
         "pitch": "of a helical joint: travel along the axis per right-handed turn",
         "flexure": "of a bushing: name of the flexure whose sizes give its stiffness",
+        "bearing": "name of the bearing or guide that gives its stiffness",
+    },
+    "ContactTable": _CONTACTS,
+    "CatalogueTable": {"bearings": "bearings and guides by name"},
+    "AngularContactTable": _CONTACTS
+    | {
+        "type": "angular contact ball bearing of one row, or a pair",
+        "balls": "number of balls in one row",
+        "ball_diameter": "diameter of a ball",
+        "pitch_diameter": "diameter of the circle of the balls' centres",
+        "contact_angle": "where the contacts just touch, from the plane of the balls",
+        "inner_groove": "radius of the inner groove's section by the diameter of the ball",
+        "outer_groove": "radius of the outer groove's section by the diameter of the ball",
+        "arrangement": "single (the default), back_to_back or face_to_face",
+        "spacing": "of a pair: between the planes of the balls",
+        "preload": "axial force on each row",
+    },
+    "CylindricalRollersTable": {
+        "type": "cylindrical roller bearing of steel, one row",
+        "source": _SOURCE,
+        "rollers": "number of rollers",
+        "length": "effective length of a roller",
+        "clearance": "in diameter; negative of a preloaded bearing",
+        "slices": "into which a roller is cut; 20 by default",
+    },
+    "BallRailTable": _CONTACTS
+    | {
+        "type": "carriage of a profile rail with four rows of balls",
+        "balls": "number of balls of one row that bear",
+        "ball_diameter": "diameter of a ball",
+        "rail_groove": "radius of the rail's groove by the diameter of the ball",
+        "carriage_groove": "radius of the carriage's groove by the diameter of the ball",
+        "width": "between the rows across the rail",
+        "height": "between the rows above one another",
+        "length": "between the first and the last ball that bears",
+        "contact_angle": "between the lines of contact and the x axis; 45° by default",
+        "arrangement": "O (the default) or X: where the lines of contact meet",
+        "interference": "by which the balls are larger than their space; or preload",
+        "preload": "vertical force of the two rows that bear one way; or interference",
+    },
+    "GivenStiffnessTable": {
+        "type": "stiffness given by direction",
+        "source": _SOURCE,
+        "stiffness": "by direction, joint axes",
+        "opens_at": "load at which a contact opens and the stiffness ends, by direction",
     },
     "FlexureTable": _FLEXURE,
     "CircularNotchTable": {
@@ -343,5 +396,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
     "DampingByDirection": _BY_DIRECTION,
     "Displacement": _BY_DIRECTION,
     "LimitsTable": _BY_DIRECTION,
+    "HeldStiffness": _BY_DIRECTION,
+    "OpeningLoads": _BY_DIRECTION,
     "WorkspaceTable": _BY_DIRECTION,
 }

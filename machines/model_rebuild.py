@@ -157,7 +157,10 @@ def _joints(
             if name not in _OF_FORCE
         ):
             return None
-        joint = joint_of(new, stiffness_rows(new, flexures))
+        if new.bearing is not None:
+            # its stiffness stands in a catalogue
+            return None
+        joint = joint_of(new, matrix=stiffness_rows(new, flexures))
         if joint.states != made[i].states:
             return None
         made[i] = joint

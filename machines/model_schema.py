@@ -8,6 +8,7 @@ from pydantic import BeforeValidator, Field, StrictBool
 
 from strutwork import units
 from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.model_bearing_schema import BearingTable
 from strutwork.machines.model_fields import (
     Acceleration,
     Angle,
@@ -223,6 +224,7 @@ class JointTable(Table):
     matrix: Annotated[Matrix | None, BeforeValidator(_empty_is_absent)] = None
     pitch: Length | None = None
     flexure: Name | None = None
+    bearing: Name | None = None
 
 
 class SpringTable(Table):
@@ -371,3 +373,5 @@ class ModelTable(Table):
     servos: tuple[ServoTable, ...] = ()
     damping: DampingTable | None = None
     process: ProcessTable | None = None
+    bearings: dict[Name, BearingTable] = Field(default_factory=dict)
+    catalogue: Name | None = None

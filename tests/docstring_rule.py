@@ -21,6 +21,7 @@ ROOT = Path(__file__).parents[1]
 #: Held to the rule. Of `strutwork` only the modules of the ground floor: the rest are links.
 PACKAGES = (
     "strutwork",
+    "contact",
     "kinematics",
     "meshes",
     "msa",

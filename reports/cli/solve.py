@@ -48,6 +48,10 @@ def _print(found: ModelSolution) -> None:
         for title, what, key in FORCE_TABLES:
             _six(out, title, what, _FORCE, tables[key])
         print_flexure_uses(out, flexure_uses(found.model, found.statics, number))
+        if found.equilibria:
+            from strutwork.reports.cli.bearings import print_states
+
+            print_states(out, found, number)
     print_flexures(out, found.model.flexures)
     if found.compliance is not None:
         _print_tool(out, found, found.compliance)
@@ -92,6 +96,8 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
         rows.append((axis, unit, *(float(v[i]) * scale for v in (free, blocked))))
     title = f"Stiffness at the tool {found.model.tool}"
+    if found.equilibria:
+        title += ", at preload"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))
     if not np.isfinite(free[:3]).any():
         return

@@ -1,5 +1,6 @@
 """What a model was given, in tables, and what it left out, in sentences."""
 
+from strutwork.reports.inputs.bearings import bearings
 from strutwork.reports.inputs.echo import Echo
 from strutwork.reports.inputs.flexures import flexures
 from strutwork.reports.inputs.joints import drives, joints, springs
@@ -14,6 +15,7 @@ __all__ = [
     "acting",
     "assumed",
     "beams",
+    "bearings",
     "drives",
     "flexures",
     "force_limits",
