@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.machines.robots.plan import Plan, cut, piece_names, pieces, plan_of
+from strutwork.machines.robots.plan import Plan, cut_plan, piece_names, pieces
 from strutwork.machines.robots.robot import WORLD, Link, Robot, RobotJoint
 from strutwork.machines.robots.xml_write import (
     add,
@@ -43,7 +43,7 @@ def mjcf_text(robot: Robot) -> str:
     ModelError
         A moving link without mass or inertia, or a loop or coupling that MJCF cannot have.
     """
-    plan = plan_of(cut(robot, HELD, "MJCF", massive=True))
+    plan = cut_plan(robot, HELD, "MJCF", massive=True)
     require_tree(plan, "MJCF")
     return _Writer(plan).text()
 

@@ -44,18 +44,22 @@ class Plan:
         return found | {joint.child: joint.place for joint in self.tree}
 
 
-def plan_of(robot: Robot) -> Plan:
+def plan_of(robot: Robot, welds: Collection[str] = ()) -> Plan:
     """A spanning tree in which driven and coupled joints are, cut at `CUT` first.
 
     Parameters
     ----------
     robot : Robot
+    welds : collection of str
+        Joints that are none of the tree.
     """
     coupled = {end[0] for c in robot.couplings for end in (c.leader, c.follower)}
 
     def rank(joint: RobotJoint) -> tuple[int, int]:
         driven = any(f.driven for f in joint.freedoms)
         order = CUT.index(joint.kind) if joint.kind in CUT else len(CUT)
+        if joint.name in welds:
+            return (1, 0)
         if joint.name in coupled:
             return (-3, -order)
         return (-2 if joint.kind == "helical" else -1 if driven else 0, -order)
@@ -79,8 +83,8 @@ def plan_of(robot: Robot) -> Plan:
     return Plan(robot, tuple(tree), loops, tuple(floating))
 
 
-def cut(robot: Robot, held: Collection[str], format_: str, *, massive: bool = False) -> Robot:
-    """The robot with links cut in two where a format cannot close a loop.
+def cut_plan(robot: Robot, held: Collection[str], format_: str, *, massive: bool = False) -> Plan:
+    """A plan in which links are cut in two where a format cannot close a loop.
 
     One half follows the joint of the loop, the other stays, and both are joined rigidly: nothing
     else moves by it, and the mass is the same.
@@ -100,19 +104,19 @@ def cut(robot: Robot, held: Collection[str], format_: str, *, massive: bool = Fa
     ModelError
         Neither link of such a joint has a mass that could be cut.
     """
+    welds: set[str] = set()
     while True:
-        plan = plan_of(robot)
+        plan = plan_of(robot, welds)
         links = {link.name: link for link in robot.links}
         inner = {joint.parent for joint in plan.tree}
         ends = {name for name, link in links.items() if not link.mass and name not in inner}
         if not massive:
             ends = set()
-        joint = next(
-            (j for j in plan.loops if j.kind not in held or {j.parent, j.child} & ends), None
-        )
+        heavy = {name for name, link in links.items() if link.mass}
+        joint = next((j for j in plan.loops if _to_cut(j, held, ends, heavy)), None)
         if joint is None:
-            return robot
-        own = joint if joint.child in links and links[joint.child].mass else turned(joint)
+            return plan
+        own = joint if joint.child in heavy else turned(joint)
         link = links.get(own.child)
         if link is None or not link.mass:
             raise ModelError(
@@ -122,14 +126,25 @@ def cut(robot: Robot, held: Collection[str], format_: str, *, massive: bool = Fa
                 "Give one of them a mass, or write SDF.",
             )
         half = replace(link, mass=link.mass / 2, inertia=link.inertia / 2)
-        name = f"{link.name} half of {joint.name}"[:100]
+        name = f"{link.name[:85]} half {len(welds) + 1}"
         weld = RobotJoint(f"{name} weld", "fixed", link.name, name, link.centre)
+        welds.add(weld.name)
         joints = tuple(replace(own, child=name) if j is joint else j for j in robot.joints)
         robot = replace(
             robot,
             links=(*(half if k is link else k for k in robot.links), replace(half, name=name)),
             joints=(*joints, weld),
         )
+
+
+def _to_cut(
+    joint: RobotJoint, held: Collection[str], ends: Collection[str], heavy: Collection[str]
+) -> bool:
+    """Whether a link must be cut for a loop, or should be for the sake of its drive."""
+    links = {joint.parent, joint.child}
+    if joint.kind not in held or links & set(ends):
+        return True
+    return any(f.driven for f in joint.freedoms) and bool(links & set(heavy))
 
 
 def _outwards(robot: Robot, kept: set[str]) -> tuple[list[RobotJoint], list[str]]:

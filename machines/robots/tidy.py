@@ -24,7 +24,7 @@ def tidied(robot: Robot) -> Robot:
     Two joints in series with a massless link between them become one: two hinges whose axes
     meet at right angles a universal joint, a slide and a hinge along one axis a cylindrical
     one. Massless links that are fixed to another and carry nothing become named points of it.
-    Two balls between the same links become a hinge.
+    Two balls NAME:1 and NAME:2 between the same links, as a hinge is written in MJCF, become one.
 
     Parameters
     ----------
@@ -207,6 +207,11 @@ def _hinges(joints: list[RobotJoint]) -> list[RobotJoint]:
     balls = [joint for joint in joints if joint.kind == "spherical"]
     for first, second in combinations(balls, 2):
         if {first.parent, first.child} != {second.parent, second.child}:
+            continue
+        if (first.name.rpartition(":")[0], second.name.rpartition(":")[0]).count("") or (
+            _common(first.name, second.name) == first.name
+        ):
+            # balls of their own, as the feet of a frame, stay
             continue
         if first not in result or second not in result:
             continue

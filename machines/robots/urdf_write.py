@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element  # noqa: S405 - no parser
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.machines.robots.plan import CUT, Piece, Plan, cut, piece_names, pieces, plan_of
+from strutwork.machines.robots.plan import CUT, Piece, Plan, cut_plan, piece_names, pieces
 from strutwork.machines.robots.robot import WORLD, Link, Robot, RobotJoint
 from strutwork.machines.robots.xml_write import (
     NO_LIMIT,
@@ -41,7 +41,7 @@ def urdf_text(robot: Robot) -> str:
     ModelError
         A loop or coupling that URDF cannot have; names it.
     """
-    plan = plan_of(cut(robot, HELD, "URDF"))
+    plan = cut_plan(robot, HELD, "URDF")
     require_tree(plan, "URDF")
     return _Writer(plan).text()
 

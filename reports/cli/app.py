@@ -41,6 +41,7 @@ COMMANDS = {
     "lobes": f"{_HERE}.lobes_command:lobes",
     "calibrate": f"{_HERE}.calibrate_command:calibrate",
     "compare": f"{_HERE}.compare_command:compare",
+    "convert": f"{_HERE}.convert_command:convert",
     "correlate": f"{_HERE}.correlate_command:correlate",
     "tolerance": f"{_HERE}.app:tolerance",
     "scale": f"{_HERE}.app:scale",
@@ -59,7 +60,7 @@ COMMANDS = {
 }
 
 #: Those that print no tables, and take neither --csv nor --verbose.
-SILENT = ("new", "report", "schema")
+SILENT = ("convert", "new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
 PLACED = ("accuracy", "compare", "map", "scale", "study", "trajectory", "workspace")
