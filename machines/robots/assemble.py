@@ -163,11 +163,27 @@ class _Moves:
             # imported late: SciPy is slow to import, and most robots are closed as drawn
             from scipy.optimize import least_squares  # noqa: PLC0415
 
+            low, high = self._ranges()
+            values = np.clip(values, low, high)
             for _ in range(3):
                 tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15}
-                values = least_squares(self.gaps, values, jac="3-point", max_nfev=500, **tight).x
+                found = least_squares(
+                    self.gaps, values, jac="3-point", bounds=(low, high), max_nfev=500, **tight
+                )
+                values = found.x
         self._require_closed(values)
         return values
+
+    def _ranges(self) -> tuple[Array, Array]:
+        """Displacements that the limits of the joints allow, (n,) and (n,)."""
+        limits = {
+            (joint.name, f.direction): (f.limits[0] - f.home, f.limits[1] - f.home)
+            for joint, _ in self.tree
+            for f in joint.freedoms
+            if f.limits is not None
+        }
+        spans = [limits.get(name, (-np.inf, np.inf)) for name in self.names]
+        return np.array([low for low, _ in spans]), np.array([high for _, high in spans])
 
     def _require_closed(self, values: Array) -> None:
         placed = self.displaced(values)
