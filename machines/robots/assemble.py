@@ -19,6 +19,11 @@ Array = NDArray[Any]
 #: Largest gap of a loop that is closed, as a share of the robot's size.
 CLOSED = 1e-9
 
+MOVED = (
+    "The links were moved from the configuration of the file to one in which loops close and "
+    "joints are within their limits."
+)
+
 
 def assembled(robot: Robot) -> Robot:
     """The robot where its loops close, its couplings hold, and joints are within their limits.
@@ -81,9 +86,7 @@ def split(robot: Robot) -> tuple[list[tuple[RobotJoint, bool]], list[RobotJoint]
     return tree, [joint for joint in robot.joints if joint.name not in used]
 
 
-def _into_limits(
-    robot: Robot, tree: list[tuple[RobotJoint, bool]]
-) -> dict[tuple[str, str], float]:
+def _into_limits(robot: Robot, tree: list[tuple[RobotJoint, bool]]) -> dict[tuple[str, str], float]:
     """Displacements of joints that the file draws outside their limits."""
     found = {}
     followers = {coupled.follower for coupled in robot.couplings}
@@ -161,7 +164,7 @@ class _Moves:
             return values
         if np.abs(self.gaps(values)).max(initial=0.0) > CLOSED / 100:
             # imported late: SciPy is slow to import, and most robots are closed as drawn
-            from scipy.optimize import least_squares  # noqa: PLC0415
+            from scipy.optimize import least_squares
 
             low, high = self._ranges()
             values = np.clip(values, low, high)
@@ -201,9 +204,9 @@ class _Moves:
         placed = self.displaced(values)
         amounts = self._all_amounts(values)
         base = self.base
-        joints = {
-            joint.name: _tree_joint(joint, placed, amounts) for joint, _ in self.tree
-        } | {joint.name: _chord(joint, placed) for joint in self.chords}
+        joints = {joint.name: _tree_joint(joint, placed, amounts) for joint, _ in self.tree} | {
+            joint.name: _chord(joint, placed) for joint in self.chords
+        }
         tool = base.tool
         if tool is not None:
             tool = (tool[0], placed.get(tool[0], Pose()).at(tool[1]))
@@ -216,8 +219,7 @@ class _Moves:
             start=(),
             notes=(
                 *base.notes,
-                "The links were moved from the configuration of the file, where joints are at "
-                "zero, to one in which loops close and joints are within their limits.",
+                MOVED,
             ),
         )
 

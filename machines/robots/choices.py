@@ -72,8 +72,10 @@ def actuated(
         return replace(robot, notes=(*robot.notes, note))
     else:
         driven = single
-    joints = tuple(_driven(j, {f.direction for f in j.freedoms}) if j.name in driven else j
-                   for j in robot.joints)
+    joints = tuple(
+        _driven(j, {f.direction for f in j.freedoms}) if j.name in driven else j
+        for j in robot.joints
+    )
     return replace(robot, joints=joints)
 
 

@@ -22,7 +22,7 @@ from strutwork.machines.robots.xml_text import parse_file, plain
 from strutwork.names import choices as known_choices
 
 if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element  # noqa: S405 - a type
+    from xml.etree.ElementTree import Element
 
 #: Ending of a file, and what it is called.
 FORMATS = {".urdf": "URDF", ".sdf": "SDF", ".xml": "MJCF", ".mjcf": "MJCF"}

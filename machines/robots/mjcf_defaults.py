@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,9 +107,7 @@ class Defaults:
         for element in children(self.root, "default"):
             self._add(element, element.get("class") or MAIN, self.classes[MAIN])
 
-    def _add(
-        self, element: Element, name: str, before: Mapping[str, Mapping[str, str]]
-    ) -> None:
+    def _add(self, element: Element, name: str, before: Mapping[str, Mapping[str, str]]) -> None:
         own = {tag: dict(values) for tag, values in before.items()}
         for child in element:
             tag = plain(child.tag)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -150,7 +150,11 @@ def _sphere(r: float) -> tuple[float, Sequence[float]]:
 
 
 def _ellipsoid(a: float, b: float, c: float) -> tuple[float, Sequence[float]]:
-    return 4 / 3 * np.pi * a * b * c, ((b * b + c * c) / 5, (a * a + c * c) / 5, (a * a + b * b) / 5)
+    return 4 / 3 * np.pi * a * b * c, (
+        (b * b + c * c) / 5,
+        (a * a + c * c) / 5,
+        (a * a + b * b) / 5,
+    )
 
 
 def _box(a: float, b: float, c: float) -> tuple[float, Sequence[float]]:
@@ -172,7 +176,7 @@ def _capsule(r: float, half: float) -> tuple[float, Sequence[float]]:
     return volume, (across, across, along)
 
 
-_SHAPES = {
+_SHAPES: dict[str, Callable[..., tuple[float, Sequence[float]]]] = {
     "sphere": _sphere,
     "ellipsoid": _ellipsoid,
     "box": _box,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - no parser
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray

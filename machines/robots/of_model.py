@@ -100,7 +100,7 @@ class _Conversion:
 
     def _masses(self) -> BodyMasses | None:
         # imported late: matrices of mass take their time to import
-        from strutwork.msa.body_mass import body_masses  # noqa: PLC0415
+        from strutwork.msa.body_mass import body_masses
 
         try:
             return body_masses(self.model.placed)
@@ -142,10 +142,7 @@ class _Conversion:
                 child=WORLD if joint.child in fixed else joint.child,
             )
             for joint in self.joints
-            if not (
-                joint.kind == "fixed"
-                and {joint.parent, joint.child} <= {WORLD, *fixed}
-            )
+            if not (joint.kind == "fixed" and {joint.parent, joint.child} <= {WORLD, *fixed})
         ]
         self.joints = joints
         self.links = [link for link in self.links if link.name not in fixed]
@@ -274,7 +271,9 @@ def _parts(free: list[str]) -> list[tuple[str, tuple[str, ...], list[int]]]:
             return [("planar", (across[0], across[1], turns[0]), order)]
     if not free:
         return [("fixed", (), [0, 1, 2])]
-    parts = [("prismatic", (d,), _with_axis("xyz".index(d))) for d in slides]
+    parts: list[tuple[str, tuple[str, ...], list[int]]] = [
+        ("prismatic", (d,), _with_axis("xyz".index(d))) for d in slides
+    ]
     if len(turns) == 1:
         return [*parts, ("revolute", (turns[0],), _with_axis("xyz".index(turns[0][1])))]
     if len(turns) == 2:

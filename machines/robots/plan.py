@@ -165,9 +165,9 @@ def _outwards(robot: Robot, kept: set[str]) -> tuple[list[RobotJoint], list[str]
             floating.append(start)
         placed.add(start)
         waiting = [start]
-        for link in waiting:
-            for joint in beside[link]:
-                outward = joint if joint.parent == link else turned(joint)
+        for near in waiting:
+            for joint in beside[near]:
+                outward = joint if joint.parent == near else turned(joint)
                 if outward.child in placed:
                     continue
                 placed.add(outward.child)
@@ -249,18 +249,14 @@ def pieces(joint: RobotJoint) -> list[Piece]:
     if joint.kind == "helical":
         slide = Freedom("z")
         found.append(
-            Piece(
-                f"{joint.name}:z", False, joint.axis, slide, (joint.pitch or 0.0) / (2 * np.pi)
-            )
+            Piece(f"{joint.name}:z", False, joint.axis, slide, (joint.pitch or 0.0) / (2 * np.pi))
         )
     for f in joint.freedoms:
         several = joint.kind == "helical" or len(joint.freedoms) > 1
         name = f"{joint.name}:{f.direction}" if several else joint.name
         limits = None if joint.kind == "spherical" else f.limits
         turns = f.direction.startswith("r")
-        found.append(
-            Piece(name, turns, joint.vector(f.direction), replace(f, limits=limits))
-        )
+        found.append(Piece(name, turns, joint.vector(f.direction), replace(f, limits=limits)))
     return found
 
 

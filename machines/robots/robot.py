@@ -88,7 +88,7 @@ class Link:
             raise ModelError(part, "has an inertia but no mass.", "Give its mass.")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Freedom:
     """A direction in which a joint moves.
 
@@ -165,12 +165,12 @@ class RobotJoint:
 
     @property
     def axis(self) -> Array:
-        """z of its axes, (3,)."""
+        """Z of its axes, (3,)."""
         return np.asarray(self.axes[:, 2])
 
     @property
     def second(self) -> Array:
-        """x of its axes, (3,)."""
+        """X of its axes, (3,)."""
         return np.asarray(self.axes[:, 0])
 
     def vector(self, direction: str) -> Array:
@@ -183,7 +183,7 @@ class RobotJoint:
         return np.asarray(self.axes[:, "xyz".index(direction[-1])])
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Coupled:
     """A joint coordinate that follows another.
 

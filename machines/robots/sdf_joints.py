@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,7 +96,7 @@ def sdf_joint(
         raise ModelError(
             part, f'has the type "{type_}".', "Types that are read: " + ", ".join(TYPES) + "."
         )
-    ends = []
+    ends: list[str] = []
     for end in ("parent", "child"):
         found = element.find(end)
         # up to version 1.4 the name may stand in an element <link>
@@ -108,10 +108,10 @@ def sdf_joint(
     first = _axis(element.find("axis"), own, pose, version, part, notes)
     read = Read()
     if kind == "fixed":
-        read.joints = [RobotJoint(name, kind, *ends, own.position)]
+        read.joints = [RobotJoint(name, kind, ends[0], ends[1], own.position)]
         return read
     if kind == "spherical":
-        read.joints = [RobotJoint(name, kind, *ends, own.position, own.rotation)]
+        read.joints = [RobotJoint(name, kind, ends[0], ends[1], own.position, own.rotation)]
         return read
     if kind == "universal":
         second = _axis(element.find("axis2"), own, pose, version, part, notes)
@@ -122,7 +122,8 @@ def sdf_joint(
     joint = RobotJoint(
         name,
         kind,
-        *ends,
+        ends[0],
+        ends[1],
         own.position,
         joint_axes(first.vector, part),
         (freedom,),
@@ -144,7 +145,7 @@ class _Axis:
     effort: float | None
     speed: float | None
 
-    def freedom(self, direction: str, endless: bool = False) -> Freedom:  # noqa: FBT001, FBT002
+    def freedom(self, direction: str, endless: bool = False) -> Freedom:
         return Freedom(
             direction,
             limits=None if endless else self.limits,
@@ -161,7 +162,9 @@ def _two_axes(
     if abs(float(first.vector @ second.vector)) < PERPENDICULAR:
         axes = joint_axes(first.vector, part, second.vector)
         freedoms = (first.freedom("rz"), second.freedom("rx"))
-        read.joints = [RobotJoint(name, "universal", *ends, own.position, axes, freedoms)]
+        read.joints = [
+            RobotJoint(name, "universal", ends[0], ends[1], own.position, axes, freedoms)
+        ]
         return
     between = f"{name} between"[:100]
     read.links = [Link(between, own.position)]
@@ -212,9 +215,11 @@ def _axis(
 
     low, high = value("limit/lower"), value("limit/upper")
     limits = limit_pair(-1e9 if low is None else low, 1e9 if high is None else high)
-    for what in ("dynamics/friction", "dynamics/spring_stiffness"):
-        if value(what):
-            notes.append(f"{what.partition('/')[2]} of {part} is left out.")
+    notes += [
+        f"{what.partition('/')[2]} of {part} is left out."
+        for what in ("dynamics/friction", "dynamics/spring_stiffness")
+        if value(what)
+    ]
     return _Axis(
         frame.rotation @ unit(vector, part),
         limits,
@@ -234,7 +239,9 @@ def _pitch(element: Element, part: str) -> float:
             break
         # the older one is in rad per m, positive for a left-hand thread
         return value if tag == "screw_thread_pitch" else -2 * np.pi / value
-    raise ModelError(part, "is a screw without a pitch.", "Give <screw_thread_pitch> in m per turn.")
+    raise ModelError(
+        part, "is a screw without a pitch.", "Give <screw_thread_pitch> in m per turn."
+    )
 
 
 def _add_mimic(read: Read, axis: Element | None, own: tuple[str, str], part: str) -> None:
@@ -245,14 +252,11 @@ def _add_mimic(read: Read, axis: Element | None, own: tuple[str, str], part: str
     if not leader:
         raise ModelError(part, "mimics no joint.", 'Give <mimic joint="…">.')
 
-    def value(tag: str) -> float:
-        return number(mimic.findtext(tag) or "0", part, tag)
-
-    ratio = value("multiplier")
+    texts = {tag: mimic.findtext(tag) or "0" for tag in ("multiplier", "offset", "reference")}
+    given = {tag: number(text, part, tag) for tag, text in texts.items()}
+    ratio = given["multiplier"]
     second = "rx" if mimic.get("axis") == "axis2" else ""
-    read.couplings.append(
-        Coupled(f"{own[0]} follows {leader}"[:100], (leader, second), own, ratio)
-    )
-    moved = value("offset") - ratio * value("reference")
+    read.couplings.append(Coupled(f"{own[0]} follows {leader}"[:100], (leader, second), own, ratio))
+    moved = given["offset"] - ratio * given["reference"]
     if moved:
         read.start.append((own, moved))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.machines.robots.choices import Choices, actuated, tool_of
 from strutwork.machines.robots.poses import Pose, quaternion, roll_pitch_yaw
-from strutwork.machines.robots.robot import WORLD, Link, Robot, RobotJoint
+from strutwork.machines.robots.robot import WORLD, Coupled, Link, Robot, RobotJoint
 from strutwork.machines.robots.sdf_joints import sdf_joint
 from strutwork.machines.robots.urdf_read import tensor, turned_inertia
 from strutwork.machines.robots.xml_text import children, name_of, number, numbers, plain
@@ -35,6 +35,7 @@ def sdf_robot(root: Element, choices: Choices) -> Robot:
     """
     if root.tag != "sdf":
         raise ModelError("SDF", f"begins with <{plain(root.tag)}>.", "It must begin with <sdf>.")
+    version = _version(root)
     model, world = _model(root)
     frames = _Frames(model)
     notes: list[str] = []
@@ -42,8 +43,9 @@ def sdf_robot(root: Element, choices: Choices) -> Robot:
     if not links:
         raise ModelError(f"model {model.get('name')}", "has no <link>.", "Define its links.")
     joints: list[RobotJoint] = []
-    couplings, start, efforts = [], [], {}
-    version = _version(root)
+    couplings: list[Coupled] = []
+    start: list[tuple[tuple[str, str], float]] = []
+    efforts: dict[str, float | None] = {}
     for element in children(model, "joint"):
         read = sdf_joint(element, frames.pose, frames.link_of, version, notes)
         joints += read.joints

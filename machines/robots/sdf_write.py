@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - no parser
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,9 +70,9 @@ class _Writer:
             self._link(link)
         for joint in (*self.plan.tree, *self.plan.loops):
             self._joint(joint)
-        for name, link, place in points_of(self.plan):
-            frame = add(self.model, "frame", name=self._unique(name), attached_to=link)
-            self._pose(frame, place - self.frames[link])
+        for name, owner, place in points_of(self.plan):
+            frame = add(self.model, "frame", name=self._unique(name), attached_to=owner)
+            self._pose(frame, place - self.frames[owner])
         if any(not link.mass for link in self.plan.robot.links):
             self.notes.append("Links without mass are written with a mass of zero.")
         return document(self.root, self.notes)
@@ -128,12 +128,10 @@ class _Writer:
 
     def _native(self, joint: RobotJoint) -> None:
         if joint.child == WORLD:
-            from strutwork.machines.robots.plan import turned  # noqa: PLC0415 - as below
+            from strutwork.machines.robots.plan import turned
 
             joint = turned(joint)
-        element = self._open(
-            joint.name, NATIVE[joint.kind], joint.parent, joint.child, joint.place
-        )
+        element = self._open(joint.name, NATIVE[joint.kind], joint.parent, joint.child, joint.place)
         if joint.kind == "helical":
             add(element, "screw_thread_pitch", shown(joint.pitch or 0.0))
         if joint.kind in {"fixed", "spherical"}:

@@ -106,7 +106,9 @@ class _Tables:
             table["pitch"] = float(joint.pitch)
         damping = {f.direction: float(f.damping) for f in joint.freedoms if f.damping}
         limits = {f.direction: [float(v) for v in f.limits] for f in joint.freedoms if f.limits}
-        driven = [d for d in DIRECTIONS if any(f.driven and f.direction == d for f in joint.freedoms)]
+        driven = [
+            d for d in DIRECTIONS if any(f.driven and f.direction == d for f in joint.freedoms)
+        ]
         return table | {
             key: value
             for key, value in (("damping", damping), ("driven", driven), ("limits", limits))
@@ -181,7 +183,7 @@ def model_text(robot: Robot, source: str = "") -> str:
         Name of the file that it was read from, for the comment at its head.
     """
     # imported late: only what writes a file waits for it
-    import tomlkit  # noqa: PLC0415
+    import tomlkit
 
     document = tomlkit.document()
     head = [f"From {source}." if source else "From a robot."]
@@ -202,7 +204,7 @@ def model_text(robot: Robot, source: str = "") -> str:
 
 
 def _table(entry: dict[str, Any]) -> Any:
-    import tomlkit  # noqa: PLC0415 - as above
+    import tomlkit
 
     table = tomlkit.table()
     for key, value in entry.items():
@@ -216,6 +218,6 @@ def _table(entry: dict[str, Any]) -> Any:
 
 
 def _one_line(text: str) -> str:
-    from strutwork.names import visible  # noqa: PLC0415 - as above
+    from strutwork.names import visible
 
     return visible(" ".join(text.split()))

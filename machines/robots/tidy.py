@@ -43,9 +43,7 @@ def tidied(robot: Robot) -> Robot:
         first, second = ends if ends[0].child == name else ends[::-1]
         if first.child != name or second.parent != name:
             continue
-        merged = (
-            _universal(first, second) or _ball(first, second) or _cylindrical(first, second)
-        )
+        merged = _universal(first, second) or _ball(first, second) or _cylindrical(first, second)
         if merged is None:
             continue
         joint, mapping = merged
@@ -58,7 +56,9 @@ def tidied(robot: Robot) -> Robot:
         gone.add(name)
     joints = _hinges(joints)
     couplings = tuple(
-        replace(c, leader=renamed.get(c.leader, c.leader), follower=renamed.get(c.follower, c.follower))
+        replace(
+            c, leader=renamed.get(c.leader, c.leader), follower=renamed.get(c.follower, c.follower)
+        )
         for c in robot.couplings
     )
     return replace(
@@ -158,9 +158,7 @@ def _ball(
         Freedom(d, damping=f.damping) for d, f in zip(("rx", "ry", "rz"), pieces, strict=True)
     )
     axes = np.stack([x, y, np.cross(x, y)], axis=1)
-    made = RobotJoint(
-        name, "spherical", first.parent, second.child, second.place, axes, freedoms
-    )
+    made = RobotJoint(name, "spherical", first.parent, second.child, second.place, axes, freedoms)
     return made, {}
 
 

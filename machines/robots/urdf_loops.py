@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,9 +127,7 @@ def _axes(side: _Side, kind: str, part: str) -> Array:
     return np.asarray(side.frame.rotation @ joint_axes(own, part))
 
 
-def _sides(
-    element: Element, poses: Mapping[str, Pose], part: str
-) -> tuple[_Side, _Side]:
+def _sides(element: Element, poses: Mapping[str, Pose], part: str) -> tuple[_Side, _Side]:
     if element.tag == "constraint":
         return (
             _constraint_side(element, "parent", poses, part),
@@ -148,9 +146,7 @@ def _sides(
     )
 
 
-def _constraint_side(
-    element: Element, end: str, poses: Mapping[str, Pose], part: str
-) -> _Side:
+def _constraint_side(element: Element, end: str, poses: Mapping[str, Pose], part: str) -> _Side:
     link_element = element.find(end)
     if link_element is None:
         raise ModelError(part, f"has no <{end}>.", f'Give <{end} link="…"/>.')

@@ -5,7 +5,7 @@ The tree is that of the URDF of ROS (http://wiki.ros.org/urdf/XML). See `urdf_lo
 
 from __future__ import annotations
 
-from xml.etree.ElementTree import Element  # noqa: S405 - a type; defusedxml parses
+from xml.etree.ElementTree import Element
 
 import numpy as np
 
@@ -116,7 +116,7 @@ def urdf_robot(root: Element, choices: Choices) -> Robot:
 def _require_expanded(root: Element) -> None:
     for element in root.iter():
         tag = str(element.tag)
-        if "xacro" in tag or tag == "include":
+        if "xacro" in tag or plain(tag) == "include":
             raise ModelError(
                 "URDF",
                 f"has an element <{plain(tag)}> of xacro, or an include: other files are not "
@@ -129,9 +129,7 @@ def _base(name: str) -> RobotJoint:
     return RobotJoint(f"base of {name}"[:100], "fixed", WORLD, name, np.zeros(3))
 
 
-def _tree(
-    links: dict[str, Element | None], joints: dict[str, Element]
-) -> tuple[str, list[str]]:
+def _tree(links: dict[str, Element | None], joints: dict[str, Element]) -> tuple[str, list[str]]:
     """The root link, and the joints from it outwards."""
     parent_joint: dict[str, str] = {}
     below: dict[str, list[str]] = {name: [] for name in links}
@@ -144,9 +142,7 @@ def _tree(
                 "Close the loop by a <constraint>, or use SDF, in which joints may form loops.",
             )
         if parent == child:
-            raise ModelError(
-                f"joint {name}", f'joins link "{child}" to itself.', "Name two links."
-            )
+            raise ModelError(f"joint {name}", f'joins link "{child}" to itself.', "Name two links.")
         parent_joint[child] = name
         below[parent].append(name)
     roots = [name for name in links if name not in parent_joint]

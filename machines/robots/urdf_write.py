@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from typing import Any
-from xml.etree.ElementTree import Element  # noqa: S405 - no parser
+from xml.etree.ElementTree import Element
 
 import numpy as np
 from numpy.typing import NDArray
@@ -75,10 +75,10 @@ class _Writer:
             self._ends(element, WORLD, name, self.frames[name])
         for joint in tree:
             self._joint(joint)
-        for name, link, place in points_of(plan):
+        for name, owner, place in points_of(plan):
             add(self.root, "link", name=name)
             element = add(self.root, "joint", name=f"{name} fixed", type="fixed")
-            self._ends(element, link, name, place)
+            self._ends(element, owner, name, place)
         for joint in plan.loops:
             self._loop(joint)
         if plan.loops:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-from xml.etree.ElementTree import Element, ParseError  # noqa: S405 - types; defusedxml parses
+from xml.etree.ElementTree import Element, ParseError
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,8 +57,8 @@ def parse(text: str, source: str) -> Element:
         It is no XML, declares a document type or entities, or is too large.
     """
     # imported late: only a robot file waits for it
-    from defusedxml.common import DefusedXmlException  # noqa: PLC0415
-    from defusedxml.ElementTree import fromstring  # noqa: PLC0415
+    from defusedxml.common import DefusedXmlException
+    from defusedxml.ElementTree import fromstring
 
     if text.count("<") > 2 * MAX_ELEMENTS:
         raise ModelError(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from typing import Any
-from xml.etree.ElementTree import Element, SubElement, indent, tostring  # noqa: S405 - no parser
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -102,7 +102,7 @@ def tool_name(plan: Plan) -> str:
     ----------
     plan : Plan
     """
-    from strutwork.machines.robots.choices import TOOL_NAMES  # noqa: PLC0415 - reading's
+    from strutwork.machines.robots.choices import TOOL_NAMES
 
     name = plan.robot.tool_name
     return name if name.lower() in TOOL_NAMES else "tcp"

@@ -152,9 +152,7 @@ def test_pinocchio_has_the_same_jacobian_and_mass(
         else:
             q[joint.idx_q] = value
     rows = _loops(pin, model, data, read, own, q)
-    driven = [
-        int(model.joints[model.getJointId(j)].idx_v) for j, _ in own.structure.linkage.driven
-    ]
+    driven = [int(model.joints[model.getJointId(j)].idx_v) for j, _ in own.structure.linkage.driven]
     rates = null_map(rows, driven)
     mass = pin.crba(model, data, q)
     mass = np.triu(mass) + np.triu(mass, 1).T
