@@ -11,7 +11,7 @@ from strutwork.files import write_text
 from strutwork.machines.load import ROBOT_FILES, load
 from strutwork.machines.robots import model_text, read_robot, robot_of, robot_text
 from strutwork.machines.robots.choices import Choices
-from strutwork.machines.robots.robot import Robot
+from strutwork.machines.robots.robot import WORLD, Robot
 from strutwork.machines.schema_file import DIRECTIVE, put_beside
 from strutwork.names import visible
 from strutwork.reports.cli.output import console, print_json
@@ -32,13 +32,15 @@ def run(
     else:
         write_text(path, robot_text(robot, path))
         schema = None
+    # what fixes a base on the ground is no joint to a reader
+    joints = [j for j in robot.joints if j.kind != "fixed" or WORLD not in {j.parent, j.child}]
     written = [str(file) for file in (path, schema) if file is not None]
     if json:
         print_json(
             {
                 "data": written,
                 "links": len(robot.links),
-                "joints": len(robot.joints),
+                "joints": len(joints),
                 "mass": {"total": robot.mass, "center": robot.centre.tolist()},
                 "notes": list(robot.notes),
             }
@@ -49,9 +51,7 @@ def run(
     out = console()
     for file in written:
         out.print(f"Written: {visible(file)}", markup=False, soft_wrap=True)
-    out.print(
-        f"{len(robot.links)} links, {len(robot.joints)} joints, {robot.mass:.6g} kg", markup=False
-    )
+    out.print(f"{len(robot.links)} links, {len(joints)} joints, {robot.mass:.6g} kg", markup=False)
 
 
 def _read(source: str, tool: str | None, drives: Sequence[str] | None) -> Robot:

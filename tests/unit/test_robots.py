@@ -312,7 +312,10 @@ HOSTILE: dict[str, tuple[str, str]] = {
         "follows itself|couples|itself",
     ),
     "loop of an unknown link": (
-        urdf('<constraint name="c" type="fixed"><parent link="x"/><child link="arm"/></constraint>'),
+        urdf(
+            '<constraint name="c" type="fixed"><parent link="x"/>'
+            '<child link="arm"/></constraint>'
+        ),
         'unknown link "x"',
     ),
     "loop that cannot close": (
