@@ -221,7 +221,7 @@ class Piece:
     name : str
     turns : bool
     axis : (3,)
-        World axes.
+        World axes, no unit.
     freedom : Freedom
         Limits and home of its coordinate, m or rad.
     lead : float or None

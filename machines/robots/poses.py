@@ -23,7 +23,7 @@ class Pose:
     position : (3,)
         m.
     rotation : (3, 3)
-        Its axes as columns.
+        Rotation matrix: its axes as columns.
     """
 
     position: Array = field(default_factory=lambda: np.zeros(3))

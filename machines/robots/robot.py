@@ -45,7 +45,7 @@ class Link:
     origin : (3,)
         Of its own frame, m.
     axes : (3, 3)
-        Of its own frame, as columns.
+        Rotation matrix of its own frame, axes as columns.
     mass : float
         kg.
     centre : (3,)
@@ -130,7 +130,7 @@ class RobotJoint:
     place : (3,)
         m; on the child where `parent_place` is given too.
     axes : (3, 3)
-        Joint axes as columns; those on the child where `parent_axes` are given too.
+        Rotation matrix, joint axes as columns; those on the child where `parent_axes` are given too.
     freedoms : tuple of Freedom
         In the order of `FREE`.
     pitch : float or None

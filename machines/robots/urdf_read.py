@@ -169,16 +169,20 @@ def _tree(links: dict[str, Element | None], joints: dict[str, Element]) -> tuple
 
 
 def _end(element: Element, end: str, links: dict[str, Element | None]) -> str:
-    part = f"joint {element.get('name')}"
-    found = element.find(end)
-    if found is None:
-        raise ModelError(part, f"has no <{end}>.", f'Give <{end} link="…"/>.')
-    name = required(found, "link", part)
+    part, name = f"joint {element.get('name')}", _link_name(element, end)
     if name not in links:
         raise ModelError(
             part, f'names the unknown link "{name}".', "Define the link, or correct the name."
         )
     return name
+
+
+def _link_name(element: Element, end: str) -> str:
+    part = f"joint {element.get('name')}"
+    found = element.find(end)
+    if found is None:
+        raise ModelError(part, f"has no <{end}>.", f'Give <{end} link="…"/>.')
+    return required(found, "link", part)
 
 
 def origin_of(element: Element | None, part: str) -> Pose:
@@ -266,10 +270,7 @@ def _joint(
         raise ModelError(
             part, f'has the unknown type "{type_}".', "Types of URDF: " + ", ".join(TYPES) + "."
         )
-    parent_element, child_element = element.find("parent"), element.find("child")
-    assert parent_element is not None  # noqa: S101 - `_tree` has read both
-    assert child_element is not None  # noqa: S101
-    parent, child = required(parent_element, "link", part), required(child_element, "link", part)
+    parent, child = _link_name(element, "parent"), _link_name(element, "child")
     pose = poses[parent] @ origin_of(element.find("origin"), part)
     kind = TYPES[type_] or "fixed"
     if kind == "fixed":

@@ -227,7 +227,7 @@ def numbers(text: str, count: int, part: str, what: str) -> Array:
 def attribute_numbers(
     element: Element | None, attribute: str, default: Sequence[float], part: str
 ) -> Array:
-    """Numbers of an attribute, or the default without it.
+    """Numbers of an attribute, or the default without it, (n,).
 
     Parameters
     ----------
