@@ -130,7 +130,7 @@ class RobotJoint:
     place : (3,)
         m; on the child where `parent_place` is given too.
     axes : (3, 3)
-        Rotation matrix, joint axes as columns; those on the child where `parent_axes` are given too.
+        Rotation matrix, joint axes as columns; on the child where `parent_axes` are given too.
     freedoms : tuple of Freedom
         In the order of `FREE`.
     pitch : float or None
