@@ -88,11 +88,22 @@ def points_of(plan: Plan) -> list[tuple[str, str, Array]]:
     ----------
     plan : Plan
     """
-    robot = plan.robot
+    robot, frames = plan.robot, plan.frames()
     found = [p for p in robot.points if p[1] != WORLD]
     if robot.tool is not None and robot.tool[0] != WORLD:
         found.append((tool_name(plan), robot.tool[0], robot.tool[1]))
-    return found
+    taken = {WORLD, *(link.name for link in robot.links)}
+    points = []
+    for name, link, place in found:
+        if name == link and np.array_equal(place, frames[link]):
+            # the frame of the link itself
+            continue
+        text, count = name, 2
+        while text in taken:
+            text, count = f"{name} {count}", count + 1
+        taken.add(text)
+        points.append((text, link, place))
+    return points
 
 
 def tool_name(plan: Plan) -> str:

@@ -42,6 +42,9 @@ def test_a_machine_comes_back_from_every_format(machine: str, ending: str, tmp_p
     back = read_robot(file)
     assert back.mass == pytest.approx(robot.mass, rel=1e-14)
     np.testing.assert_allclose(back.centre, robot.centre, rtol=0, atol=1e-14)
+    if robot.tool is not None:
+        assert back.tool is not None
+        np.testing.assert_allclose(back.tool[1], robot.tool[1], rtol=0, atol=1e-14)
     assert counts(parse_model(model_text(back))) == counts(given)
     driven = sum(f.driven for joint in back.joints for f in joint.freedoms)
     assert driven == len(given.structure.linkage.driven)

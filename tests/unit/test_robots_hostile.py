@@ -8,6 +8,7 @@ import pytest
 
 from strutwork.errors import ModelError
 from strutwork.machines.load import load
+from strutwork.machines.model_file import read_tables
 from strutwork.machines.robots import read_robot
 from strutwork.machines.robots.models import model_of
 
@@ -158,3 +159,8 @@ def test_a_huge_file_is_refused_before_it_is_read(tmp_path: Path) -> None:
         read_robot(file)
     with pytest.raises(ModelError, match="does not exist"):
         load(tmp_path / "other.sdf")
+
+
+def test_a_robot_file_that_is_to_be_varied_is_converted_first() -> None:
+    with pytest.raises(ModelError, match="strutwork convert"):
+        read_tables("examples/robots/arm.urdf")
