@@ -18,6 +18,8 @@ Array = NDArray[Any]
 
 #: Largest gap of a loop that is closed, as a share of the robot's size.
 CLOSED = 1e-9
+#: Evaluations at most, and the gap from which the last digits are worth their time.
+TRIES, NEARLY = 60, 1e-3
 
 MOVED = (
     "The links were moved from the configuration of the file to one in which loops close and "
@@ -168,12 +170,13 @@ class _Moves:
 
             low, high = self._ranges()
             values = np.clip(values, low, high)
-            for _ in range(3):
-                tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15}
-                found = least_squares(
-                    self.gaps, values, jac="3-point", bounds=(low, high), max_nfev=500, **tight
-                )
-                values = found.x
+            span = {"bounds": (low, high)}
+            values = least_squares(self.gaps, values, max_nfev=TRIES, **span).x
+            gap = float(np.abs(self.gaps(values)).max(initial=0.0))
+            if CLOSED / 100 < gap < NEARLY:
+                # the last digits, which plain differences do not give
+                tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15, "jac": "3-point"}
+                values = least_squares(self.gaps, values, max_nfev=20, **span, **tight).x
         self._require_closed(values)
         return values
 

@@ -21,6 +21,8 @@ Array = NDArray[Any]
 
 #: Elements at most, and how deeply they may be nested.
 MAX_ELEMENTS, MAX_DEPTH = 200_000, 200
+#: Numbers beyond are no quantities, and below they are zero, any unit.
+LARGEST, LEAST = 1e30, 1e-60
 #: Numbers beyond this are none in SI that a machine has; formats write them for "no limit".
 ENDLESS = 1e9
 
@@ -179,7 +181,7 @@ def required(element: Element, attribute: str, part: str = "") -> str:
 
 
 def number(text: str, part: str, what: str) -> float:
-    """A finite number.
+    """A finite number of at most 1e30; below 1e-60 it is zero, as in model files.
 
     Parameters
     ----------
@@ -190,15 +192,15 @@ def number(text: str, part: str, what: str) -> float:
     Raises
     ------
     ModelError
-        It is no number, or not finite.
+        It is no number, not finite, or too large.
     """
     try:
         value = float(text)
     except ValueError:
         value = float("nan")
-    if not isfinite(value):
+    if not isfinite(value) or abs(value) > LARGEST:
         raise ModelError(part, f"has the {what} {text.strip()[:40]!r}.", "Give a finite number.")
-    return value
+    return value if abs(value) >= LEAST else 0.0
 
 
 def numbers(text: str, count: int, part: str, what: str) -> Array:
