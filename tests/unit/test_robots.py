@@ -70,6 +70,21 @@ def test_inertia_and_damping_and_limits_come_back(ending: str, tmp_path: Path) -
             assert other == one
 
 
+@pytest.mark.parametrize(
+    ("name", "found"),
+    [
+        ("arm.urdf", (6, 0, 0)),
+        ("biglide.urdf", (2, 0, 3)),
+        ("four_bar.sdf", (1, 0, 3)),
+        ("hexapod.xml", (6, 0, 0)),
+    ],
+)
+def test_examples_move_as_they_should(name: str, found: tuple[int, int, int]) -> None:
+    robot = read_robot(EXAMPLES / name)
+    assert counts(model_of(robot)) == found
+    assert robot.tool is not None
+
+
 def test_an_arm_stands_as_its_file_says() -> None:
     robot = read_robot(EXAMPLES / "arm.urdf")
     assert robot.notes == ()
