@@ -64,7 +64,7 @@ COMMANDS = {
 SILENT = ("new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
-PLACED = ("accuracy", "compare", "map", "scale", "study", "trajectory", "workspace")
+PLACED = ("accuracy", "compare", "design", "map", "scale", "study", "trajectory", "workspace")
 
 
 class Program(Commands):
