@@ -48,7 +48,7 @@ CHUNK_POSES, CHUNK_MOST = 8192, 64
 MOST_REASONS, OTHER = 100, "another reason"
 
 #: Packages whose code decides a study's numbers; an edit elsewhere keeps finished parts.
-CODE = ("kinematics", "meshes", "msa", "fea", "overconstraint", "machines", "studies")
+CODE = ("kinematics", "meshes", "msa", "fea", "overconstraint", "flexures", "machines", "studies")
 
 
 @dataclass(frozen=True)

@@ -34,6 +34,7 @@ _HERE = "strutwork.reports.cli"
 COMMANDS = {
     "machines": f"{_HERE}.app:machines",
     "check": f"{_HERE}.app:check",
+    "bearings": f"{_HERE}.bearings_command:bearings",
     "solve": f"{_HERE}.app:solve",
     "map": f"{_HERE}.map_command:map_command",
     "modes": f"{_HERE}.app:modes",
@@ -62,7 +63,7 @@ COMMANDS = {
 SILENT = ("new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
-PLACED = ("accuracy", "compare", "map", "scale", "study", "trajectory", "workspace")
+PLACED = ("accuracy", "compare", "design", "map", "scale", "study", "trajectory", "workspace")
 
 
 class Program(Commands):
