@@ -8,6 +8,7 @@ without it a tenth is searched, and its time extrapolated.
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -141,17 +142,17 @@ def front(machines: int) -> tuple[Row, int]:
     return rows[0], int(found["front"].size)
 
 
-def table(rows: list[Row], search: Row, best: int) -> str:
+def table(rows: list[Row], search: Row, best: int, load: float) -> str:
     """The page."""
     lines = [
         "# Performance of variants",
         "",
         "Written by `python -m benchmarks.variant_speed --write`: compare ratios.",
-        machine_line(),
+        f"{machine_line()} Load of other work at the start: {load:.1f}.",
         "",
         f"The hexapod of `examples/machines/6-ups.toml` with {len(PATHS)} varied sections and",
-        f"stiffnesses, at {POSES} poses; frequency under preload at home alone. Threads share two",
-        "processors with other work of the machine: processor time is that of all threads. Times",
+        f"stiffnesses, at {POSES} poses; frequency under preload at home alone. The clock counts",
+        "what other work delays; processor time is that of all threads together. Times",
         f"of {GOAL:,} machines are extrapolated from the machines of the table.",
         "",
         (
@@ -198,9 +199,10 @@ def main() -> None:
     options.add_argument("--machines", type=int, default=GOAL // 10, metavar="COUNT")
     arguments = parsed(options)
     machines, alone = (4, 1) if arguments.smallest else (512, 8)
+    load = os.getloadavg()[0]
     rows = measured(machines, alone)
     search, best = front(8 if arguments.smallest else arguments.machines)
-    shown(table(rows, search, best), DOCUMENT, arguments)
+    shown(table(rows, search, best, load), DOCUMENT, arguments)
 
 
 if __name__ == "__main__":

@@ -29,6 +29,10 @@ from strutwork.stages import stage
 Array = NDArray[Any]
 
 
+class AllLockedError(ModelError):
+    """No coordinate is left: every direction is locked."""
+
+
 @dataclass(frozen=True)
 class Reduced:
     """A structure on its independent coordinates at p poses.
@@ -125,7 +129,7 @@ def reduce_system(system: System) -> Reduced:
 
     Raises
     ------
-    ModelError
+    AllLockedError
         No coordinate is left: every direction is locked.
     NumericalError
         The structure does not stand under its preload; names the critical share of it.
@@ -139,7 +143,7 @@ def _reduced(system: System) -> Reduced:
     basis = independent_basis(system)
     d = scales(system)[..., None]
     if basis.shape[-1] == 0 or not np.any(basis):
-        raise ModelError(
+        raise AllLockedError(
             "structure",
             "has no degree of freedom: every direction is locked.",
             "Release a support, or make a joint direction elastic.",

@@ -89,8 +89,6 @@ def joint_flexures(tables: ModelTable, flexures: Mapping[str, Flexure]) -> dict[
                 "has a flexure beside a stiffness of its own.",
                 "Keep one of the two; the flexure's sizes give its stiffness.",
             )
-        if table.bearing is not None:
-            raise ModelError(part, "has a flexure and a bearing.", "Keep one of the two.")
         found[table.name] = flexures[table.flexure]
     return found
 

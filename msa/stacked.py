@@ -21,7 +21,7 @@ from strutwork.msa.variant_of import origin_of
 
 _KEPT = "_singles"
 
-#: Placements of which a structure keeps what they decide: home, and one of the poses.
+#: Placements of which a structure keeps what they decide, the latest ones.
 PLACEMENTS = 2
 
 

@@ -17,6 +17,7 @@ from strutwork.reports.chapters import (
     inputs,
     motion,
     reversals,
+    servo,
     singularities,
     stability,
     workspace_assembly,
@@ -131,6 +132,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: vibration_chapter(s.vibration),
     ),
     _module(workspace_vibration),
+    _module(servo),
     _module(stability),
     Offered(
         "tolerances",

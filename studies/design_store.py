@@ -85,11 +85,11 @@ def run_design(
     archive = Archive(design)
 
     def known(number: int) -> tuple[Array, Judged] | None:
-        kept = judged_of(before, design, number) if resume and before is not None else None
-        if kept is None and store is not None:
+        found = judged_of(before, design, number) if resume and before is not None else None
+        if found is None and store is not None:
             arrays = store.read(number)
-            kept = None if arrays is None else _from_arrays(arrays)
-        return kept
+            found = None if arrays is None else _from_arrays(arrays)
+        return found
 
     total = design.search.machines
     starts = design.search.method == GRADIENT

@@ -52,7 +52,7 @@ def first_frequencies(standing: Sequence[Stands | None]) -> Array:
 
 
 def masses(standing: Sequence[Stands | None]) -> Array:
-    """Mass of all parts of each machine at the first of its poses, (n,), kg.
+    """Mass of all parts of each machine at home, (n,), kg.
 
     Missing (NaN) as `first_frequencies`.
 
@@ -60,7 +60,9 @@ def masses(standing: Sequence[Stands | None]) -> Array:
     ----------
     standing : sequence of n (Model, Standing) or None
     """
-    return _together(standing, lambda one: (one[1].first, None), lambda stack, _: total_mass(stack))
+    return _together(
+        standing, lambda one: (one[0].placement, None), lambda stack, _: total_mass(stack)
+    )
 
 
 def _together(

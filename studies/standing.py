@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -38,11 +37,6 @@ class Standing:
     good: NDArray[np.intp]
     status: NDArray[np.int8]
     reasons: tuple[str, ...]
-
-    @cached_property
-    def first(self) -> Placement:
-        """At the first of the poses that count, no batch axes."""
-        return self.placement[0]
 
 
 @dataclass
