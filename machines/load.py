@@ -22,13 +22,18 @@ if TYPE_CHECKING:
     from strutwork.machines.naming import NamedMachine
 
 
+#: Endings of robot files: URDF, SDFormat and MJCF.
+ROBOT_FILES = (".urdf", ".sdf", ".xml", ".mjcf")
+
+
 def load(name: str | Path) -> Model:
     """Load a machine by its name or from its file.
 
     Parameters
     ----------
     name : str or Path
-        `NAME` or `NAME:VARIANT` of the catalogue, or the path of a model file.
+        `NAME` or `NAME:VARIANT` of the catalogue, or the path of a model file or of a robot file
+        (URDF, SDF or MJCF).
 
     Returns
     -------
@@ -45,6 +50,10 @@ def load(name: str | Path) -> Model:
     if path.suffix == ".toml":
         # no machine's name ends so: those of the literature are not read for a file
         return read_model(text)
+    if path.suffix.lower() in ROBOT_FILES:
+        from strutwork.machines.robots.models import robot_model
+
+        return robot_model(text)
     from strutwork.machines.catalogue import CATALOGUE
     from strutwork.machines.naming import is_machine, named_machine
 

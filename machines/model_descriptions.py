@@ -5,6 +5,8 @@ docs/model-file.md says more on each. The dimension and its unit are added from 
 
 from __future__ import annotations
 
+from strutwork.machines.model_servo_descriptions import SERVO
+
 #: Keys that mean the same in several tables.
 _PLACED = {
     "position": "where the origin of the file's coordinates lies, global axes; zero by default",
@@ -373,23 +375,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "resolution": "smallest step of a sliding drive",
         "angular_resolution": "smallest step of a rotary drive",
     },
-    "ServoTable": {
-        "joint": _FEW,
-        "joints": _MANY,
-        "direction": "driven direction",
-        "position_gain": "gain K_v of the position loop",
-        "velocity_gain": "gain of the velocity loop of a linear motor, at the joint",
-        "motor_velocity_gain": "gain of the velocity loop of a motor that turns, at the motor",
-        "integral_time": "integral time of the velocity loop; without it, no integral action",
-        "pitch": "travel of a sliding drive per turn of its motor",
-        "ratio": "turns of the motor per turn of a rotary drive; 1 by default",
-        "motor_inertia": "inertia of the motor and what turns with it, at the motor",
-        "motor_mass": "mass that a linear motor moves and no body of the file has",
-        "velocity_feed_forward": "share of the demanded velocity that is fed forward",
-        "delay": "time from the measurement to the force",
-        "pade_order": "order of the Padé approximation of the delay",
-        "encoder": "where the position is measured; the velocity is that of the motor",
-    },
+    "ServoTable": {"joint": _FEW, "joints": _MANY, **SERVO},
     "LengthSpan": _SPAN,
     "AngleSpan": _SPAN,
     "StiffnessTable": _BY_DIRECTION,

@@ -143,6 +143,13 @@ def toml_of(text: str, source: str, page: str = "docs/model-file.md") -> dict[st
         raise ModelError(source, "is nested too deeply.", "Write plain tables.") from None
     # tomllib reports an integer of thousands of digits as a plain ValueError
     except ValueError as error:
+        if text.lstrip().startswith("<"):
+            raise ModelError(
+                source,
+                "is XML, not TOML.",
+                f"If it is a robot file, write a model file of it: strutwork convert {source} "
+                "model.toml",
+            ) from None
         raise ModelError(
             source, f"is not TOML: {error}.", f"Correct the line, or see {page}."
         ) from None

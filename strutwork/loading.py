@@ -15,7 +15,8 @@ def load(name: str | Path) -> Machine:
     Parameters
     ----------
     name : str or Path
-        `NAME` or `NAME:VARIANT` of `strutwork machines`, or the path of a model file.
+        `NAME` or `NAME:VARIANT` of `strutwork machines`, or the path of a model file or of a
+        robot file (URDF, SDF or MJCF).
 
     Returns
     -------

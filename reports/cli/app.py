@@ -43,6 +43,7 @@ COMMANDS = {
     "servo": f"{_HERE}.servo_command:servo",
     "calibrate": f"{_HERE}.calibrate_command:calibrate",
     "compare": f"{_HERE}.compare_command:compare",
+    "convert": f"{_HERE}.convert_command:convert",
     "correlate": f"{_HERE}.correlate_command:correlate",
     "tolerance": f"{_HERE}.app:tolerance",
     "scale": f"{_HERE}.app:scale",
@@ -61,7 +62,7 @@ COMMANDS = {
 }
 
 #: Those that print no tables, and take neither --csv nor --verbose.
-SILENT = ("new", "report", "schema")
+SILENT = ("convert", "new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
 PLACED = ("accuracy", "compare", "design", "map", "scale", "study", "trajectory", "workspace")
