@@ -111,8 +111,35 @@ def compliance_sensitivity(
     compliance = (compliance + np.swapaxes(compliance, -1, -2)) / 2.0
     fields = Fields(found.displacements.astype(float), found.multipliers.astype(float))
     rates = -FormBuilder(system, changes).forms(fields).elastic
+    turned = tool_load_rates(system, changes)
+    if turned is not None:
+        own = np.swapaxes(turned, -1, -2) @ fields.unknowns
+        rates = rates + own + np.swapaxes(own, -1, -2)
     _keep_movable(system, compliance)
     return ComplianceSensitivity(tuple(c.name for c in changes), compliance, rates)
+
+
+def tool_load_rates(system: System, changes: Sequence[PlacedChange]) -> Array | None:
+    """How parameters change the wrenches at the tool on the unknowns, (g, p, n, 6).
+
+    They act on a workpiece about a point that stands elsewhere when parts move; None where no
+    workpiece moves, for then nothing changes.
+
+    Parameters
+    ----------
+    system : System
+        At p poses.
+    changes : sequence of g PlacedChange
+        At the same poses.
+    """
+    if system.placed.structure.workpiece_vertex < 0:
+        return None
+    result = np.zeros((len(changes), system.poses, system.topology.size, 6))
+    for i, change in enumerate(changes):
+        if change.systems is not None:
+            above, below = change.systems
+            result[i] = (above.tool_load() - below.tool_load()) / change.change.width
+    return result
 
 
 def _keep_movable(system: System, compliance: Array) -> None:

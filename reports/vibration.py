@@ -27,6 +27,7 @@ from strutwork.fea.idle import IdleMotion, free_motions, idle_line, idle_motions
 from strutwork.fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from strutwork.fea.mode_damping import damping_ratios
 from strutwork.fea.modes import searched_modes
+from strutwork.fea.ports import tool_port
 from strutwork.fea.uff import UniversalFile, mode_file, node_positions, response_records
 from strutwork.fea.uff_write import write_universal
 from strutwork.files import write_whole
@@ -78,6 +79,8 @@ class Target:
     def port(self, text: str) -> Port:
         """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
 
+        TCP is relative to the workpiece where the model names one, a node is not.
+
         Raises
         ------
         ModelError
@@ -93,7 +96,8 @@ class Target:
                     "means the tool, but the model has none.",
                     'Add a table [tool] with tcp = "NODE", or name a node.',
                 )
-            return Port.parse(f"{tool}{colon}{direction}", (tool,))
+            port = Port.parse(f"{tool}{colon}{direction}", (tool,))
+            return tool_port(self.placed.structure.linkage, str(port.direction))
         port = Port.parse(text, tuple(known))
         for name in (port.node, port.against):
             if name is not None and name not in known:

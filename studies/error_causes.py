@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -87,7 +87,7 @@ class ErrorCauses:
         errors = self._joint_errors()
         if not tolerances and not errors:
             return []
-        if self.inputs.against is None:
+        if self.inputs.against == self.placed.structure.linkage.against:
             found = accuracy(self.known.soft, tolerances, errors)
             sources, gain, mean = found.sources, found.gain, found.mean
         else:
@@ -235,4 +235,7 @@ def error_sheet(
     """
     model.require_tool()
     here = model.placed if placed is None else placed
-    return ErrorCauses(model, inputs or ErrorInputs(), here).sheet()
+    given = inputs or ErrorInputs()
+    if given.against is None:
+        given = replace(given, against=here.structure.linkage.against)
+    return ErrorCauses(model, given, here).sheet()

@@ -65,8 +65,9 @@ def parse_errors(text: str, source: str, model: Model) -> ErrorInputs:
         tables = ErrorsTable.model_validate(data)
     except ValidationError as error:
         raise model_error(error, data, source, ErrorsTable, PAGE) from None
-    against = None if tables.tool is None else tables.tool.against
-    if against is not None and against not in model.structure.linkage.node_index:
+    linkage = model.structure.linkage
+    against = linkage.against if tables.tool is None else tables.tool.against
+    if against is not None and against not in linkage.node_index:
         raise ModelError(
             "tool.against",
             f'names the unknown node "{against}".',

@@ -150,7 +150,7 @@ class ErrorInputs:
     drives : tuple of DriveError
     ground : tuple of GroundSpectrum
     against : str or None
-        Node of the workpiece; the ground by default.
+        Node of the workpiece; by default that of the model, or the ground where it has none.
     geometry, gravity : bool
         Whether the machine's tolerances and its gravity count.
     time : float or None

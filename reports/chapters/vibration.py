@@ -290,20 +290,31 @@ def response_files(study: VibrationStudy) -> tuple[DataFile, ...]:
     heads = [f"{part}_{a}_m/N" for a in AXES for part in ("real", "imaginary")]
     columns = [c for i in range(3) for c in (diagonal[:, i].real, diagonal[:, i].imag)]
     everywhere = node_positions(study.placed.structure.mesh_nodes, study.placed.positions)
-    tool = response.outputs[0].node
-    content = UniversalFile(response_records(response), positions={tool: everywhere[tool]})
+    port = response.outputs[0]
+    universal: tuple[DataFile, ...] = ()
+    # a universal file has no place for the node of the workpiece
+    if port.against is None:
+        content = UniversalFile(
+            response_records(response), positions={port.node: everywhere[port.node]}
+        )
 
-    def write(path: Path) -> object:
-        return write_universal(path, content)
+        def write(path: Path) -> object:
+            return write_universal(path, content)
 
+        universal = (
+            DataFile(
+                f"{key}-frf.uff", f"{what}: the same, all nine, as a universal file (58)", write
+            ),
+        )
+    relative = study.placed.structure.linkage.relative_to
     return (
         csv_file(
             f"{key}-frf.csv",
-            f"{what}: receptances at the tool",
+            f"{what}: receptances at the tool{relative}",
             ["frequency_Hz", *heads],
             np.column_stack([response.frequencies, *columns]).tolist(),
         ),
-        DataFile(f"{key}-frf.uff", f"{what}: the same, all nine, as a universal file (58)", write),
+        *universal,
         csv_file(
             f"{key}-minima.csv",
             f"{what}: exact least dynamic stiffness and that of a frequency grid",
