@@ -31,8 +31,8 @@ from strutwork.msa.changes import PlacedChange
 from strutwork.msa.constraints import orthonormal_rows, scales
 from strutwork.msa.mass import mass_matrix
 from strutwork.msa.part_forms import Fields, FormBuilder, Forms
-from strutwork.msa.sensitivity import tool_load_rates
 from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.tool_load_rates import tool_load_rates
 
 Array = NDArray[Any]
 

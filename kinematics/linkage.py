@@ -161,8 +161,8 @@ class Linkage:
 
     @property
     def relative_to(self) -> str:
-        """Words behind the tool's name: ", relative to NODE" where there is a workpiece."""
-        return "" if self.against is None else f", relative to {self.against}"
+        """Words behind the tool: " relative to NODE" where there is a workpiece, else none."""
+        return "" if self.against is None else f" relative to {self.against}"
 
     @cached_property
     def ties(self) -> tuple[Tie, ...]:

@@ -31,6 +31,7 @@ from strutwork.msa.stiffness import (
     scaled,
 )
 from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.tool_load_rates import tool_load_rates
 
 Array = NDArray[Any]
 
@@ -117,29 +118,6 @@ def compliance_sensitivity(
         rates = rates + own + np.swapaxes(own, -1, -2)
     _keep_movable(system, compliance)
     return ComplianceSensitivity(tuple(c.name for c in changes), compliance, rates)
-
-
-def tool_load_rates(system: System, changes: Sequence[PlacedChange]) -> Array | None:
-    """How parameters change the wrenches at the tool on the unknowns, (g, p, n, 6).
-
-    They act on a workpiece about a point that stands elsewhere when parts move; None where no
-    workpiece moves, for then nothing changes.
-
-    Parameters
-    ----------
-    system : System
-        At p poses.
-    changes : sequence of g PlacedChange
-        At the same poses.
-    """
-    if system.placed.structure.workpiece_vertex < 0:
-        return None
-    result = np.zeros((len(changes), system.poses, system.topology.size, 6))
-    for i, change in enumerate(changes):
-        if change.systems is not None:
-            above, below = change.systems
-            result[i] = (above.tool_load() - below.tool_load()) / change.change.width
-    return result
 
 
 def _keep_movable(system: System, compliance: Array) -> None:

@@ -83,6 +83,11 @@ class VibrationStudy:
         return beyond(self.placed, max(self.band[1], *self.modes.frequencies, 0.0))
 
     @property
+    def relative(self) -> str:
+        """Words behind the tool where it is relative to a workpiece, else none."""
+        return self.placed.structure.linkage.relative_to
+
+    @property
     def placed(self) -> PlacedStructure:
         """The structure."""
         return self.found.target.placed

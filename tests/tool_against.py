@@ -57,8 +57,15 @@ between = ["head", "quill"]
 axis = [1, 0, 0]
 second_axis = [0, 0, 1]
 driven = ["z"]
-stiffness = { z = "40 N/um", x = "300 N/um", y = "300 N/um", rx = "1e5 N*m/rad", ry = "1e5 N*m/rad", rz = "1e5 N*m/rad" }
 limits = { z = ["-200 mm", "200 mm"] }
+
+[joints.stiffness]
+z = "40 N/um"
+x = "300 N/um"
+y = "300 N/um"
+rx = "1e5 N*m/rad"
+ry = "1e5 N*m/rad"
+rz = "1e5 N*m/rad"
 
 [damping]
 modal_ratio = 0.02

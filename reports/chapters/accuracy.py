@@ -49,8 +49,9 @@ def write(subject: Subject) -> Chapter:
     blocks: list[Block] = [
         Text(
             f"{len(answer.tolerances)} tolerances and {len(answer.errors)} drive errors of half a "
-            f"resolution to either side; the tool follows them {how}. At home it is displaced by "
-            f"{significant(1e6 * most)} µm in the worst case, in any direction."
+            f"resolution to either side; the tool follows them {how}. At home it is displaced"
+            f"{subject.model.relative} by {significant(1e6 * most)} µm in the worst case, in any "
+            "direction."
         ),
         Table(
             "Displacement of the tool at home, to either side",
@@ -118,8 +119,9 @@ def _map(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
         )
     blocks: list[Block] = [
         Note(
-            f"Over {grid_text(subject.grid)} the tool is displaced by {significant(worst.value)} "
-            f"µm at most, at {worst.where}: the volumetric accuracy of the machine as far as "
+            f"Over {grid_text(subject.grid)} the tool is displaced{subject.model.relative} by "
+            f"{significant(worst.value)} µm at most, at {worst.where}: "
+            "the volumetric accuracy of the machine as far as "
             "these errors determine it."
         ),
         _causes(names, parts, f"at {worst.where}"),

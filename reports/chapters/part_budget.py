@@ -35,7 +35,8 @@ def budget_chapter(model: Model) -> Chapter:
     frames = _frames(model)
     blocks: list[Block] = [
         Text(
-            "A force at the tool does work on the parts in proportion to their strain energy; "
+            f"A force at the tool{model.relative} does work on the parts in proportion to their "
+            "strain energy; "
             "the shares of one force add up to 100 %. Other directions are free to follow. Parts "
             "whose names differ only in their numbers form one group."
         ),
