@@ -19,7 +19,7 @@ from strutwork.reports.numbers import count, significant, without_rounding
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import grid_text, largest
 from strutwork.studies.error_answer import AxisErrors, ErrorSheets, axis_errors
-from strutwork.studies.error_causes import ErrorCauses
+from strutwork.studies.error_causes import ErrorCauses, error_causes
 from strutwork.studies.error_file import read_errors
 from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_sheet import ErrorSheet
@@ -52,8 +52,8 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     """
     if subject.errors is None:
         return [], ()
-    inputs = read_errors(subject.errors, subject.model)
-    causes = ErrorCauses(subject.model, inputs, subject.model.placed)
+    inputs = read_errors(subject.errors, subject.model).computed(subject.model)
+    causes = error_causes(subject.model, inputs)
     sheet = causes.sheet()
     blocks = [*_summary(sheet, inputs), *_tables(sheet)]
     files = [
