@@ -40,6 +40,17 @@ def read_process(path: str | Path) -> DescribedProcess:
     return found
 
 
+def known_errors(name: str) -> Path:
+    """Where the errors file of a machine of the literature is.
+
+    Parameters
+    ----------
+    name : str
+        As its entry in the catalogue has it.
+    """
+    return DATA / f"{name}.toml"
+
+
 def known_process(name: str) -> DescribedProcess:
     """A process of the package by its name.
 

@@ -254,7 +254,7 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
     if subject.solution is not None:
         settings["solver"] = subject.solution.statics.method
     command = None
-    if subject.errors is not None:
+    if subject.errors is not None and not subject.assumed:
         beside = visible(subject.errors.name)
         settings["errors"] = beside
         again = (shlex.quote(shown), shlex.quote(beside))

@@ -83,6 +83,8 @@ class Subject:
         The model file that it was read from.
     errors : Path, optional
         An errors file.
+    assumed : bool
+        Whether it is the package's own, whose values nobody states.
     """
 
     model: Model
@@ -92,6 +94,7 @@ class Subject:
     source: Source | None = field(default=None, repr=False, compare=False)
     file: Path | None = None
     errors: Path | None = None
+    assumed: bool = False
 
     def __repr__(self) -> str:
         return f"<Subject {self.name}: {self.model!r}>"

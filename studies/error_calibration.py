@@ -19,7 +19,9 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Placement, Poses
+from strutwork.kinematics.sparse_basis import sparse_basis
 from strutwork.kinematics.tool_turns import ToolTurns
+from strutwork.machines.limits import check_limits
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import walked
 from strutwork.msa import PlacedStructure
@@ -36,6 +38,12 @@ Array = NDArray[Any]
 #: A combination of parameters whose standard deviation the measurement does not bring below that of
 #: the tolerances is not determined.
 INFORMS = 1.0
+
+#: A combination that poses show by less, as a share of the one they show best, is rounding.
+SEEN = 1e-9
+
+#: Weights of a combination below this are not named.
+SMALL = 1e-3
 
 #: Candidate poses at most.
 CANDIDATES = 5000
@@ -150,12 +158,17 @@ class GeometryCalibration:
 
     @property
     def undetermined(self) -> tuple[dict[str, float], ...]:
-        """Combinations that stay as they were: weights of the parameters that matter in them."""
-        found = []
-        for weights in self.found.undetermined:
-            largest = max(map(abs, weights.values()))
-            found.append({n: w for n, w in weights.items() if abs(w) >= 0.1 * largest})
-        return tuple(found)
+        """Combinations that stay as they were, of few parameters each: their weights.
+
+        In units of the parameters' standard deviations, the largest one.
+        """
+        free = self.found.directions[self.found.rank :]
+        if not len(free):
+            return ()
+        return tuple(
+            {n: float(w) for n, w in zip(self.found.names, row, strict=True) if abs(w) > SMALL}
+            for row in sparse_basis(free.T).T
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Plain values, SI."""
@@ -204,6 +217,9 @@ def calibrated_geometry(
     index = np.arange(fixed)
     if plan.count is not None:
         own = rows[:, :, chosen]
+        # combinations that no pose shows would leave only rounding to compare the poses by
+        _, size, right = np.linalg.svd(own.reshape(-1, own.shape[-1]), full_matrices=False)
+        own = own @ right[size > SEEN * size.max(initial=0.0)].T
         each = np.einsum("pdi,pdj->pij", own, own)
         prior = np.eye(own.shape[-1]) + each[:fixed].sum(axis=0)
         index = np.append(
@@ -272,7 +288,7 @@ def _gain(
 
 def _placement(model: Model, task: Mapping[str, Array]) -> Placement:
     """Where the machine stands at the poses, with the rotations of its bodies."""
-    placement = walked(model, task).placement
+    placement = check_limits(model.limits, walked(model, task).placement)
     bad = np.flatnonzero(~placement.reachable)
     if bad.size:
         at = ", ".join(f"{d} = {v[bad[0]]:.6g}" for d, v in task.items())
@@ -310,7 +326,7 @@ def _poses(model: Model, plan: CalibrationPlan) -> tuple[dict[str, Array], int]:
     given = {d: np.array([one.get(d, home[d]) for one in plan.at], dtype=float) for d in used}
     free = {d: np.asarray(grid[d]) if d in grid else np.full(total, home[d]) for d in used}
     if total:
-        good = walked(model, {d: free[d] for d in used}).placement.reachable
+        good = check_limits(model.limits, walked(model, free).placement).reachable
         count = plan.count or 0
         if good.sum() < count:
             raise ModelError(

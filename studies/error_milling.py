@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import pi
 from typing import Any
 
@@ -14,6 +15,7 @@ from strutwork.cutting.forces import cutting_force
 from strutwork.errors import ModelError
 from strutwork.kinematics import Placement
 from strutwork.kinematics.tool_turns import ToolTurns
+from strutwork.machines.described_process import DescribedProcess
 from strutwork.machines.model import Model
 
 Array = NDArray[Any]
@@ -91,14 +93,23 @@ def milling_forces(model: Model, cut: MillingCut, placement: Placement) -> Milli
             "has no process.",
             "Add a table [process] to the model file, with cutter and material.",
         )
+    turn = ToolTurns.of(model.structure.linkage, model.placement).at(placement[None])[0]
+    axes = described_frame(described, model.rotation).matrix @ turn.T
+    spectrum = _spectrum(described, cut) @ axes
+    numbers = np.arange(1, cut.harmonics + 1)
+    tooth = cut.speed / (2.0 * pi) * described.teeth
+    return MillingForces(spectrum[0].real, tooth * numbers, 2.0 * spectrum[1:])
+
+
+@lru_cache(maxsize=16)
+def _spectrum(described: DescribedProcess, cut: MillingCut) -> Array:
+    """Mean and coefficients of the harmonics in the axes of the process, (h + 1, 3), N.
+
+    Kept, because it is the same at all poses.
+    """
     process = described_milling(described)
     feed = described.feed_per_tooth if cut.feed_per_tooth is None else cut.feed_per_tooth
     pitch = 2.0 * pi / process.cutter.teeth
     angles = pitch * np.arange(ANGLES) / ANGLES
     force = cutting_force(process, cut.depth, feed, angles)
-    turn = ToolTurns.of(model.structure.linkage, model.placement).at(placement[None])[0]
-    axes = described_frame(described, model.rotation).matrix @ turn.T
-    spectrum = np.fft.rfft(force @ axes, axis=0) / ANGLES
-    numbers = np.arange(1, cut.harmonics + 1)
-    tooth = cut.speed / (2.0 * pi) * process.cutter.teeth
-    return MillingForces(spectrum[0].real, tooth * numbers, 2.0 * spectrum[numbers])
+    return np.asarray(np.fft.rfft(force, axis=0)[: cut.harmonics + 1] / ANGLES)
