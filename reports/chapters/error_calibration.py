@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from strutwork.kinematics import DIRECTIONS
+from strutwork.reports.calibrated_words import AFTER, calibration_text, combination_words
 from strutwork.reports.content import Block, Column, Details, Table, Text
 from strutwork.reports.numbers import count, significant
 from strutwork.studies.error_calibration import GeometryCalibration
 from strutwork.studies.error_sheet import ErrorSheet
-
-AFTER = "geometry after calibration"
 
 #: Combinations that are written out at most.
 NAMED = 12
@@ -22,20 +21,6 @@ def calibration_blocks(sheet: ErrorSheet) -> list[Block]:
     if found is None:
         return []
     before, after = ErrorSheet(sheet.uncalibrated), sheet.of(AFTER)
-    most = [1e6 * float(np.linalg.norm(one.worst[:3])) for one in (before, after)]
-    rank, total = found.found.rank, len(found.found.names)
-    text = (
-        f"The calibration measures the tool at {count(found.poses, 'pose')} and determines {rank} "
-        f"of {total} combinations of the calibrated parameters better than their tolerances do. "
-        f"The geometry displaces the tool by {significant(most[0])} µm before and by "
-        f"{significant(most[1])} µm after it, as the root of the squares of the worst cases along "
-        "x, y and z; the uncertainty of the measurement counts with three standard deviations."
-    )
-    if found.picked:
-        text += (
-            f" {count(found.picked, 'pose is', 'poses are')} chosen so that the determinant of the "
-            "information is as large as possible."
-        )
     rows = [
         [
             direction,
@@ -56,7 +41,7 @@ def calibration_blocks(sheet: ErrorSheet) -> list[Block]:
         Column("after", group="within, 95 %"),
     )
     blocks: list[Block] = [
-        Text(text),
+        Text(calibration_text(sheet)),
         Table("Geometry before and after the calibration, at home", columns, rows),
         Details("Poses of the calibration", (_poses(found),)),
     ]
@@ -83,7 +68,7 @@ def _poses(found: GeometryCalibration) -> Table:
 
 
 def _left(left: tuple[dict[str, float], ...]) -> tuple[Block, ...]:
-    rows = [[str(k + 1), _sum(weights)] for k, weights in enumerate(left[:NAMED])]
+    rows = [[str(k + 1), combination_words(weights)] for k, weights in enumerate(left[:NAMED])]
     more = len(left) - NAMED
     text = (
         "Each of these combinations stays as it is; the numbers are in standard deviations of the "
@@ -93,14 +78,3 @@ def _left(left: tuple[dict[str, float], ...]) -> tuple[Block, ...]:
         text += f" {count(more, 'more combination is', 'more combinations are')} left out here."
     columns = (Column("", "", False), Column("combination", "", False))
     return Text(text), Table("Undetermined combinations", columns, rows)
-
-
-def _sum(weights: dict[str, float]) -> str:
-    """As in "1 · place of y − 0.5 · zero of x", the largest first."""
-    terms = sorted(weights.items(), key=lambda item: -abs(item[1]))
-    words = ""
-    for name, weight in terms:
-        sign = "−" if weight < 0 else "+" if words else ""
-        words += f"{' ' if words else ''}{sign}{' ' if sign and words else ''}"
-        words += f"{significant(abs(weight))} · {name}"
-    return words

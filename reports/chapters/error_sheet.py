@@ -71,12 +71,13 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     blocks += curves_
     files += more
     if not subject.unmoved:
-        whole = subject
+        lines, area = subject, subject
         if subject.assumed:
             # of what is assumed fewer poses tell enough
-            grid = TaskGrid({d: _few(v) for d, v in subject.grid.axes.items()})
-            subject = replace(subject, model=replace(subject.model, workspace=grid))
-        for some, beside in (_axes(whole, inputs), _map(subject, inputs)):
+            axes = {d: _few(v) for d, v in subject.grid.axes.items()}
+            lines = _over(subject, axes)
+            area = _over(subject, dict(list(axes.items())[:2]))
+        for some, beside in (_axes(lines, inputs), _map(area, inputs)):
             blocks += some
             files += beside
     return blocks, tuple(files)
@@ -85,6 +86,10 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
 def _few(values: Array) -> Array:
     """The first, the middle and the last of the positions along an axis."""
     return np.asarray(values)[sorted({0, len(values) // 2, len(values) - 1})]
+
+
+def _over(subject: Subject, axes: dict[str, Array]) -> Subject:
+    return replace(subject, model=replace(subject.model, workspace=TaskGrid(axes)))
 
 
 def _summary(subject: Subject, sheet: ErrorSheet, inputs: ErrorInputs) -> list[Block]:
@@ -124,7 +129,8 @@ def _tables(sheet: ErrorSheet) -> list[Block]:
         [part, cause, *(significant(float(v)) for v in row)]
         for (cause, part, _), row in zip(parts, every, strict=True)
     ]
-    picked = [(c, sheet.of(c).worst) for c in sheet.causes]
+    worst = np.array([sheet.of(c).worst[:3] for c in sheet.causes])
+    picked = list(zip(sheet.causes, without_rounding(worst, worst.max()), strict=True))
     bars = [
         Bars(d, [1e6 * float(w[i]) for _, w in picked], AXIS_COLOURS[d])
         for i, d in enumerate("xyz")
