@@ -24,7 +24,12 @@ from strutwork.msa.rigid_map import rigid_map
 from strutwork.overconstraint.accuracy import accuracy
 from strutwork.overconstraint.influence import influence
 from strutwork.overconstraint.joint_errors import JointError
+from strutwork.reports.chapters.model_tool import tool_chapter
+from strutwork.reports.content import Text
+from strutwork.reports.model_solution import solve_model
 from strutwork.studies.dimension import Dimension
+from strutwork.studies.error_causes import error_sheet
+from strutwork.studies.error_file import parse_errors
 from strutwork.studies.gradient_quantities import Vibrating
 from strutwork.studies.parametric import Parametric
 from tests.gradients import gap
@@ -189,3 +194,28 @@ def test_what_cannot_be_is_named() -> None:
         column_and_table("quill")
     with pytest.raises(ModelError, match=r"tool\.against.*unknown node \"tabel\""):
         column_and_table("tabel")
+
+
+def test_the_error_sheet_takes_the_workpiece_of_the_model() -> None:
+    text = 'gravity = [0, 0, -9.81]\n[[cutting]]\nname = "mean"\nforce = ["50 N", "0 N", "-20 N"]\n'
+    here, absolute = machine("table"), machine(None)
+    sheet = error_sheet(here, parse_errors(text, "errors.toml", here))
+    force = np.array([50.0, 0.0, -20.0, 0.0, 0.0, 0.0])
+    (cut,) = sheet.of("cutting").rows
+    np.testing.assert_allclose(cut.mean, tool_compliance(here.placed) @ force, rtol=1e-8)
+    # the errors file names it as well, for a model that does not
+    named = parse_errors(f'{text}[tool]\nagainst = "table"\n', "errors.toml", absolute)
+    other = error_sheet(absolute, named)
+    np.testing.assert_allclose(other.mean, sheet.mean, rtol=1e-8)
+    ground = error_sheet(absolute, parse_errors(text, "errors.toml", absolute))
+    assert abs(ground.mean[2] - sheet.mean[2]) > 1e-8
+
+
+def test_pages_and_answers_name_the_workpiece() -> None:
+    model = machine("table")
+    chapter = tool_chapter(solve_model(model))
+    (text,) = [b for b in chapter.blocks if isinstance(b, Text)][:1]
+    assert "tool centre point tip relative to table" in str(text)
+    assert "opposite sign on the workpiece" in str(text)
+    assert solve_model(model).to_dict()["tcp"]["against"] == "table"
+    assert "against" not in solve_model(machine(None)).to_dict()["tcp"]
