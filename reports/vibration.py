@@ -79,7 +79,7 @@ class Target:
     def port(self, text: str) -> Port:
         """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
 
-        TCP is relative to the workpiece where the model names one, a node is not.
+        The tool is relative to the workpiece where the model names one, other nodes are not.
 
         Raises
         ------
@@ -103,6 +103,8 @@ class Target:
             if name is not None and name not in known:
                 remedy = choices("Nodes", name, self.nodes, 8)
                 raise ModelError(f'port "{text}"', f'has no node "{name}".', remedy)
+        if port.node == tool and port.against is None:
+            return tool_port(self.placed.structure.linkage, str(port.direction))
         return port
 
     def require_damping(self) -> AnyDamping:

@@ -4,8 +4,8 @@ The displacements of the tool are linear in the misfits, y = J z + ε at the mea
 in units of its standard deviation and ε in units of the measuring uncertainty. Of the singular
 combinations of J those with a value above one are known better after the measurement than before:
 these are estimated by least squares and compensated, the others stay as they were. What is left at
-a pose is linear in z and ε again, so that its worst case is exact (Everett, Driels and Mooring
-1987; Born, Menq 1996 for the choice of poses).
+a pose is linear in z and ε again, so that its worst case is exact (Borm and Menq 1991 for
+observability and the choice of poses).
 """
 
 from __future__ import annotations

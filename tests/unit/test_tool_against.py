@@ -27,6 +27,7 @@ from strutwork.overconstraint.joint_errors import JointError
 from strutwork.reports.chapters.model_tool import tool_chapter
 from strutwork.reports.content import Text
 from strutwork.reports.model_solution import solve_model
+from strutwork.reports.vibration import model_target
 from strutwork.studies.dimension import Dimension
 from strutwork.studies.error_causes import error_sheet
 from strutwork.studies.error_file import parse_errors
@@ -163,6 +164,19 @@ def test_responses_begin_at_the_static_compliance() -> None:
     (tip,) = tip_dynamics(model.placed, "tip", DAMPING, "table")
     both_ways = frequency_response(model.placed, ports, ports, [80.0], DAMPING, "all_modes")
     np.testing.assert_allclose(tip.response(np.array([80.0]))[0], both_ways.receptance[0])
+
+
+def test_ports_of_the_command_line_are_relative_at_the_tool_alone() -> None:
+    target = model_target(machine("table"), "column")
+    assert target.port("tip:y") == target.port("TCP:y") == Port("tip", "y", "table", carried=True)
+    assert target.port("at_tip:y") == Port("at_tip", "y")
+    assert target.port("table-tip:y") == Port("tip", "y", "table")
+    # without carrying the point the rotation of the table does not count
+    near, far = (
+        frequency_response(target.placed, [p], [p], [0.01], DAMPING, "all_modes").receptance
+        for p in (target.port("tip:z"), target.port("table-tip:z"))
+    )
+    assert abs(near[0, 0, 0]) > 1.02 * abs(far[0, 0, 0])
 
 
 def test_misfits_displace_the_tool_relative_to_the_table() -> None:
