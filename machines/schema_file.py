@@ -89,12 +89,13 @@ def finished(
     title, description : str
     """
     first = tables[top.__name__]
+    keys = ("type", "additionalProperties", "required", "properties")
     rest = {name: table for name, table in tables.items() if name != top.__name__}
     whole = {
         "$schema": DRAFT,
         "title": title,
         "description": description,
-        **{key: first[key] for key in ("type", "additionalProperties", "required", "properties")},
+        **{key: first[key] for key in keys if key in first},
         "definitions": dict(sorted(rest.items())),
     }
     plain: dict[str, Any] = _plain(whole)

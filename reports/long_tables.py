@@ -32,7 +32,8 @@ def shortened(table: Table, kept: int = 0) -> tuple[Block, ...]:
     rows = list(table.rows)
     last = rows[len(rows) - kept :]
     first, rest = rows[: LONGEST - kept], rows[LONGEST - kept : len(rows) - kept]
-    more = replace(table, rows=rest)
+    # two regions of one name cannot be told apart by who hears the page
+    more = replace(table, caption=f"{table.caption}, continued", rows=rest)
     return (
         replace(table, rows=[*first, *last]),
         Details(f"{count(len(rest), 'further row')}: {table.caption}", (more,)),

@@ -1,11 +1,23 @@
-"""`strutwork schema`: the JSON schemas of model and study files, for editors."""
+"""`strutwork schema`: the JSON schemas of the package's files, for editors."""
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
 import typer
+
+
+class FileKind(StrEnum):
+    """Files that an editor completes."""
+
+    MODEL = "model"
+    STUDY = "study"
+    DESIGN = "design"
+    CALIBRATION = "calibration"
+    ERRORS = "errors"
+    PROCESS = "process"
 
 
 def schema(
@@ -15,20 +27,27 @@ def schema(
             "--out", "-o", metavar="FILE", help="Write it to this file; by default it is printed."
         ),
     ] = None,
+    of: Annotated[
+        FileKind, typer.Option("--of", help="Kind of file that the schema describes.")
+    ] = FileKind.MODEL,
     study: Annotated[
-        bool, typer.Option("--study", help="That of study files; by default of model files.")
+        bool, typer.Option("--study", hidden=True, help="The same as --of study.")
     ] = False,
 ) -> None:
-    """Print the JSON schema of model or study files, with which editors complete and check them."""
+    """Print the JSON schema of a kind of file, with which editors complete and check such files."""
     from strutwork.files import write_text
     from strutwork.names import visible
     from strutwork.reports.cli.output import console
 
-    if study:
-        from strutwork.studies.study_schema_file import schema_text
-    else:
+    kind = FileKind.STUDY if study else of
+    if kind is FileKind.MODEL:
         from strutwork.machines.schema_file import schema_text
-    text = schema_text()
+
+        text = schema_text()
+    else:
+        from strutwork.studies.schema_kinds import schema_text as text_of
+
+        text = text_of(kind.value)
     if out is None:
         typer.echo(text, nl=False)
         return

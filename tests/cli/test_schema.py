@@ -16,7 +16,8 @@ def test_schema_is_printed_or_written(strutwork: Program, tmp_path: Path) -> Non
     assert (run.status, run.out) == (0, f"Written: {place}\n")
     assert place.read_text(encoding="utf-8") == schema_text()
 
-    study = json.loads(strutwork("schema", "--study").out)
+    study = json.loads(strutwork("schema", "--of", "study").out)
+    assert study == json.loads(strutwork("schema", "--study").out)
     assert study["title"] == "Strutwork study file"
     assert study["properties"]["answers"]["items"]["enum"][0] == "stiffness"
 

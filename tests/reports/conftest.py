@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +9,8 @@ import pytest
 
 from strutwork.reports.build import WrittenReport, write_report
 from tests.reports.browser import Browser, chromium
-from tests.reports.shared import FOLDER, shared_report
+from tests.reports.shared import shared_report
+from tests.sharing import folder_of
 
 #: A structure with everything a page may stumble over: markup in names, a load case for each.
 HOSTILE = """
@@ -81,11 +81,7 @@ def browser() -> Iterator[Browser]:
 
 def shared(name: str, target: str, factory: pytest.TempPathFactory) -> WrittenReport:
     """The report of a target, written by whichever of the workers of a run asks first."""
-    base = factory.getbasetemp()
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        # what the workers have in common
-        base = base.parent
-    return shared_report(name, target, Path(os.environ.get(FOLDER, base)))
+    return shared_report(name, target, folder_of(factory.getbasetemp()))
 
 
 @pytest.fixture(scope="session")

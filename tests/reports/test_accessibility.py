@@ -13,6 +13,9 @@ from tests.reports.browser import Browser
 #: What axe-core is asked: rules by their tags.
 TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]
 
+#: Kinds of reports and widths that differ from others in the width only.
+OTHERS = [("model", 420), ("document", 1400), ("tolerance", 1400), ("hexapod", 420)]
+
 AXE = files("axe_core_python").joinpath("axe.min.js")
 
 RUN = f"""
@@ -33,8 +36,15 @@ def violations(browser: Browser) -> list[object]:
     return listed
 
 
-@pytest.mark.parametrize("width", [1400, 420])
-@pytest.mark.parametrize("kind", ["model", "document"])
+@pytest.mark.parametrize(
+    ("kind", "width"),
+    [
+        ("model", 1400),
+        ("document", 420),
+        # the same rules on the other pages of the same templates
+        *(pytest.param(*case, marks=pytest.mark.slow) for case in OTHERS),
+    ],
+)
 def test_no_violation_of_wcag(
     browser: Browser, kind: str, width: int, request: pytest.FixtureRequest
 ) -> None:

@@ -68,6 +68,7 @@ def test_no_row_is_lost_where_a_table_is_shortened() -> None:
     assert head.rows[-1] == table.rows[-1]
     assert [*head.rows[:-1], *rest.rows, head.rows[-1]] == table.rows
     assert head.data == rest.data == "long.csv"
+    assert head.caption == table.caption != rest.caption
 
 
 def test_a_page_shortens_every_table() -> None:

@@ -20,6 +20,8 @@ PACKAGE = ROOT / "strutwork"
 #: The package and the folders beside it that are its subpackages, by links.
 ROOMS = ["strutwork", *sorted(p.name for p in PACKAGE.iterdir() if p.is_symlink())]
 LONGEST_FILE = 400
+#: Extras whose oldest versions are tested as well.
+FLOORED = ("cluster", "design", "openmdao")
 
 
 def sources() -> list[Path]:
@@ -28,7 +30,9 @@ def sources() -> list[Path]:
 
 def floors() -> dict[str, str]:
     requirement = re.compile(r"^([A-Za-z0-9_-]+)>=([0-9.]+)$")
-    found = [requirement.match(line) for line in PROJECT["project"]["dependencies"]]
+    extras = PROJECT["project"]["optional-dependencies"]
+    asked = [PROJECT["project"]["dependencies"], *(extras[name] for name in FLOORED)]
+    found = [requirement.match(line) for lines in asked for line in lines]
     assert all(found), "every dependency is written as name>=version"
     return {match[1]: match[2] for match in found if match}
 
