@@ -20,7 +20,7 @@ from strutwork.studies.error_calibration import CalibrationPlan
 from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs, Temperature
 from strutwork.studies.error_milling import MillingCut
 from strutwork.studies.error_schema import (
-    CalibrationTable,
+    GeometryCalibrationTable,
     DriveTable,
     ErrorsTable,
     TemperatureTable,
@@ -130,7 +130,7 @@ def _milling(tables: ErrorsTable, model: Model) -> MillingCut | None:
     return MillingCut(table.depth, table.speed, table.feed_per_tooth, table.harmonics)
 
 
-def _plan(table: CalibrationTable) -> CalibrationPlan:
+def _plan(table: GeometryCalibrationTable) -> CalibrationPlan:
     grid = None if table.candidates is None else grid_of_table(table.candidates).task()
     return CalibrationPlan(
         table.parameters or (),

@@ -159,7 +159,7 @@ class MillingTable(Table):
     harmonics: Annotated[int, Field(strict=True, ge=1, le=50)] = 3
 
 
-class CalibrationTable(Table):
+class GeometryCalibrationTable(Table):
     """A calibration of the geometry before the machine is used."""
 
     parameters: Names | None = None
@@ -182,7 +182,7 @@ class ErrorsTable(Table):
     gravity: tuple[Acceleration, Acceleration, Acceleration] | None = None
     tolerances: Annotated[tuple[ToleranceTable, ...], Field(max_length=MOST)] = ()
     milling: MillingTable | None = None
-    calibration: CalibrationTable | None = None
+    calibration: GeometryCalibrationTable | None = None
     model: CountedTable = CountedTable()
     tool: ToolTable | None = None
     expansion: Annotated[dict[Name, Coefficient], Field(max_length=MOST, default_factory=dict)]

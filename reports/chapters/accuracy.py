@@ -49,7 +49,8 @@ def write(subject: Subject) -> Chapter:
     blocks: list[Block] = [
         Text(
             f"{count(len(answer.tolerances), 'tolerance')} and "
-            f"{count(len(answer.errors), 'drive error')} of half a resolution to either side; the tool follows them {how}. At home it is displaced"
+            f"{count(len(answer.errors), 'drive error')} of half a resolution to either side; the "
+            f"tool follows them {how}. At home it is displaced"
             f"{subject.model.relative} by {significant(1e6 * most)} µm in the worst case, in any "
             "direction."
         ),

@@ -36,8 +36,8 @@ def budget_chapter(model: Model) -> Chapter:
     blocks: list[Block] = [
         Text(
             f"A force at the tool{_opposite(model)} does work on the parts in proportion to their "
-            "strain energy; "
-            "the shares of one force add up to 100 %. Other directions are free to follow. Parts "
+            "strain energy; the shares of one force add up to 100 %. Other directions are free to "
+            "follow. Parts "
             "whose names differ only in their numbers form one group."
         ),
         Figure(
