@@ -20,9 +20,9 @@ from strutwork.studies.error_calibration import CalibrationPlan
 from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs, Temperature
 from strutwork.studies.error_milling import MillingCut
 from strutwork.studies.error_schema import (
-    GeometryCalibrationTable,
     DriveTable,
     ErrorsTable,
+    GeometryCalibrationTable,
     TemperatureTable,
 )
 from strutwork.studies.error_temperatures import parts_of, temperature_of
