@@ -51,6 +51,16 @@ def known_errors(name: str) -> Path:
     return DATA / f"{name}.toml"
 
 
+def is_known(path: Path) -> bool:
+    """Whether a file is one of the package's own, whose values are assumed.
+
+    Parameters
+    ----------
+    path : Path
+    """
+    return path.parent == DATA
+
+
 def known_process(name: str) -> DescribedProcess:
     """A process of the package by its name.
 

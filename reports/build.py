@@ -285,7 +285,6 @@ def _machine(
         name,
         progress,
         errors=known_errors(own_errors) if own_errors else errors,
-        assumed=bool(own_errors),
     )
     if put is not None or not found.report:
         subtitle = found.entry.topology

@@ -83,8 +83,6 @@ class Subject:
         The model file that it was read from.
     errors : Path, optional
         An errors file.
-    assumed : bool
-        Whether it is the package's own, whose values nobody states.
     """
 
     model: Model
@@ -94,7 +92,6 @@ class Subject:
     source: Source | None = field(default=None, repr=False, compare=False)
     file: Path | None = None
     errors: Path | None = None
-    assumed: bool = False
 
     def __repr__(self) -> str:
         return f"<Subject {self.name}: {self.model!r}>"

@@ -44,7 +44,6 @@ Array = NDArray[Any]
 #: Names that stand for the tool where no node bears them.
 TOOL_NAMES = ("TCP", "tcp", "tool")
 
-
 #: Why there is no stiffness between two ports.
 APART = (
     "uncoupled: a load at one moves the other only by rounding errors, and the stiffness between "
@@ -79,8 +78,6 @@ class Target:
     def port(self, text: str) -> Port:
         """Port from `NODE:x` or `NODE-NODE:x`; TCP is the tool where no node is named so.
 
-        The tool is relative to the workpiece where the model names one, other nodes are not.
-
         Raises
         ------
         ModelError
@@ -96,8 +93,7 @@ class Target:
                     "means the tool, but the model has none.",
                     'Add a table [tool] with tcp = "NODE", or name a node.',
                 )
-            port = Port.parse(f"{tool}{colon}{direction}", (tool,))
-            return tool_port(self.placed.structure.linkage, str(port.direction))
+            text = f"{tool}{colon}{direction}"
         port = Port.parse(text, tuple(known))
         for name in (port.node, port.against):
             if name is not None and name not in known:

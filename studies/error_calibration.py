@@ -137,7 +137,7 @@ class GeometryCalibration:
     keep : (k, k)
         What is left of the parameters, no unit.
     noise : (k, r)
-        What the measuring uncertainty adds to them, per unit normal number.
+        What the measuring uncertainty adds to them, per unit normal number, no unit.
     """
 
     names: tuple[str, ...]

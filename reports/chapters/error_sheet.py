@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.process_file import is_known
 from strutwork.reports.chapters.error_calibration import calibration_blocks
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
@@ -72,7 +73,7 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     files += more
     if not subject.unmoved:
         lines, area = subject, subject
-        if subject.assumed:
+        if is_known(subject.errors):
             # of what is assumed fewer poses tell enough
             axes = {d: _few(v) for d, v in subject.grid.axes.items()}
             lines = _over(subject, axes)
