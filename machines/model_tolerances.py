@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from strutwork.errors import ModelError
@@ -74,7 +74,7 @@ def model_tolerances(
 
 
 def tolerance_of(
-    table: ToleranceTable, known: Mapping[str, Joint], nodes: Collection[str]
+    table: ToleranceTable, known: Mapping[str, Joint], nodes: Mapping[str, object]
 ) -> Tolerance:
     """The tolerance of a table.
 
@@ -83,7 +83,7 @@ def tolerance_of(
     table : ToleranceTable
     known : mapping of name to Joint
         That it may name.
-    nodes : collection of str
+    nodes : mapping of name to anything
         That may be its datum.
 
     Raises

@@ -21,9 +21,8 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Placement, Poses
 from strutwork.kinematics.sparse_basis import sparse_basis
 from strutwork.kinematics.tool_turns import ToolTurns
-from strutwork.machines.limits import check_limits
 from strutwork.machines.model import Model
-from strutwork.machines.model_poses import walked
+from strutwork.machines.model_poses import moved
 from strutwork.msa import PlacedStructure
 from strutwork.names import choices
 from strutwork.overconstraint.accuracy import accuracy
@@ -273,9 +272,9 @@ def turned(model: Model, placed: PlacedStructure) -> PlacedStructure:
     linkage = model.structure.linkage
     tool = linkage.node_index[model.require_tool()]
     rotation = ToolTurns.of(linkage, model.placement).at(placement[None])[0] @ model.rotation
-    moved = model.motion.move(tool=Poses(placement.positions[None, tool], rotation[None]))
-    moved.placement.require_reachable()
-    return placed.structure.at(replace(placement, turns=moved.placement.turns[0]))
+    found = model.motion.move(tool=Poses(placement.positions[None, tool], rotation[None]))
+    turns = found.placement.require_reachable().turns
+    return placed if turns is None else placed.structure.at(replace(placement, turns=turns[0]))
 
 
 def _gain(
@@ -288,7 +287,7 @@ def _gain(
 
 def _placement(model: Model, task: Mapping[str, Array]) -> Placement:
     """Where the machine stands at the poses, with the rotations of its bodies."""
-    placement = check_limits(model.limits, walked(model, task).placement)
+    placement = _brought(model, task)
     bad = np.flatnonzero(~placement.reachable)
     if bad.size:
         at = ", ".join(f"{d} = {v[bad[0]]:.6g}" for d, v in task.items())
@@ -298,6 +297,12 @@ def _placement(model: Model, task: Mapping[str, Array]) -> Placement:
             "Choose poses within the workspace.",
         )
     return placement
+
+
+def _brought(model: Model, task: Mapping[str, Array]) -> Placement:
+    """Where the joints bring the machine, which turns its bodies; the limits are its own."""
+    found, own = moved(model, task)
+    return replace(found.placement, status=own.status, reasons=own.reasons)
 
 
 def _poses(model: Model, plan: CalibrationPlan) -> tuple[dict[str, Array], int]:
@@ -326,7 +331,7 @@ def _poses(model: Model, plan: CalibrationPlan) -> tuple[dict[str, Array], int]:
     given = {d: np.array([one.get(d, home[d]) for one in plan.at], dtype=float) for d in used}
     free = {d: np.asarray(grid[d]) if d in grid else np.full(total, home[d]) for d in used}
     if total:
-        good = check_limits(model.limits, walked(model, free).placement).reachable
+        good = _brought(model, free).reachable
         count = plan.count or 0
         if good.sum() < count:
             raise ModelError(

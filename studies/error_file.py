@@ -113,7 +113,7 @@ def _tolerances(tables: ErrorsTable, model: Model) -> tuple[Tolerance, ...]:
                 f"tolerance {table.name}", "is defined twice.", "Give every tolerance its own name."
             )
         names.add(table.name)
-        found.append(tolerance_of(table, known, linkage.nodes))
+        found.append(tolerance_of(table, known, linkage.node_index))
     return tuple(found)
 
 

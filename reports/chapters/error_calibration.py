@@ -67,7 +67,7 @@ def _poses(found: GeometryCalibration) -> Table:
     return Table("Measured poses", (Column("pose", "", False), *axes), rows)
 
 
-def _left(left: tuple[dict[str, float], ...]) -> tuple[Block, ...]:
+def _left(left: tuple[dict[str, float], ...]) -> tuple[Text, Table]:
     rows = [[str(k + 1), combination_words(weights)] for k, weights in enumerate(left[:NAMED])]
     more = len(left) - NAMED
     text = (

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from strutwork.errors import ModelError
+from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
-from strutwork.machines.model_poses import walked
+from strutwork.machines.model_poses import moved, walked
 from strutwork.overconstraint.accuracy import accuracy
 from strutwork.overconstraint.sampling import draw
 from strutwork.studies.error_answer import ErrorSheets
@@ -203,3 +204,18 @@ def test_by_kinds_and_over_poses() -> None:
 def test_wrong_plans_are_refused_by_name(text: str, message: str) -> None:
     with pytest.raises(ModelError, match=message):
         plan(text).computed(cross_slide())
+
+
+@pytest.mark.slow
+def test_a_machine_with_formulas_turns_its_misfits_with_its_bodies() -> None:
+    model = load("eclipse-3pprs")
+    text = '[[tolerances]]\nname = "ball"\nkind = "point_position"\njoint = "leg1/ball"\n'
+    text += 'size = "20 um"\n[calibration]\nuncertainty = "5 um"\nposes = 2\n'
+    inputs = parse_errors(text, "errors.toml", model).computed(model)
+    task = {"x": np.array([0.02]), "y": np.array([-0.01])}
+    by_formula = model.structure.at(moved(model, task)[1])[0]
+    by_joints = model.structure.at(walked(model, task).placement)[0]
+    assert by_formula.placement.turns is None
+    assert by_joints.placement.turns is not None
+    found = [error_sheet(model, inputs, placed) for placed in (by_formula, by_joints)]
+    np.testing.assert_allclose(after(found[0]).worst, after(found[1]).worst, rtol=1e-6)
