@@ -63,12 +63,15 @@ class Joint:
     limits : mapping of direction to (low, high)
         Range of the joint coordinate, m or rad.
     matrix : (6, 6) nested tuples or None
-        A bushing's full symmetric stiffness in joint axes.
+        A bushing's full symmetric stiffness in joint axes, or that of a bearing in a joint of
+        another type; the directions of its diagonal are elastic.
     locks : tuple of directions
         Locked directions in addition to those of the type.
     pitch : float or None
         Of a helical joint: along its axis for one right-handed turn, m; negative for a left-hand
         thread. Its row z holds the way along the axis to that of its turn, and rz is free.
+    bearing : str
+        Name of the bearing whose stiffness it has; empty for none.
 
     Raises
     ------
@@ -87,6 +90,7 @@ class Joint:
     matrix: tuple[tuple[float, ...], ...] | None = None
     locks: tuple[str, ...] = ()
     pitch: float | None = None
+    bearing: str = ""
 
     def __post_init__(self) -> None:
         part = f"joint {self.name}"
@@ -125,7 +129,7 @@ class Joint:
                     )
         if self.matrix is not None:
             _check_matrix(part, np.asarray(self.matrix, dtype=float))
-            if self.type != "bushing":
+            if self.type != "bushing" and not self.bearing:
                 raise ModelError(
                     part,
                     f"a {self.type} joint cannot have a matrix.",

@@ -32,7 +32,7 @@ from strutwork.machines.literature import (
 )
 from strutwork.machines.mit_ss1 import MitSS1
 from strutwork.machines.moving_bridge import MovingBridge
-from strutwork.machines.proposed_3pprs import Proposed3PPRS
+from strutwork.machines.proposed_3pprs import Proposed3PPRS, models_with_two_tubes
 from strutwork.machines.prototype_3ppprs import Prototype3PPPRS
 from strutwork.machines.serial_five_axis import SerialFiveAxis, models_by_head
 from strutwork.machines.variant import Variant
@@ -127,7 +127,10 @@ _ENTRIES = (
         Proposed3PPRS,
         _COMPARED,
         around_home=_UPRIGHT,
-        models=models_for_statics_and_vibration("proposed-3pprs", Proposed3PPRS),
+        models=(
+            *models_for_statics_and_vibration("proposed-3pprs", Proposed3PPRS),
+            *models_with_two_tubes(),
+        ),
     ),
     CatalogueEntry(
         "eclipse-3pprs",

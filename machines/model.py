@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -15,9 +15,11 @@ from strutwork.kinematics.motion import Motion
 
 if TYPE_CHECKING:
     # a file without solids, shapes or tolerances does not wait for what computes with them
+    from strutwork.flexures import Flexure
     from strutwork.kinematics import Placement, Poses
     from strutwork.kinematics.mesh_shapes import MeshShape
     from strutwork.kinematics.task_grid import TaskGrid
+    from strutwork.machines.bearing_entry import BearingEntry
     from strutwork.machines.described_process import DescribedProcess
     from strutwork.machines.drives import Drive
     from strutwork.machines.limits import Limit
@@ -96,6 +98,10 @@ class Model:
         Of bodies, for interference.
     process : DescribedProcess or None
         The cut whose stability is reported.
+    flexures : mapping of joint name to Flexure
+        Of joints that are flexures; their stiffness is in the structure.
+    bearings : mapping of joint to BearingEntry
+        Of the joints whose stiffness a catalogue states; the structure has that of their preload.
     """
 
     title: str
@@ -119,6 +125,8 @@ class Model:
     closed_form: Callable[[Poses], Placement] | None = None
     shapes: tuple[MeshShape, ...] = ()
     process: DescribedProcess | None = None
+    flexures: Mapping[str, Flexure] = field(default_factory=dict)
+    bearings: Mapping[str, BearingEntry] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         kind = type(self).__name__
@@ -199,6 +207,8 @@ class Model:
     def vibrating(self) -> PlacedStructure:
         """The structure as it vibrates: under its preload, where it names one.
 
+        Bearings with contacts then have the tangent at their load of this case.
+
         Raises
         ------
         StrutworkError
@@ -209,4 +219,10 @@ class Model:
         # vibration has its libraries: a check of mobility needs none of them
         from strutwork.fea.preload import preloaded
 
-        return preloaded(self.placed, self.case(self.preload))
+        case = self.case(self.preload)
+        if not self.bearings:
+            return preloaded(self.placed, case)
+        from strutwork.machines.bearing_equilibrium import equilibrium
+
+        found = equilibrium(self, case)
+        return replace(found.tangent, stiffening=preloaded(found.secant, case).stiffening)

@@ -19,6 +19,7 @@ from strutwork.machines.model import Model, ModelWarning
 from strutwork.machines.model_cases import load_cases
 from strutwork.machines.model_checks import check_tables, ground_name, support_name
 from strutwork.machines.model_couplings import couplings_of
+from strutwork.machines.model_flexures import flexures_of, joint_flexures, stiffness_rows
 from strutwork.machines.model_motion_tables import (
     drives_of,
     home_values,
@@ -26,6 +27,7 @@ from strutwork.machines.model_motion_tables import (
     workspace_of,
 )
 from strutwork.machines.model_parts import (
+    Borne,
     beams_of,
     damping_of,
     joint_of,
@@ -38,6 +40,7 @@ from strutwork.msa.unjoined import in_words, unjoined_nodes
 
 if TYPE_CHECKING:
     from strutwork.kinematics.mesh_shapes import MeshShape
+    from strutwork.machines.bearing_entry import BearingEntry
     from strutwork.machines.model_solid_element import SolidElement
     from strutwork.overconstraint.tolerance import Tolerance
 
@@ -64,7 +67,12 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         Names the part that is wrong.
     """
     check_tables(tables)
-    joints = tuple(joint_of(table) for table in tables.joints)
+    flexures = joint_flexures(tables, flexures_of(tables))
+    bearings, borne = _bearings(tables, folder)
+    joints = tuple(
+        joint_of(table, borne.get(table.name), stiffness_rows(table, flexures))
+        for table in tables.joints
+    )
     couplings = couplings_of(tables)
     follows = {
         (joints[tie.joint].name, DIRECTIONS[tie.direction])
@@ -134,6 +142,8 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         workspace=workspace_of(tables, task),
         drives=drives_of(tables, {j.name: j for j in joints}),
         shapes=_shapes(tables, folder, linkage, positions),
+        flexures=flexures,
+        bearings=bearings,
     )
     if model.preload is not None:
         model.case(model.preload)
@@ -154,6 +164,21 @@ def _warn_of_unjoined(model: Model) -> None:
                 ModelWarning,
                 stacklevel=4,
             )
+
+
+def _bearings(tables: ModelTable, folder: Path) -> tuple[dict[str, BearingEntry], dict[str, Borne]]:
+    """The bearings of joints, and what they make of their stiffness, by joint."""
+    if not (tables.bearings or tables.catalogue or any(t.bearing for t in tables.joints)):
+        return {}, {}
+    # only such files wait for the contacts
+    from strutwork.machines.bearing_catalogue import (  # noqa: PLC0415
+        borne_stiffness,
+        joint_bearings,
+    )
+
+    found = joint_bearings(tables, folder)
+    named = {t.name: t for t in tables.joints}
+    return found, {name: borne_stiffness(named[name], entry) for name, entry in found.items()}
 
 
 def _tolerances(

@@ -24,6 +24,23 @@ _SPAN = {
     "to": "last value",
     "points": "number of values, evenly spaced, both ends included; 5 by default",
 }
+_FLEXURE = {
+    "material": "name of its material",
+    "thickness": "least thickness, along the joint's y axis",
+    "width": "width along the joint's z axis, about which it rotates; of a pivot, of each leaf",
+    "bending": "beam, or plate where the width prevents anticlastic curvature; by default chosen "
+    "from the proportions",
+    "allowable_stress": "with which solve compares the largest equivalent stress",
+    "stress_concentration": "factor on the stress of bending and of axial force; of notches by "
+    "default Neuber's, otherwise 1",
+}
+_NOTCH_HEIGHT = "height of the parts beside the notches; by default these are cut to their middle"
+_SOURCE = "where the numbers come from; required"
+_CONTACTS = {
+    "source": _SOURCE,
+    "youngs_modulus": "of balls and raceways; 207 GPa by default",
+    "poissons_ratio": "of balls and raceways; 0.3 by default",
+}
 _CASE = 'load case that it belongs to, "load" by default; loads of one case act together'
 _FEW = "one joint; or joints"
 _MANY = "several joints; or joint"
@@ -36,6 +53,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "preload": "name of the load case under whose forces the structure vibrates",
         "materials": "isotropic materials by name",
         "sections": "cross-sections of beams by name",
+        "flexures": "notch hinges, leaf springs and cross-spring pivots by name, for joints",
         "nodes": "places by name, [x, y, z] in global axes",
         "beams": "straight flexible links",
         "solids": "meshed parts, reduced to the nodes at which they meet the rest",
@@ -59,6 +77,8 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "drives": "limits of the drives",
         "damping": "damping of the entire structure; give exactly one kind",
         "process": "milling cut whose stability the report states",
+        "bearings": "bearings and guides by name, to which joints refer",
+        "catalogue": "file of bearings beside the model file or below it",
     },
     "MaterialTable": {
         "youngs_modulus": "Young's modulus",
@@ -129,7 +149,83 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "limits": "range of the joint's coordinates by direction, counted from home",
         "matrix": "of a bushing: six symmetric rows of six, instead of stiffness",
         "pitch": "of a helical joint: travel along the axis per right-handed turn",
+        "flexure": "of a bushing: name of the flexure whose sizes give its stiffness",
+        "bearing": "name of the bearing or guide that gives its stiffness",
     },
+    "ContactTable": _CONTACTS,
+    "CatalogueTable": {"bearings": "bearings and guides by name"},
+    "AngularContactTable": _CONTACTS
+    | {
+        "type": "angular contact ball bearing of one row, or a pair",
+        "balls": "number of balls in one row",
+        "ball_diameter": "diameter of a ball",
+        "pitch_diameter": "diameter of the circle of the balls' centres",
+        "contact_angle": "where the contacts just touch, from the plane of the balls",
+        "inner_groove": "radius of the inner groove's section by the diameter of the ball",
+        "outer_groove": "radius of the outer groove's section by the diameter of the ball",
+        "arrangement": "single (the default), back_to_back or face_to_face",
+        "spacing": "of a pair: between the planes of the balls",
+        "preload": "axial force on each row",
+    },
+    "CylindricalRollersTable": {
+        "type": "cylindrical roller bearing of steel, one row",
+        "source": _SOURCE,
+        "rollers": "number of rollers",
+        "length": "effective length of a roller",
+        "clearance": "in diameter; negative of a preloaded bearing",
+        "slices": "into which a roller is cut; 20 by default",
+    },
+    "BallRailTable": _CONTACTS
+    | {
+        "type": "carriage of a profile rail with four rows of balls",
+        "balls": "number of balls of one row that bear",
+        "ball_diameter": "diameter of a ball",
+        "rail_groove": "radius of the rail's groove by the diameter of the ball",
+        "carriage_groove": "radius of the carriage's groove by the diameter of the ball",
+        "width": "between the rows across the rail",
+        "height": "between the rows above one another",
+        "length": "between the first and the last ball that bears",
+        "contact_angle": "between the lines of contact and the x axis; 45° by default",
+        "arrangement": "O (the default) or X: where the lines of contact meet",
+        "interference": "by which the balls are larger than their space; or preload",
+        "preload": "vertical force of the two rows that bear one way; or interference",
+    },
+    "GivenStiffnessTable": {
+        "type": "stiffness given by direction",
+        "source": _SOURCE,
+        "stiffness": "by direction, joint axes",
+        "opens_at": "load at which a contact opens and the stiffness ends, by direction",
+    },
+    "FlexureTable": _FLEXURE,
+    "CircularNotchTable": {
+        "shape": "a hinge of two circular notches",
+        "radius": "radius of both notches",
+        "height": _NOTCH_HEIGHT,
+    }
+    | _FLEXURE,
+    "EllipticNotchTable": {
+        "shape": "a hinge of two elliptic notches",
+        "semi_axis_x": "semi-axis of both ellipses along the hinge",
+        "semi_axis_y": "semi-axis of both ellipses across its thickness",
+        "height": _NOTCH_HEIGHT,
+    }
+    | _FLEXURE,
+    "LeafTable": {
+        "shape": "a leaf spring",
+        "length": "length along the joint's x axis between the clamped ends",
+    }
+    | _FLEXURE,
+    "CrossSpringTable": {
+        "shape": "a cross-spring pivot: leaves that cross without touching",
+        "length": "length of each leaf between its clamped ends",
+        "angle": "angle between the leaves; 90° by default",
+        "crossing": "distance of the crossing from the first part along a leaf by its length; "
+        "0.5 by default",
+        "leaves": "2 (the default), or 3 with the outer ones half as wide",
+        "spacing": "distance between the middles of neighbouring leaves along the joint's z axis; "
+        "by default they touch",
+    }
+    | _FLEXURE,
     "SpringTable": {
         "name": "name of the spring; by default the names of its nodes",
         "node": "node that it ties to the ground; or between",
@@ -286,5 +382,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
     "DampingByDirection": _BY_DIRECTION,
     "Displacement": _BY_DIRECTION,
     "LimitsTable": _BY_DIRECTION,
+    "HeldStiffness": _BY_DIRECTION,
+    "OpeningLoads": _BY_DIRECTION,
     "WorkspaceTable": _BY_DIRECTION,
 }

@@ -86,11 +86,15 @@ def _problem(
         case "literal_error" | "union_tag_invalid":
             choices = context.get("expected") or context.get("expected_tags")
             wrong = found if kind == "literal_error" else context["tag"]
-            field += "" if kind == "literal_error" else ".shape"
+            field += "" if kind == "literal_error" else _tag(context)
             problem, remedy = f"{shown(wrong)} is not known.", f"Choose one of: {choices}."
         case "union_tag_not_found":
-            field, problem = f"{field}.shape", "is missing."
+            field, problem = f"{field}{_tag(context)}", "is missing."
             remedy = "Name the shape of the section."
+            if loc[0] == "flexures":
+                remedy = "Name the shape of the flexure."
+            if loc[0] == "bearings":
+                remedy = "Name the type of the bearing, or stiffness."
     return (UnitError if kind == "unit" else ModelError), field, problem, remedy
 
 
@@ -105,12 +109,19 @@ def _path(loc: tuple[int | str, ...], data: dict[str, Any]) -> str:
             path += f".{name}" if isinstance(name, str) and name else f"[{step}]"
             continue
         # pydantic puts the word [key] and the shape of a section into its path
-        is_shape = isinstance(at, dict) and at.get("shape") == step and step not in at
+        is_shape = (
+            isinstance(at, dict) and step in (at.get("shape"), at.get("type")) and step not in at
+        )
         if step == "[key]" or is_shape:
             continue
         path += f".{step}" if path else step
         at = at.get(step) if isinstance(at, dict) else None
     return path
+
+
+def _tag(context: dict[str, Any]) -> str:
+    """The key that tells tables of one kind apart, as the end of a path."""
+    return "." + str(context["discriminator"]).strip("'")
 
 
 def _is_array_of_tables(key: str, schema: type[BaseModel]) -> bool:

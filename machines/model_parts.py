@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -168,12 +169,39 @@ def section_of(name: str, table: SectionTable) -> Section:
     return Section(table.area, table.Iy, table.Iz, table.J, None, shear, name)
 
 
-def joint_of(table: JointTable) -> Joint:
+@dataclass(frozen=True)
+class Borne:
+    """What a bearing makes of the stiffness of a joint.
+
+    Parameters
+    ----------
+    name : str
+        Of the bearing's entry.
+    stiffness : mapping of direction to float
+        N/m and N·m/rad.
+    matrix : (6, 6) nested tuples or None
+        In place of it, N/m, N and N·m.
+    """
+
+    name: str
+    stiffness: Mapping[str, float]
+    matrix: tuple[tuple[float, ...], ...] | None
+
+
+def joint_of(
+    table: JointTable,
+    borne: Borne | None = None,
+    matrix: tuple[tuple[float, ...], ...] | None = None,
+) -> Joint:
     """A joint of the file.
 
     Parameters
     ----------
     table : JointTable
+    borne : Borne, optional
+        Where the table names a bearing.
+    matrix : (6, 6) nested tuples, optional
+        Stiffness of its flexure in joint axes, N/m, N and N·m/rad.
 
     Raises
     ------
@@ -184,16 +212,18 @@ def joint_of(table: JointTable) -> Joint:
         raise ModelError(
             f"joint {table.name}", "drives one direction twice.", "Name each direction once."
         )
+    given = table.matrix if matrix is None else matrix
     return Joint(
         name=table.name,
         type=table.type,
         between=table.between,
-        stiffness=by_direction(table.stiffness),
+        stiffness=by_direction(table.stiffness) if borne is None else borne.stiffness,
         damping=by_direction(table.damping),
         driven=table.driven,
         limits=_limits(table),
-        matrix=table.matrix,
+        matrix=given if borne is None else borne.matrix,
         pitch=table.pitch,
+        bearing="" if borne is None else borne.name,
     )
 
 
@@ -209,7 +239,7 @@ def _limits(table: JointTable) -> dict[str, tuple[float, float]]:
                 "Give the lower one first.",
             )
         held = {*JOINT_TYPES[table.type], *by_direction(table.stiffness)} - set(table.driven)
-        if direction in held or table.matrix is not None:
+        if direction in held or table.matrix is not None or table.flexure is not None:
             raise ModelError(
                 part,
                 f"has limits in {direction}, in which it does not move.",

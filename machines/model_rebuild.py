@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from strutwork.kinematics import DIRECTIONS, Joint, Linkage
 from strutwork.machines.described_process import process_of
@@ -12,6 +13,7 @@ from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Model
 from strutwork.machines.model_builder import build_model
 from strutwork.machines.model_cases import load_cases
+from strutwork.machines.model_flexures import flexures_of, joint_flexures, stiffness_rows
 from strutwork.machines.model_motion_tables import drives_of, workspace_of
 from strutwork.machines.model_parts import beams_of, damping_of, joint_of, masses_of, springs_of
 from strutwork.machines.model_schema import JointTable, ModelTable
@@ -19,11 +21,15 @@ from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Structure
 from strutwork.msa.variant_of import share_topology
 
+if TYPE_CHECKING:
+    from strutwork.flexures import Flexure
+
 #: Tables whose numbers move no node and turn no joint.
 LIGHT = frozenset(
     {
         *("title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
         *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
+        "flexures",
         *("force_limits", "workspace", "drives", "damping", "process"),
     }
 )
@@ -33,6 +39,7 @@ _OF_FORCE = frozenset({"stiffness", "damping", "limits", "matrix"})
 
 _ELASTIC = frozenset({"materials", "sections", "beams"})
 _HEAVY = frozenset({"bodies", "masses"})
+_OF_FLEXURES = frozenset({"flexures", "materials", "joints"})
 _CASES = frozenset({"gravity", "loads", "line_loads", "settlements", "misfits"})
 _TOLERANCES = frozenset({"tolerances", "force_limits"})
 
@@ -66,7 +73,9 @@ def rebuilt_model(
     )
     if not differ:
         return model
-    joints = _joints(model, before, after) if "joints" in differ else ()
+    flexures = _flexures(model, before, after) if differ & _OF_FLEXURES else model.flexures
+    bent = {name for name, flexure in flexures.items() if flexure is not model.flexures[name]}
+    joints = _joints(model, before, after, flexures) if bent or "joints" in differ else ()
     if not differ <= LIGHT or joints is None or _reshaped(before, after, differ):
         return build_model(after, folder)
     linkage = _linkage(model.structure.linkage, joints)
@@ -76,7 +85,7 @@ def rebuilt_model(
     }
     structure = model.structure
     new: dict[str, Any] = {}
-    if differ & (_ELASTIC | _HEAVY | {"joints", "springs"}):
+    if joints or differ & (_ELASTIC | _HEAVY | {"springs"}):
         new["structure"] = Structure(
             linkage,
             beams_of(after) if differ & _ELASTIC else structure.beams,
@@ -86,8 +95,8 @@ def rebuilt_model(
             structure.elements,
         )
         share_topology(new["structure"], structure)
-    if "joints" in differ:
-        new["limits"] = joint_limits(linkage)
+    if joints:
+        new |= {"limits": joint_limits(linkage), "flexures": flexures}
     if differ & _CASES:
         follows = {(linkage.joints[t.joint].name, DIRECTIONS[t.direction]) for t in linkage.ties}
         new["cases"] = load_cases(after, own, supports, follows)
@@ -118,11 +127,26 @@ def rebuilt_model(
     return made
 
 
-def _joints(model: Model, before: ModelTable, after: ModelTable) -> tuple[Joint, ...] | None:
+def _flexures(model: Model, before: ModelTable, after: ModelTable) -> dict[str, Flexure]:
+    """The flexures of joints, those as before where neither size nor material changed."""
+    found = joint_flexures(after, flexures_of(after))
+    of = {table.name: table.flexure or "" for table in after.joints}
+
+    def same(name: str) -> bool:
+        old, new = before.flexures.get(of[name]), after.flexures[of[name]]
+        return old is new and before.materials[new.material] is after.materials[new.material]
+
+    kept = {name: model.flexures[name] for name in found if name in model.flexures and same(name)}
+    return found | kept
+
+
+def _joints(
+    model: Model, before: ModelTable, after: ModelTable, flexures: Mapping[str, Flexure]
+) -> tuple[Joint, ...] | None:
     """The joints anew, None where one locks, frees or turns otherwise than before."""
     made = list(model.structure.linkage.joints)
     for i, (old, new) in enumerate(zip(before.joints, after.joints, strict=True)):
-        if old is new:
+        if old is new and flexures.get(new.name) is model.flexures.get(new.name):
             continue
         if any(
             getattr(old, name) != getattr(new, name)
@@ -130,7 +154,10 @@ def _joints(model: Model, before: ModelTable, after: ModelTable) -> tuple[Joint,
             if name not in _OF_FORCE
         ):
             return None
-        joint = joint_of(new)
+        if new.bearing is not None:
+            # its stiffness stands in a catalogue
+            return None
+        joint = joint_of(new, matrix=stiffness_rows(new, flexures))
         if joint.states != made[i].states:
             return None
         made[i] = joint

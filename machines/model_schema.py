@@ -8,6 +8,7 @@ from pydantic import BeforeValidator, Field, StrictBool
 
 from strutwork import units
 from strutwork.kinematics import DIRECTIONS
+from strutwork.machines.model_bearing_schema import BearingTable
 from strutwork.machines.model_fields import (
     Acceleration,
     Angle,
@@ -42,6 +43,7 @@ from strutwork.machines.model_fields import (
     Table,
     Vector,
 )
+from strutwork.machines.model_flexure_schema import AnyFlexureTable
 from strutwork.machines.model_motion_schema import (
     CouplingTable,
     DriveTable,
@@ -220,6 +222,8 @@ class JointTable(Table):
     limits: LimitsTable = LimitsTable.model_construct()
     matrix: Annotated[Matrix | None, BeforeValidator(_empty_is_absent)] = None
     pitch: Length | None = None
+    flexure: Name | None = None
+    bearing: Name | None = None
 
 
 class SpringTable(Table):
@@ -344,6 +348,7 @@ class ModelTable(Table):
     preload: Name | None = None
     materials: dict[Name, MaterialTable] = Field(default_factory=dict)
     sections: dict[Name, SectionTable] = Field(default_factory=dict)
+    flexures: dict[Name, AnyFlexureTable] = Field(default_factory=dict)
     nodes: dict[Name, Point]
     beams: tuple[BeamTable, ...] = ()
     solids: tuple[SolidTable, ...] = ()
@@ -367,3 +372,5 @@ class ModelTable(Table):
     drives: tuple[DriveTable, ...] = ()
     damping: DampingTable | None = None
     process: ProcessTable | None = None
+    bearings: dict[Name, BearingTable] = Field(default_factory=dict)
+    catalogue: Name | None = None

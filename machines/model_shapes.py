@@ -14,7 +14,8 @@ from strutwork.kinematics.mesh_shapes import MeshShape
 from strutwork.kinematics.sliding import fixed_nodes
 from strutwork.machines.model_parts import unknown
 from strutwork.machines.model_schema import ModelTable
-from strutwork.machines.model_solid_mesh import at_field, part_file
+from strutwork.machines.model_solid_mesh import at_field
+from strutwork.machines.part_files import part_file
 from strutwork.meshes.surfaces import check_closed, check_one_body, read_surface
 
 #: Shapes of a file at most: pairs of them grow with their square.

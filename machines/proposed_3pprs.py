@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -10,7 +11,9 @@ from strutwork.kinematics import Body, Joint, angle, axes_frame
 from strutwork.kinematics.frames import dot
 from strutwork.machines.legs import Leg, LegPlacement, square_root
 from strutwork.machines.radial import Radial
-from strutwork.machines.three_legs import ThreeLegs
+from strutwork.machines.three_legs import TUBE_19_14, ThreeLegs
+from strutwork.machines.variant import Variant
+from strutwork.msa.sections import Section
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +43,8 @@ class Proposed3PPRS(ThreeLegs):
     first_link_length : float or None
         m. A first link of constant length, a ram that the slide moves as a whole and that is
         held this far inside the slider; None for one from the guide to the slider.
+    first_link_section : Section or None
+        Of the first links; None for the section of the links. The paper has one tube.
     """
 
     link_length: float = 0.216
@@ -47,6 +52,7 @@ class Proposed3PPRS(ThreeLegs):
     pole_height: float = 0.126
     shortest_first_link: float = 1e-3
     first_link_length: float | None = None
+    first_link_section: Section | None = None
 
     @property
     def lengths(self) -> tuple[str, ...]:
@@ -84,7 +90,10 @@ class Proposed3PPRS(ThreeLegs):
                 self.ball,
             ),
             beams=(
-                self.beam("first link", "carriage", "overhang"),
+                replace(
+                    self.beam("first link", "carriage", "overhang"),
+                    section=self.first_link_section or self.section,
+                ),
                 self.beam("link", "root", "end"),
             ),
             rigid=(Body("carriage", ("centre", "carriage")),),
@@ -134,3 +143,17 @@ class Proposed3PPRS(ThreeLegs):
             elevation=elevation,
             faults={"its joint centre is higher above the guide than the link is long": missing},
         )
+
+
+def _two_tubes(*, apparent: bool = False) -> Proposed3PPRS:
+    made = Proposed3PPRS(first_link_section=TUBE_19_14)
+    return made.apparent() if apparent else made
+
+
+def models_with_two_tubes() -> tuple[Variant, ...]:
+    """The machine of the static tables whose links and first links may have different tubes."""
+    words = "with a tube for the first links and one for the links, both as printed"
+    return (
+        Variant("two-tubes", f"as static, {words}", _two_tubes),
+        Variant("apparent-two-tubes", f"as apparent, {words}", partial(_two_tubes, apparent=True)),
+    )

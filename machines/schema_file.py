@@ -32,6 +32,14 @@ _ALSO: dict[tuple[str, str], dict[str, Any]] = {
     ("JointTable", "matrix"): {"type": "array", "maxItems": 0},
 }
 
+#: Entries of a catalogue that state where their numbers come from.
+_WITH_SOURCE = (
+    "AngularContactTable",
+    "BallRailTable",
+    "CylindricalRollersTable",
+    "GivenStiffnessTable",
+)
+
 
 def model_schema() -> dict[str, Any]:
     """The schema, as JSON holds it.
@@ -45,6 +53,9 @@ def model_schema() -> dict[str, Any]:
     tables = described(ModelTable, DESCRIPTIONS)
     for (name, key), value in _ALSO.items():
         _allow(tables[name]["properties"][key], value)
+    for name in _WITH_SOURCE:
+        # absent, it is refused with words of its own
+        tables[name]["required"].append("source")
     rows = tables["MassTable"]["properties"]["inertia"]
     _allow(rows, {"type": "array", "items": _entry(rows), "minItems": 3, "maxItems": 3})
     return finished(

@@ -31,8 +31,8 @@ from strutwork.studies.description import plain, versions
 CODE = tuple(
     f"strutwork.{name}"
     for name in (
-        *("kinematics", "meshes", "msa", "fea", "overconstraint", "machines", "studies"),
-        *("reports", "papers"),
+        *("kinematics", "meshes", "msa", "fea", "overconstraint", "flexures", "machines"),
+        *("studies", "reports", "papers"),
     )
 )
 

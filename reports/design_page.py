@@ -32,6 +32,8 @@ from strutwork.reports.design_words import (
     machine_code,
     on_front,
     parameter_words,
+    rounds_words,
+    starts_words,
     unit_of,
     value_words,
 )
@@ -75,10 +77,10 @@ def write_design_report(found: xr.Dataset, folder: Path) -> WrittenReport:
     settings = json.loads(found.attrs["settings"])
     title = str(found.attrs["title"])
     title = title[0].upper() + title[1:]
-    short = {k: settings[k] for k in ("machine", "population", "seed")}
+    keys = ("machine", "method", "population", "starts", "seed")
+    short = {k: settings[k] for k in keys if k in settings}
     closing = closing_chapter(title, short, {"design": settings}, chapters, "")
-    machines = count(int(found.sizes["machine"]), "machine")
-    subtitle = f"{machines} in {count(int(found.attrs['generations']), 'generation')}"
+    subtitle = rounds_words(found)
     every = (*chapters, closing)
     files = tuple(f for chapter in every for f in chapter.files)
     return write_page(Composed(page_of(title, subtitle, every), files), folder, title)
@@ -98,7 +100,7 @@ def _cover(found: xr.Dataset) -> Chapter:
     text = (
         f"{feasible} of {found.sizes['machine']} machines are feasible; no "
         f"other one is better in every objective than the {number} of the front.{kept} "
-        f"Parameters: {parameter_words(found)}."
+        f"Parameters: {parameter_words(found)}. {starts_words(found)}".rstrip()
     )
     blocks: list[Block] = [Answers(tuple(said)), _picture(found), Text(text), _picks(found)]
     heads, rows = design_rows(found)

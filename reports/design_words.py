@@ -9,6 +9,8 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from strutwork.names import listed
+from strutwork.reports.numbers import count
 from strutwork.reports.study_words import machine_words, read_value, reading, title_of
 from strutwork.studies.design_table import design_objectives, design_parameters
 from strutwork.studies.study_table import NumberColumn
@@ -31,6 +33,44 @@ def value_words(column: NumberColumn, value: float, found: xr.Dataset, digits: i
     if currency:
         return f"{value:.{digits}g} {currency}"
     return read_value(column, value, digits)
+
+
+def rounds_words(found: xr.Dataset) -> str:
+    """How many machines were made, and how: "24 machines in 3 generations"."""
+    machines = count(int(found.sizes["machine"]), "machine")
+    rounds, method = int(found.attrs["generations"]), str(found.attrs.get("method", ""))
+    if method.startswith("SLSQP"):
+        return f"{machines} along the gradients from {count(rounds, 'start')} (SLSQP)"
+    if "SLSQP" in method:
+        return (
+            f"{machines} in {count(rounds - 1, 'generation')} and along the gradients from the "
+            "front (SLSQP)"
+        )
+    return f"{machines} in {count(rounds, 'generation')}"
+
+
+def starts_words(found: xr.Dataset) -> str:
+    """Where each start along gradients ends: all at one machine, or not; empty of other methods."""
+    if not str(found.attrs.get("method", "")).startswith("SLSQP"):
+        return ""
+    (column, goal), *_ = design_objectives(found)
+    good = found["status"].to_numpy() == 0
+    generation = found["generation"].to_numpy()
+    ends = []
+    for number in range(1, int(found.attrs["generations"]) + 1):
+        values = column.values[good & (generation == number)]
+        best = (values.min() if goal == "minimise" else values.max()) if values.size else np.nan
+        ends.append(float(best))
+    known = [e for e in ends if np.isfinite(e)]
+    said = []
+    if len(known) < len(ends):
+        said.append(f"{count(len(ends) - len(known), 'start')} ended at no feasible machine.")
+    shown = list(dict.fromkeys(value_words(column, e, found) for e in known))
+    if len(known) > 1 and len(shown) == 1:
+        said.append(f"{len(known)} starts ended at the same {title_of(column)}.")
+    if len(shown) > 1:
+        said.append(f"The starts ended at {listed(shown)}: with more of them it may become better.")
+    return " ".join(said)
 
 
 def extremes(found: xr.Dataset) -> list[tuple[str, str, str]]:

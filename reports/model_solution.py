@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, StrutworkError
 from strutwork.kinematics import NearMechanism, near_motions
+from strutwork.machines.bearing_states import Equilibrium, joined
 from strutwork.machines.model import Model, ModelWarning
 from strutwork.msa import (
     PlacedStructure,
@@ -21,6 +22,7 @@ from strutwork.msa import (
     tool_compliance,
     tool_stiffness,
 )
+from strutwork.reports.flexure_use import described_flexures, flexure_uses, warn_of_flexures
 from strutwork.reports.near_mechanisms import near_mechanisms, warn_of_near
 
 Array = NDArray[Any]
@@ -44,6 +46,8 @@ class ModelSolution:
         Inverse of the compliance; None where it has none.
     near : tuple of NearMechanism
         Motions that coordinates of few digits hold.
+    equilibria : tuple of Equilibrium
+        By case, of a model with bearings; empty without.
     """
 
     model: Model
@@ -51,6 +55,7 @@ class ModelSolution:
     compliance: Array | None
     stiffness: Array | None
     near: tuple[NearMechanism, ...] = ()
+    equilibria: tuple[Equilibrium, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ModelSolution: {self.statics!r}, tool {self.model.tool}>"
@@ -72,6 +77,8 @@ class ModelSolution:
             "undetermined_reactions": reactions,
             "near_mechanisms": near_mechanisms(self.model, self.near),
         }
+        if self.model.flexures:
+            beside["flexures"] = described_flexures(self.model)
         if self.compliance is None:
             return {"cases": cases, "tcp": None, **beside}
         against = self.model.structure.linkage.against
@@ -89,6 +96,7 @@ class ModelSolution:
         model, s = self.model, self.statics
         linkage = model.structure.linkage
         nodes = linkage.node_index
+        bent = {joint: use.to_dict() for joint, use in flexure_uses(model, s, m).items()}
         return {
             "displacements": {n: s.displacements[nodes[n], :, m].tolist() for n in model.nodes},
             # a support's joint has global axes, and its second node is the structure's
@@ -108,7 +116,22 @@ class ModelSolution:
                 for b, beam in enumerate(model.structure.beams)
             },
             "strain_energy": float(s.strain_energy[m]),
+            **({"flexures": bent} if bent else {}),
+            **self._loaded(m),
         }
+
+    def _loaded(self, m: int) -> dict[str, Any]:
+        """Of a model with bearings: their state in a case, and the tool's stiffness there."""
+        if not self.equilibria:
+            return {}
+        found = self.equilibria[m]
+        states = {state.joint: state.to_dict() for state in found.states}
+        result: dict[str, Any] = {"bearings": states, "bearing_steps": found.steps}
+        if self.compliance is not None:
+            compliance = tool_compliance(found.tangent)
+            stiffness = None if self.stiffness is None else tool_stiffness(compliance).tolist()
+            result["tcp"] = {"compliance": compliance.tolist(), "stiffness": stiffness}
+        return result
 
     def _force(self, joint: str, m: int) -> list[float | None]:
         """Force of a joint, None in directions that are not determined."""
@@ -137,6 +160,8 @@ def solve_model(model: Model) -> ModelSolution:
     ------
     ModelError
         Neither a load case nor a tool: there is nothing to solve.
+    ContactError, NumericalError
+        As `strutwork.machines.bearing_equilibrium.equilibrium`, of a model with bearings.
     MechanismError
         The structure moves freely under a load, or, when there is no load case, under a
         wrench at the tool.
@@ -145,7 +170,8 @@ def solve_model(model: Model) -> ModelSolution:
     -----
     ModelWarning
         The load cases can be solved, but the compliance at the tool cannot; forces that are
-        not determined; motions that coordinates of few digits hold.
+        not determined; motions that coordinates of few digits hold; flexures stressed or moved
+        too far.
     """
     if not model.cases and model.tool is None:
         raise ModelError(
@@ -153,7 +179,8 @@ def solve_model(model: Model) -> ModelSolution:
             "has neither a load nor a tool: there is nothing to solve.",
             "Add loads, gravity, settlements or misfits, or a [tool].",
         )
-    statics = solve(model.placed, model.cases)
+    equilibria = _equilibria(model)
+    statics = joined(equilibria) if equilibria else solve(model.placed, model.cases)
     compliance = stiffness = None
     if model.tool is not None:
         try:
@@ -167,9 +194,18 @@ def solve_model(model: Model) -> ModelSolution:
             warnings.warn(f"{where}{error}", ModelWarning, stacklevel=2)
     near = near_motions(model.structure.linkage, model.placement)
     warn_of_near(near)
-    found = ModelSolution(model, statics, compliance, stiffness, near)
+    found = ModelSolution(model, statics, compliance, stiffness, near, equilibria)
+    warn_of_flexures(model, statics)
     _warn_of_undetermined(found.undetermined)
     return found
+
+
+def _equilibria(model: Model) -> tuple[Equilibrium, ...]:
+    if not model.bearings:
+        return ()
+    from strutwork.machines.bearing_equilibrium import equilibrium
+
+    return tuple(equilibrium(model, case) for case in model.cases)
 
 
 def _warn_of_undetermined(undetermined: Mapping[str, tuple[str, ...]]) -> None:

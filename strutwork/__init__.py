@@ -49,6 +49,7 @@ __all__ = [
 _ROOMS = (
     "cutting",
     "fea",
+    "flexures",
     "kinematics",
     "machines",
     "meshes",

@@ -59,6 +59,10 @@ class SingularPoseError(StrutworkError):
     """A pose at which the machine loses or gains a degree of freedom."""
 
 
+class ContactError(StrutworkError):
+    """A contact that preload should keep closed is open; the message names the bearing."""
+
+
 class NumericalError(StrutworkError):
     """A result failed its own check (residual, symmetry, finiteness) and was withheld."""
 

@@ -316,7 +316,7 @@ class Machine(Model, Outward):
             range; SI, or texts with units.
         *answers : str or Answer
             "stiffness" where there is none; "vibration", "assembly", "accuracy", "stability",
-            "transmission", "mass", or those of a survey.
+            "transmission", "amplification", "mass", or those of a survey.
         **options
             Of `strutwork.studies.study.Study.of` (sample, count, seed, workspace, reductions) and
             of `strutwork.studies.study.Study.run` (workers, progress, folder, executor); `out` and

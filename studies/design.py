@@ -13,9 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
-from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import versions
 from strutwork.studies.design_judged import (
@@ -28,10 +26,13 @@ from strutwork.studies.design_judged import (
     Judged,
 )
 from strutwork.studies.design_quantities import COST, REACH, Quantity, share_reached, taken
+from strutwork.studies.design_smooth import require_smooth
 from strutwork.studies.design_terms import Constraint, Cost, Objective, Search
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
 from strutwork.studies.parametric import Parametric
+from strutwork.studies.pose_sets import PoseSet
 from strutwork.studies.question import Asked
+from strutwork.studies.study_machines import Kept
 from strutwork.studies.variants import Variants
 
 Array = NDArray[Any]
@@ -52,7 +53,7 @@ class Design:
     objectives : tuple of Objective
     constraints : tuple of Constraint
     search : Search
-    workspace : TaskGrid or None
+    workspace : TaskGrid, TaskList, PoseList or None
         Poses besides home; None: home alone.
     cost : Cost
     vibration : Asked
@@ -62,7 +63,7 @@ class Design:
     ------
     ModelError
         No objective, one named twice, parameters that scatter or do not exist; the machine as
-        stated lacks what is asked for.
+        stated lacks what is asked for; a search along gradients of what has none.
     """
 
     machine: Parametric
@@ -70,7 +71,7 @@ class Design:
     objectives: tuple[Objective, ...]
     constraints: tuple[Constraint, ...] = ()
     search: Search = field(default_factory=Search)
-    workspace: TaskGrid | None = None
+    workspace: PoseSet | None = None
     cost: Cost = field(default_factory=Cost)
     vibration: Asked = field(default_factory=lambda: Asked("vibration"))
 
@@ -92,6 +93,19 @@ class Design:
             raise ModelError("cost", "is asked for and not stated.", "Give a table [cost].")
         # their errors come now
         _ = self.rates, self.variants
+        if any(c.kept for c in self.constraints):
+            own = dict(zip((q.name for q in self.quantities), self.stated.values[0], strict=True))
+            limits = tuple(c.known(float(own[c.quantity.name])) for c in self.constraints)
+            object.__setattr__(self, "constraints", limits)
+            # judged without these limits
+            del self.__dict__["stated"]
+        require_smooth(
+            self.search,
+            self.objectives,
+            self.quantities,
+            self.varied,
+            self.machine.origin.model,
+        )
 
     @classmethod
     def of(
@@ -100,9 +114,9 @@ class Design:
         parameters: Mapping[str, object] | Sequence[Parameter],
         *objectives: str | Objective,
         constraints: Sequence[Constraint] = (),
-        workspace: Mapping[str, Any] | TaskGrid | None = None,
+        workspace: Mapping[str, Any] | PoseSet | None = None,
         cost: Cost | None = None,
-        **search: int,
+        **search: Any,
     ) -> Design:
         """A design from names and plain values.
 
@@ -116,13 +130,13 @@ class Design:
         *objectives : str or Objective
             Names of `strutwork.studies.design_quantities.QUANTITIES`.
         constraints : sequence of Constraint
-        workspace : mapping of direction to (n,), or TaskGrid, optional
+        workspace : mapping of direction to (n,), TaskGrid, TaskList or PoseList, optional
             Values along each, m and rad or texts with units; the machine's own by default, {} for
             home alone.
         cost : Cost, optional
             Nothing by default.
-        **search : int
-            population, generations and seed, as of `Search`.
+        **search : int or str
+            method, population, generations, starts and seed, as of `Search`.
 
         Raises
         ------
@@ -170,6 +184,7 @@ class Design:
             _single(self.parameters),
             *self._asked,
             workspace={} if self.workspace is None else self.workspace,
+            reductions=self._reductions,
         )
 
     @property
@@ -178,6 +193,10 @@ class Design:
         if any(q.name == COST for q in self.quantities) and self.cost.per_kg:
             names["mass"] = None
         return tuple(self.vibration if n == "vibration" else n for n in names) or ("mass",)
+
+    @property
+    def _reductions(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(q.reduction for q in self.quantities))
 
     @cached_property
     def stated(self) -> Judged:
@@ -188,6 +207,7 @@ class Design:
             [one],
             *self._asked,
             workspace={} if self.workspace is None else self.workspace,
+            reductions=self._reductions,
         )
         return self._judged(asked.values([[1.0]]), self.stated_values[None])
 
@@ -260,20 +280,22 @@ class Design:
         if quantity.name == COST:
             mass = found["mass"] if self.cost.per_kg else 0.0
             return np.asarray(self.cost.fixed + self.cost.per_kg * mass + samples @ self.rates)
-        for name, column, labels in self._columns:
-            if column.name == quantity.column:
-                return taken(quantity, column, labels, found[name])
+        for kept, labels in self._columns:
+            # what is asked at home alone, or once of a machine, has no other reduction
+            same = kept.reduction == quantity.reduction or kept.reduction not in ("worst", "mean")
+            if kept.column.name == quantity.column and same:
+                return taken(quantity, kept.column, labels, found[kept.name])
         raise AssertionError(quantity.name)
 
     @cached_property
-    def _columns(self) -> tuple[tuple[str, Column, tuple[Any, ...]], ...]:
-        """Names in what the machines answer, with their columns and labels."""
+    def _columns(self) -> tuple[tuple[Kept, tuple[Any, ...]], ...]:
+        """Arrays in what the machines answer, with the labels along them."""
         model = self.machine.origin.model
         labels: dict[str, tuple[Any, ...]] = {}
         for question in self.variants.questions:
             labels |= dict(question.of(model).coordinates)
         return tuple(
-            (k.name, k.column, labels[k.column.dims[0]] if k.column.dims else ())
+            (k, labels[k.column.dims[0]] if k.column.dims else ())
             for k in self.variants.study.machines.kept
         )
 
@@ -345,8 +367,7 @@ class Design:
             "constraints": [c.settings for c in self.constraints],
             "cost": self.cost.settings,
             "workspace": self.variants.study.settings["workspace"],
-            "population": self.search.population,
-            "seed": self.search.seed,
+            **self.search.settings,
         }
 
     @cached_property

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -31,6 +32,11 @@ Array = NDArray[Any]
 
 Goal = Literal["minimise", "maximise"]
 
+#: Before the name of a quantity whose mean over the poses is meant.
+MEAN = "mean"
+#: Columns that have a value at each pose and a mean that says something.
+_OF_POSES = ("stiffness_free", "stiffness_blocked", "condition")
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -49,6 +55,8 @@ class Quantity:
     goal : "minimise" or "maximise"
         Unless a file states the other.
     meaning : str
+    reduction : "worst" or "mean"
+        Over the poses, of what depends on them.
     """
 
     name: str
@@ -58,6 +66,7 @@ class Quantity:
     dimension: Dimension
     goal: Goal
     meaning: str
+    reduction: str = "worst"
 
     @property
     def unit(self) -> str:
@@ -134,10 +143,47 @@ def _quantities() -> dict[str, Quantity]:
             "minimise",
             "largest joint moment that the tolerances allow",
         ),
+        Quantity(
+            "condition",
+            "transmission",
+            "condition",
+            "",
+            NUMBER,
+            "minimise",
+            "worst condition number of the Jacobian from drives to tool",
+        ),
+        Quantity(
+            "least_amplification",
+            "amplification",
+            "least_amplification",
+            "",
+            NUMBER,
+            "maximise",
+            "least velocity of the tool over the poses, for drive rates of size one",
+        ),
+        Quantity(
+            "largest_amplification",
+            "amplification",
+            "largest_amplification",
+            "",
+            NUMBER,
+            "minimise",
+            "largest velocity of the tool over the poses, for drive rates of size one",
+        ),
         Quantity("reach", "", "", "", NUMBER, "maximise", "share of the poses that are reached"),
         Quantity("cost", "", "", "", NUMBER, "minimise", "cost"),
     ]
-    return {q.name: q for q in found}
+    means = [
+        replace(
+            q,
+            name=f"{MEAN}_{q.name}",
+            meaning=re.sub("^(worst|least|largest|lowest) ", "mean of the poses: ", q.meaning),
+            reduction="mean",
+        )
+        for q in found
+        if q.column in _OF_POSES
+    ]
+    return {q.name: q for q in [*found, *means]}
 
 
 #: By name.

@@ -6,8 +6,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StrictFloat, StrictInt
 
-from strutwork.machines.model_fields import Name, Table
+from strutwork.machines.model_fields import Name, Size, Table
 from strutwork.machines.model_motion_schema import WorkspaceTable
+from strutwork.machines.model_schema import Displacement
 from strutwork.studies.study_schema import ParameterTable, Quantity, VibrationTable
 
 Amount = StrictFloat | StrictInt
@@ -46,11 +47,27 @@ class CostTable(Table):
 
 
 class SearchTable(Table):
-    """How long is searched."""
+    """How, and how long, is searched."""
 
+    method: Literal["evolution", "gradient", "both"] = "evolution"
+    starts: Annotated[int, Field(strict=True, ge=1)] = 3
     population: Annotated[int, Field(strict=True, ge=4)] = 48
     generations: Annotated[int, Field(strict=True, ge=1)] = 40
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
+
+
+class PoseTable(Displacement):
+    """A pose of the tool."""
+
+
+class HemisphereTable(Table):
+    """Check points on a hemisphere whose pole is home."""
+
+    radius: Size = 4e-3
+    lattice: Annotated[int, Field(strict=True, ge=1, le=1000)] = 10
+    rolls: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 24
+    joint_ranges: tuple[Name, ...] | None = None
+    condition_limit: Annotated[float, Field(gt=1.0)] = 100.0
 
 
 class DesignTable(Table):
@@ -63,4 +80,6 @@ class DesignTable(Table):
     search: SearchTable = SearchTable()
     cost: CostTable = CostTable()
     workspace: WorkspaceTable | None = None
+    poses: tuple[PoseTable, ...] = ()
+    hemisphere: HemisphereTable | None = None
     vibration: VibrationTable = VibrationTable()

@@ -1,10 +1,10 @@
-"""The search for designs: NSGA-II of pymoo, a whole population at once."""
+"""The search for designs: NSGA-II of pymoo, SLSQP of SciPy along gradients, or both."""
 
 from __future__ import annotations
 
 import importlib
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,8 +14,13 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.studies.design import Design
 from strutwork.studies.design_judged import FEASIBLE, Judged
+from strutwork.studies.design_slsqp import descent, finish, starts, steps_of
+from strutwork.studies.design_terms import BOTH, GRADIENT
 
 Array = NDArray[Any]
+
+#: What was found before of a generation by its number: shares (n, k), and what they are worth.
+Known = Callable[[int], tuple[Array, Judged] | None]
 
 
 @dataclass(frozen=True)
@@ -63,9 +68,11 @@ def pymoo(name: str) -> Any:
 def generations(
     design: Design,
     workers: int | None = None,
-    known: Callable[[int, Array], Judged | None] = lambda _, __: None,
+    known: Known = lambda _: None,
 ) -> Iterator[Generation]:
     """Search, one generation after the other; ends early where no other machine is left.
+
+    Along gradients the machines on the way from one start are a generation.
 
     Parameters
     ----------
@@ -73,13 +80,52 @@ def generations(
     workers : int, optional
         Threads; default one per processor.
     known : callable, optional
-        What was found of a generation before, from its number and shares (n, k); None: nothing.
+        What was found of a generation before, from its number: its shares (n, k) and what they
+        are worth; None: nothing.
 
     Raises
     ------
     ModelError
-        pymoo is not installed.
+        pymoo is not installed; the machine as described, as a start, cannot be.
     """
+    method = design.search.method
+    if method == GRADIENT:
+        for number, start in enumerate(starts(design)):
+            kept = known(number)
+            if kept is None:
+                shares, _ = steps_of(descent(design, start), first=number == 0)
+                kept = shares, design.judge(design.samples(shares), workers)
+            yield Generation(number, kept[0], design.samples(kept[0]), kept[1])
+        return
+    done = []
+    for generation in _evolution(design, workers, known):
+        done.append(generation)
+        yield generation
+    if method == BOTH:
+        last = _finished(design, done, workers)
+        if last is not None:
+            yield last
+
+
+def _finished(design: Design, done: Sequence[Generation], workers: int | None) -> Generation | None:
+    """The machines that searches from the front along gradients end at."""
+    shares = np.concatenate([g.shares for g in done])
+    values = np.concatenate([g.judged.values for g in done])
+    targets = np.concatenate([design.targets(g.judged) for g in done])
+    good = np.flatnonzero(np.concatenate([g.judged.status for g in done]) == FEASIBLE)
+    if not good.size:
+        return None
+    found = []
+    for row in good[front_of(targets[good])].tolist():
+        steps, _ = steps_of(finish(design, shares[row], values[row]), first=False)
+        found.append(steps[-1:])
+    ends = np.concatenate(found)
+    judged = design.judge(design.samples(ends), workers)
+    return Generation(len(done), ends, design.samples(ends), judged)
+
+
+def _evolution(design: Design, workers: int | None, known: Known) -> Iterator[Generation]:
+    """The generations of NSGA-II."""
     algorithm, problem = _algorithm(design)
     evaluator = pymoo("core.evaluator").Evaluator()
     static = pymoo("problems.static").StaticProblem
@@ -89,9 +135,9 @@ def generations(
             return
         shares = np.asarray(asked.get("X"), dtype=float)
         samples = design.samples(shares)
-        judged = known(number, shares)
-        if judged is None:
-            judged = design.judge(samples, workers)
+        kept = known(number)
+        same = kept is not None and np.array_equal(kept[0], shares)
+        judged = kept[1] if kept is not None and same else design.judge(samples, workers)
         targets = design.targets(judged)
         # numbers of such machines are not looked at: they go by what they miss
         targets[judged.status != FEASIBLE] = 0.0

@@ -21,6 +21,7 @@ from strutwork.studies.design_dataset import Archive, judged_of
 from strutwork.studies.design_judged import Judged
 from strutwork.studies.design_search import generations
 from strutwork.studies.design_table import design_rows, reasons_of
+from strutwork.studies.design_terms import GRADIENT
 from strutwork.studies.progress import Progress
 
 Array = NDArray[Any]
@@ -51,7 +52,7 @@ def run_design(
     workers : int, optional
         Threads; default one per processor.
     progress : callable, optional
-        Called with how many machines are judged, and of how many.
+        Called with how many machines are judged, or starts done, and of how many.
     told : callable, optional
         Called after each generation with its number from one, the feasible machines so far and
         those of the front.
@@ -86,14 +87,15 @@ def run_design(
             )
     archive = Archive(design)
 
-    def known(number: int, shares: Array) -> Judged | None:
+    def known(number: int) -> tuple[Array, Judged] | None:
         kept = judged_of(before, design, number) if resume and before is not None else None
         if kept is None and store is not None:
             arrays = store.read(number)
             kept = None if arrays is None else _from_arrays(arrays)
-        return kept[1] if kept is not None and np.array_equal(kept[0], shares) else None
+        return kept
 
-    total = design.search.population * design.search.generations
+    total = design.search.machines
+    starts = design.search.method == GRADIENT
     feasible = 0
     if progress is not None:
         progress(0, total)
@@ -103,7 +105,8 @@ def run_design(
         if store is not None:
             store.write(generation.number, _arrays(generation.shares, generation.judged))
         if progress is not None:
-            progress(archive.count, total)
+            # along gradients nobody knows how many machines there will be
+            progress(min(generation.number + 1 if starts else archive.count, total), total)
         if told is not None:
             told(generation.number + 1, feasible, len(archive.front))
     found = archive.dataset()
@@ -156,7 +159,7 @@ def _parts(path: Path) -> Path:
 def _complete(found: xr.Dataset, design: Design) -> bool:
     """Whether it has as many generations as are asked for, or no more machines were left."""
     have, asked = int(found.attrs["generations"]), int(found.attrs["asked_generations"])
-    return have >= design.search.generations or have < asked
+    return have >= design.search.rounds or have < asked
 
 
 def _there(path: Path, design: Design) -> xr.Dataset | None:

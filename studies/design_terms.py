@@ -10,14 +10,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.names import choices
 from strutwork.studies.design_quantities import Goal, Quantity, quantity_of
 from strutwork.studies.parameter import Value, Varied
 from strutwork.units import quantity
 
 Array = NDArray[Any]
 
+#: In place of a limit: what the machine as described has.
+STATED = "stated"
+
 #: Machines and generations of a search at most: larger ones are typing errors.
 MOST_MACHINES = 10_000_000
+#: Starts of a search along gradients at most.
+MOST_STARTS = 1000
+
+#: How is searched: NSGA-II, SLSQP with gradients from several starts, or the first and then the
+#: second from each machine of the front.
+EVOLUTION, GRADIENT, BOTH = METHODS = ("evolution", "gradient", "both")
 
 
 @dataclass(frozen=True)
@@ -72,11 +82,15 @@ class Constraint:
     quantity : Quantity
     at_least, at_most : float or None
         In the SI unit of the quantity, any unit.
+    kept : tuple of str
+        Of "at_least" and "at_most", those that are the value of the machine as described; a design
+        puts the number in their place.
     """
 
     quantity: Quantity
     at_least: float | None = None
     at_most: float | None = None
+    kept: tuple[str, ...] = ()
 
     @classmethod
     def of(
@@ -89,7 +103,7 @@ class Constraint:
         name : str
             Of `strutwork.studies.design_quantities.QUANTITIES`.
         at_least, at_most : float or str, optional
-            SI, or text with its unit.
+            SI, or text with its unit; "stated" for what the machine as described has.
 
         Raises
         ------
@@ -102,9 +116,11 @@ class Constraint:
         part = f"constraint {name}"
         if at_least is None and at_most is None:
             raise ModelError(part, "has no limit.", "Give at_least, at_most or both.")
+        limits = {"at_least": at_least, "at_most": at_most}
+        kept = tuple(key for key, v in limits.items() if v == STATED)
         low, high = (
-            None if v is None else quantity(v, found.dimension, f"{part}.{key}")
-            for key, v in (("at_least", at_least), ("at_most", at_most))
+            None if v is None or key in kept else quantity(v, found.dimension, f"{part}.{key}")
+            for key, v in limits.items()
         )
         if low is not None and high is not None and low > high:
             raise ModelError(
@@ -112,7 +128,32 @@ class Constraint:
                 f"has at_least = {low:g} above at_most = {high:g}.",
                 "Exchange the two.",
             )
-        return cls(found, low, high)
+        return cls(found, low, high, kept)
+
+    def known(self, stated: float) -> Constraint:
+        """The same with numbers for what is kept of the machine as described.
+
+        Parameters
+        ----------
+        stated : float
+            What this machine has, in the unit of the quantity, any unit.
+
+        Raises
+        ------
+        ModelError
+            It has no value.
+        """
+        if not self.kept:
+            return self
+        if not np.isfinite(stated):
+            raise ModelError(
+                f"constraint {self.quantity.name}",
+                "keeps what the machine as described has, and this has no value.",
+                "Give a number.",
+            )
+        low = stated if "at_least" in self.kept else self.at_least
+        high = stated if "at_most" in self.kept else self.at_most
+        return Constraint(self.quantity, low, high)
 
     @property
     def settings(self) -> dict[str, Any]:
@@ -231,7 +272,7 @@ class Cost:
 
 @dataclass(frozen=True)
 class Search:
-    """How long is searched.
+    """How, and how long, is searched.
 
     Parameters
     ----------
@@ -240,18 +281,66 @@ class Search:
     generations : int
     seed : int
         The same seed gives the same machines.
+    method : str
+        Of `METHODS`.
+    starts : int
+        Of the method "gradient": the machine as described, and points spread over the ranges.
 
     Raises
     ------
     ModelError
-        Fewer than four machines or one generation, or more than can be meant.
+        Fewer than four machines or one generation, or more than can be meant; no start; an unknown
+        method.
     """
 
     population: int = 48
     generations: int = 40
     seed: int = 0
+    method: str = EVOLUTION
+    starts: int = 3
+
+    @property
+    def rounds(self) -> int:
+        """In how many steps machines are judged: generations, starts, and one that finishes."""
+        if self.method == GRADIENT:
+            return self.starts
+        return self.generations + (self.method == BOTH)
+
+    @property
+    def machines(self) -> int:
+        """Machines that are judged in all, but for those on the way along gradients."""
+        return self.starts if self.method == GRADIENT else self.population * self.generations
+
+    @property
+    def words(self) -> str:
+        """The method in words."""
+        if self.method == GRADIENT:
+            return f"SLSQP with adjoint gradients from {self.starts} start{'s' * (self.starts > 1)}"
+        more = ", then SLSQP with adjoint gradients from each machine of the front"
+        return f"NSGA-II{more if self.method == BOTH else ''}"
+
+    @property
+    def settings(self) -> dict[str, Any]:
+        """What decides which machines are judged, as plain values, but for how many rounds."""
+        if self.method == GRADIENT:
+            return {"method": self.method, "starts": self.starts, "seed": self.seed}
+        evolution = {"population": self.population, "seed": self.seed}
+        if self.method == EVOLUTION:
+            return evolution
+        # the last round finishes what the others leave
+        return {"method": self.method, "generations": self.generations, **evolution}
 
     def __post_init__(self) -> None:
+        if self.method not in METHODS:
+            raise ModelError(
+                "search",
+                f'names the method "{self.method}", which is unknown.',
+                choices("Methods", self.method, METHODS),
+            )
+        if not 1 <= self.starts <= MOST_STARTS:
+            raise ModelError(
+                "search", f"has {self.starts} starts.", f"Give one at least, {MOST_STARTS} at most."
+            )
         if self.population < 4 or self.generations < 1:
             raise ModelError(
                 "search",

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.ground_vibration import GroundSpectrum
-from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics import DIRECTIONS, Joint
 from strutwork.machines.model import Model
 from strutwork.msa.structure import Structure
 from strutwork.names import choices
@@ -253,24 +253,33 @@ def with_servos(structure: Structure, drives: Sequence[DriveError]) -> Structure
         if drive.servo_stiffness is None:
             continue
         joint = linkage.joints[linkage.joint_index[drive.joint]]
-        if joint.matrix is not None:
+        if joint.matrix is not None and not joint.bearing:
             raise ModelError(
                 f"drive {name}",
                 "has a full matrix of stiffness, to which no servo is added.",
                 "Give the joint stiffness by direction.",
             )
-        own = joint.stiffness.get(drive.direction)
+        at = DIRECTIONS.index(drive.direction)
+        own = float(joint.stiffness_matrix[at, at]) or None
         k = drive.servo_stiffness
         soft.setdefault(drive.joint, {})[drive.direction] = (
             k if own is None else own * k / (own + k)
         )
     if not soft:
         return structure
-    joints = tuple(
-        replace(j, stiffness={**j.stiffness, **soft[j.name]}) if j.name in soft else j
-        for j in linkage.joints
-    )
+    joints = tuple(_with(j, soft[j.name]) if j.name in soft else j for j in linkage.joints)
     return replace(structure, linkage=replace(linkage, joints=joints))
+
+
+def _with(joint: Joint, stiffness: dict[str, float]) -> Joint:
+    """A joint with another stiffness in driven directions, in which its bearing does not resist."""
+    if joint.matrix is None:
+        return replace(joint, stiffness={**joint.stiffness, **stiffness})
+    matrix = joint.stiffness_matrix.copy()
+    for direction, value in stiffness.items():
+        at = DIRECTIONS.index(direction)
+        matrix[at, at] = value
+    return replace(joint, matrix=tuple(tuple(row) for row in matrix.tolist()))
 
 
 def unit_of(direction: str) -> str:

@@ -207,7 +207,8 @@ class KnownCauses:
         rows = []
         for m, d in enumerate(given):
             joint = structure.joints[structure.joint_index[d.joint]]
-            force = joint.stiffness[d.direction] * now[d.joint, d.direction]
+            at = DIRECTIONS.index(d.direction)
+            force = joint.stiffness_matrix[at, at] * now[d.joint, d.direction]
             part = f"servo of {d.joint}:{d.direction}"
             k = d.servo_stiffness or np.inf
             rows.append(ErrorRow("drives", part, matrix[:, m] * force / k, NONE))

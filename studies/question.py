@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
@@ -17,6 +17,7 @@ from strutwork.msa.mass import total_mass
 from strutwork.names import choices
 from strutwork.outcome import Outcome
 from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
+from strutwork.studies.amplification_answer import Amplification
 from strutwork.studies.answers import Answer, Assembly, Column, Stiffness, Vibration
 from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import ONE_PERCENT
@@ -105,13 +106,15 @@ class Fixed:
 
 @dataclass(frozen=True)
 class Mass:
-    """Mass of all that moves and is modelled.
+    """Mass of all that moves and is modelled, at home: beams may be as long as a slider is out.
 
     Parameters
     ----------
+    model : Model
     columns : tuple of Column
     """
 
+    model: Model = field(repr=False)
     columns: tuple[Column, ...] = (Column("mass", "kg", "mass of all parts", (), "largest"),)
 
     @property
@@ -121,7 +124,7 @@ class Mass:
 
     def __call__(self, placed: PlacedStructure) -> tuple[dict[str, Array], Outcome]:
         """Of a flat batch: the same at each pose."""
-        value = float(np.ravel(total_mass(placed[:1]))[0])
+        value = float(np.ravel(total_mass(self.model.placed))[0])
         poses = placed.batch
         return {"mass": np.full(poses, value)}, Outcome.good(poses)
 
@@ -153,7 +156,8 @@ QUESTIONS: Mapping[str, Callable[[Asked, Model], Answer]] = {
     "accuracy": _accuracy,
     "stability": lambda _, model: Stability.of(model),
     "transmission": lambda _, model: Transmission.of(model),
-    "mass": lambda _, __: Mass(),
+    "amplification": lambda _, model: Amplification.of(model),
+    "mass": lambda _, model: Mass(model),
 }
 
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.kinematics import DIRECTIONS, Placement
-from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.kinematics import DIRECTIONS, Placement, Poses
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
 from strutwork.studies.filters import PoseStatus
+from strutwork.studies.pose_sets import PoseList, PoseSet
 
 Array = NDArray[Any]
 
@@ -45,11 +45,11 @@ class Stand:
 
     Parameters
     ----------
-    grid : TaskGrid or None
+    grid : TaskGrid, TaskList, PoseList or None
         None: home alone.
     """
 
-    grid: TaskGrid | None
+    grid: PoseSet | None
     _kept: tuple[Any, Any, Standing] | None = field(default=None, init=False, repr=False)
 
     def __call__(self, model: Model) -> Standing:
@@ -77,6 +77,8 @@ class Stand:
         return {"grid": self.grid, "_kept": None}
 
     def _placed(self, model: Model) -> Standing:
+        if isinstance(self.grid, PoseList):
+            return _standing(_with_home(self.grid, model), len(self.grid.limits(model)))
         motion = model.motion
         axes = {} if self.grid is None else self.grid.task()
         names = tuple(axes) or tuple(motion.rest())
@@ -87,12 +89,26 @@ class Stand:
         home = dict(zip(DIRECTIONS, motion.task_of(motion.home_pose), strict=True))
         task = {d: np.append(axes.get(d, np.empty(0)), home[d]) for d in names}
         _, placement = moved(model, task)
-        ranged = np.asarray(placement.status) > len(placement.reasons) - len(model.limits)
-        status = np.where(
-            placement.reachable,
-            PoseStatus.GOOD,
-            np.where(ranged, PoseStatus.JOINT_RANGE, PoseStatus.UNREACHABLE),
-        ).astype(np.int8)
-        good = np.flatnonzero(placement.reachable)
-        words = tuple(placement.reason(i) for i in range(len(status)))
-        return Standing(placement[good], good, status, words)
+        return _standing(placement, len(model.limits))
+
+
+def _with_home(poses: PoseList, model: Model) -> Placement:
+    home = model.motion.home_pose
+    whole = Poses(
+        np.concatenate([poses.poses.position, home.position.reshape(1, 3)]),
+        np.concatenate([poses.poses.rotation, home.rotation.reshape(1, 3, 3)]),
+    )
+    return replace(poses, poses=whole).placement(model)
+
+
+def _standing(placement: Placement, limits: int) -> Standing:
+    """A placement whose last reasons are those of joint ranges."""
+    ranged = np.asarray(placement.status) > len(placement.reasons) - limits
+    status = np.where(
+        placement.reachable,
+        PoseStatus.GOOD,
+        np.where(ranged, PoseStatus.JOINT_RANGE, PoseStatus.UNREACHABLE),
+    ).astype(np.int8)
+    good = np.flatnonzero(placement.reachable)
+    words = tuple(placement.reason(i) for i in range(len(status)))
+    return Standing(placement[good], good, status, words)

@@ -17,7 +17,6 @@ import xarray as xr
 from strutwork.errors import ModelError
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
-from strutwork.machines.model_poses import moved
 from strutwork.names import choices
 from strutwork.source_digest import source_digest
 from strutwork.studies.chunks import Arrays
@@ -25,6 +24,13 @@ from strutwork.studies.description import plain, versions
 from strutwork.studies.executor import Executor
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
 from strutwork.studies.parametric import Parametric
+from strutwork.studies.pose_sets import (
+    PoseList,
+    PoseSet,
+    TaskList,
+    first_pose_can_be_asked,
+    settings_of,
+)
 from strutwork.studies.progress import Progress
 from strutwork.studies.question import Question, asked, completed
 from strutwork.studies.run import Chunk, Run, fill
@@ -42,7 +48,7 @@ CHUNK_POSES, CHUNK_MOST = 8192, 64
 MOST_REASONS, OTHER = 100, "another reason"
 
 #: Packages whose code decides a study's numbers; an edit elsewhere keeps finished parts.
-CODE = ("kinematics", "meshes", "msa", "fea", "overconstraint", "machines", "studies")
+CODE = ("kinematics", "meshes", "msa", "fea", "overconstraint", "flexures", "machines", "studies")
 
 
 @dataclass(frozen=True)
@@ -55,7 +61,7 @@ class Study:
     parameters : tuple of Parameter
     sample : Sample
     answers : tuple of Question
-    workspace : TaskGrid or None
+    workspace : TaskGrid, TaskList, PoseList or None
         Poses at which each machine is asked, besides its home; None: home alone.
     reductions : tuple of str
         What is kept of the poses: "worst", "best", "mean", "home", and "poses" for all of them.
@@ -71,7 +77,7 @@ class Study:
     parameters: tuple[Parameter, ...]
     sample: Sample
     answers: tuple[Question, ...]
-    workspace: TaskGrid | None = None
+    workspace: PoseSet | None = None
     reductions: tuple[str, ...] = ("worst", "mean", "home")
 
     def __post_init__(self) -> None:
@@ -88,8 +94,7 @@ class Study:
             raise ModelError("reductions", "are none.", 'Name one, as "worst".')
         _ = self.drawn
         model = self.machine.origin.model
-        if self.workspace is not None:
-            moved(model, {d: values[:1] for d, values in self.workspace.axes.items()})
+        first_pose_can_be_asked(model, self.workspace)
         for question in self.questions:
             question.of(model)
 
@@ -102,7 +107,7 @@ class Study:
         sample: str | Sample = "",
         count: int | None = None,
         seed: int = 0,
-        workspace: Mapping[str, Any] | TaskGrid | None = None,
+        workspace: Mapping[str, Any] | PoseSet | None = None,
         reductions: Sequence[str] = (),
     ) -> Study:
         """A study from names and plain values.
@@ -137,8 +142,8 @@ class Study:
         """
         found = Parametric.of(machine)
         if workspace is None:
-            grid = found.origin.model.workspace
-        elif isinstance(workspace, TaskGrid):
+            grid: PoseSet | None = found.origin.model.workspace
+        elif isinstance(workspace, TaskGrid | TaskList | PoseList):
             grid = workspace
         else:
             grid = _grid(workspace)
@@ -273,9 +278,7 @@ class Study:
                 **({"second_order": True} if self.sample.second_order else {}),
             },
             "answers": [q.name for q in self.questions],
-            "workspace": {}
-            if self.workspace is None
-            else {d: v.tolist() for d, v in self.workspace.axes.items()},
+            "workspace": settings_of(self.workspace),
             "reductions": list(self.reductions),
         }
 

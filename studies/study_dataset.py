@@ -17,6 +17,7 @@ from strutwork.studies.dataset_units import LabelledUnits, unit_coordinate
 from strutwork.studies.description import versions
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.parameter import Varied
+from strutwork.studies.pose_sets import PoseList
 from strutwork.studies.study_machines import Kept
 from strutwork.studies.variables import named
 
@@ -110,11 +111,12 @@ def _meaning(kept: Kept) -> str:
 
 def _poses(study: Study, made: dict[str, xr.Variable]) -> dict[str, xr.Variable]:
     """Where the poses stand, of those that variables name by number."""
-    if study.workspace is None or not any(
-        "pose" in v.dims or name.endswith("_pose") for name, v in made.items()
-    ):
+    workspace = study.workspace
+    if workspace is None or isinstance(workspace, PoseList):
         return {}
-    task = study.workspace.task()
+    if not any("pose" in v.dims or name.endswith("_pose") for name, v in made.items()):
+        return {}
+    task = workspace.task()
     found = {}
     for direction, values in task.items():
         unit = "rad" if direction in DIRECTIONS[3:] else "m"

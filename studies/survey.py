@@ -37,7 +37,10 @@ Array = NDArray[Any]
 CHUNK = 256
 
 #: Packages whose code decides a survey's numbers.
-_CODE = ("kinematics", "meshes", "msa", "fea", "overconstraint", "machines", "cutting", "studies")
+_CODE = (
+    *("kinematics", "meshes", "msa", "fea", "overconstraint", "flexures", "machines", "cutting"),
+    "studies",
+)
 
 
 def survey(

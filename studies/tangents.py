@@ -89,7 +89,11 @@ class Tangents:
             below.append(replace(low, limits=()))
         return cls(model, tuple(kept), tuple(changes), tuple(above), tuple(below), refused)
 
-    def at(self, task: Mapping[str, ArrayLike] | None = None) -> PlacedTangents:
+    def at(
+        self,
+        task: Mapping[str, ArrayLike] | None = None,
+        placement_of: Callable[[Model], Placement] | None = None,
+    ) -> PlacedTangents:
         """The machine and its changes at a batch of poses, the tool held where the task says.
 
         Parameters
@@ -97,6 +101,8 @@ class Tangents:
         task : mapping of direction to (p,), optional
             Of the tool, m and rad; what is not named stays as at home, where it can. None: the
             machine as it is described.
+        placement_of : callable, optional
+            Places a machine, p poses, in place of a task.
 
         Raises
         ------
@@ -105,9 +111,13 @@ class Tangents:
         UnreachableError
             A pose that the machine cannot take.
         """
-        if not task:
-            base, tool = self.model.placement.flat(), None
-            asked, held, found = {}, [], None
+        asked: dict[str, Array] = {}
+        held: list[str] = []
+        found, tool = None, None
+        if placement_of is not None:
+            base = placement_of(self.model).require_reachable()
+        elif not task:
+            base = self.model.placement.flat()
         else:
             asked = {d: np.atleast_1d(np.asarray(v, dtype=float)) for d, v in task.items()}
             found, base = moved(self.model, asked)
@@ -123,7 +133,9 @@ class Tangents:
                 continue
             sides = []
             for model in (high, low):
-                if not task:
+                if placement_of is not None:
+                    placement = placement_of(model)
+                elif not task:
                     placement = model.placement.flat()
                 elif model.closed_form is not None and tool is not None:
                     placement = model.closed_form(tool)

@@ -30,10 +30,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
-from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.parameter import Parameter, Varied
 from strutwork.studies.parametric import Parametric
+from strutwork.studies.pose_sets import PoseSet
 from strutwork.studies.question import Question
 from strutwork.studies.run import Run, fill
 from strutwork.studies.standing import Stand
@@ -67,7 +67,7 @@ class Variants:
         machine: object,
         paths: Sequence[str | Parameter],
         *answers: object,
-        workspace: Mapping[str, Any] | TaskGrid | None = None,
+        workspace: Mapping[str, Any] | PoseSet | None = None,
         reductions: Sequence[str] = ("worst",),
     ) -> Variants:
         """Variants of a machine.
@@ -95,7 +95,7 @@ class Variants:
             # the value that the machine states is one that it can have
             asked.append(Parameter(path, values=(found.matching(path)[0].value,)))
         kept = tuple(reductions)
-        home = workspace is not None and not isinstance(workspace, TaskGrid) and not workspace
+        home = isinstance(workspace, Mapping) and not workspace
         study = Study.of(
             found, asked, *answers, workspace=workspace, reductions=("home",) if home else kept
         )

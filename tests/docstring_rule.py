@@ -21,11 +21,13 @@ ROOT = Path(__file__).parents[1]
 #: Held to the rule. Of `strutwork` only the modules of the ground floor: the rest are links.
 PACKAGES = (
     "strutwork",
+    "contact",
     "kinematics",
     "meshes",
     "msa",
     "fea",
     "overconstraint",
+    "flexures",
     "machines",
     "cutting",
     "studies",

@@ -10,6 +10,7 @@ import numpy as np
 
 from strutwork.machines.extent import model_size
 from strutwork.reports.alike import label, pattern
+from strutwork.reports.chapters.model_flexures import flexure_tables
 from strutwork.reports.content import Block, Chapter, Column, Details, Figure, Note, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file
 from strutwork.reports.figures.model import deformed_shape, deformed_view
@@ -102,7 +103,7 @@ def forces_chapter(solution: ModelSolution) -> Chapter:
                 largest.setdefault((what, pattern(stem)), []).append((force, moment, part, name))
         if tables:
             folded.append(Details(f"Forces on every part, case “{name}”", tuple(tables)))
-    blocks += [*_largest(largest), *folded]
+    blocks += [*_largest(largest), *flexure_tables(solution), *folded]
     columns = ("case", "kind", "part", *(f"{f}_{u}".replace("·", "") for f, u in _FORCE))
     file: DataFile = csv_file("forces.csv", "forces in joints, springs and beams", columns, rows)
     return Chapter("forces", "Forces in joints and beams", tuple(blocks), (file,))

@@ -34,6 +34,7 @@ _HERE = "strutwork.reports.cli"
 COMMANDS = {
     "machines": f"{_HERE}.app:machines",
     "check": f"{_HERE}.app:check",
+    "bearings": f"{_HERE}.bearings_command:bearings",
     "solve": f"{_HERE}.app:solve",
     "map": f"{_HERE}.map_command:map_command",
     "modes": f"{_HERE}.app:modes",

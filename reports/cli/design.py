@@ -12,8 +12,14 @@ from strutwork.names import visible
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table, tell
 from strutwork.reports.cli.progress import shown
-from strutwork.reports.design_words import comparison, extremes, on_front, unit_of
-from strutwork.reports.numbers import count as counted
+from strutwork.reports.design_words import (
+    comparison,
+    extremes,
+    on_front,
+    rounds_words,
+    starts_words,
+    unit_of,
+)
 from strutwork.reports.study_words import title_of
 from strutwork.studies.design import Design
 from strutwork.studies.design_file import read_design
@@ -21,6 +27,7 @@ from strutwork.studies.design_pick import write_machine
 from strutwork.studies.design_search import pymoo
 from strutwork.studies.design_store import parts_of, read_design_result, run_design
 from strutwork.studies.design_table import design_parameters, design_quantities, reasons_of
+from strutwork.studies.design_terms import GRADIENT
 
 #: Machines of the front that a terminal shows.
 ROWS = 12
@@ -39,7 +46,8 @@ def run(
     # before any work
     pymoo("core.problem")
     design = read_design(file)
-    with shown("machines") as started:
+    along = design.search.method == GRADIENT
+    with shown("starts" if along else "machines") as started:
         progress = started(f"design of {visible(design.machine.source or design.machine.title)}")
         found = _searched(
             design,
@@ -72,11 +80,12 @@ def pick(file: str, number: int, out: str, *, json: bool) -> None:
 
 
 def _told(design: Design) -> Any:
-    total = design.search.generations
+    total = design.search.rounds
+    word = "start" if design.search.method == GRADIENT else "generation"
 
     def say(number: int, feasible: int, front: int) -> None:
         words = f"{feasible} feasible so far, {front} on the front"
-        tell(f"generation {number} of {total}: {words}")
+        tell(f"{word} {number} of {total}: {words}")
 
     return say
 
@@ -102,6 +111,7 @@ def _result(file: str, found: xr.Dataset) -> dict[str, Any]:
         "units": {c.name: c.unit for c in columns},
         "stated": {c.name: float(found[c.name].attrs["stated"]) for c in columns},
         "front": [{c.name: float(c.values[i]) for c in columns} for i in front],
+        "method": str(found.attrs.get("method", "")),
         "design_key": str(found.attrs["design_key"]),
         "data": [],
     }
@@ -110,13 +120,11 @@ def _result(file: str, found: xr.Dataset) -> dict[str, Any]:
 def _print(found: xr.Dataset, result: dict[str, Any]) -> None:
     out = console()
     out.print(visible(result["title"][0].upper() + result["title"][1:]), markup=False, style="bold")
-    generations = counted(int(found.attrs["generations"]), "generation")
-    out.print(
-        f"{counted(result['machines'], 'machine')} in {generations}; {result['feasible']} feasible",
-        markup=False,
-    )
+    out.print(f"{rounds_words(found)}; {result['feasible']} feasible", markup=False, soft_wrap=True)
     for reason, count in result["dropped_by_reason"].items():
         out.print(f"  {count}: {visible(reason)}", markup=False, soft_wrap=True)
+    if starts_words(found):
+        out.print(visible(starts_words(found)), markup=False, soft_wrap=True)
     columns = [*design_quantities(found), *design_parameters(found)]
     units = [unit_of(c, found) for c in columns]
     values = [on_front(c, found).values for c in columns]

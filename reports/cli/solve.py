@@ -11,8 +11,10 @@ from rich.console import Console
 
 from strutwork.machines.model import Model
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
+from strutwork.reports.cli.flexures import print_flexure_uses, print_flexures
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, print_table, show, table
+from strutwork.reports.flexure_use import flexure_uses
 from strutwork.reports.model_solution import ModelSolution, solve_model
 from strutwork.reports.solution_tables import FORCE_TABLES, shown_energy, shown_tables
 
@@ -45,6 +47,12 @@ def _print(found: ModelSolution) -> None:
         _six(out, "Displacements", "node", _MOVED, moved, kept=found.model.tool)
         for title, what, key in FORCE_TABLES:
             _six(out, title, what, _FORCE, tables[key])
+        print_flexure_uses(out, flexure_uses(found.model, found.statics, number))
+        if found.equilibria:
+            from strutwork.reports.cli.bearings import print_states
+
+            print_states(out, found, number)
+    print_flexures(out, found.model.flexures)
     if found.compliance is not None:
         _print_tool(out, found, found.compliance)
 
@@ -88,6 +96,8 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
         rows.append((axis, unit, *(float(v[i]) * scale for v in (free, blocked))))
     title = f"Stiffness at the tool {found.model.tool}{found.model.relative}"
+    if found.equilibria:
+        title += ", at preload"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))
     if not np.isfinite(free[:3]).any():
         return

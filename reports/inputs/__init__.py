@@ -1,6 +1,8 @@
 """What a model was given, in tables, and what it left out, in sentences."""
 
+from strutwork.reports.inputs.bearings import bearings
 from strutwork.reports.inputs.echo import Echo
+from strutwork.reports.inputs.flexures import flexures
 from strutwork.reports.inputs.joints import drives, joints, springs
 from strutwork.reports.inputs.loads import acting
 from strutwork.reports.inputs.masses import masses, solids
@@ -13,7 +15,9 @@ __all__ = [
     "acting",
     "assumed",
     "beams",
+    "bearings",
     "drives",
+    "flexures",
     "force_limits",
     "joints",
     "masses",

@@ -26,6 +26,8 @@ def used_materials(model: Model) -> dict[str, Material]:
 def materials(model: Model) -> Echo:
     """Elasticity, density and damping of every material that a part is made of."""
     found = used_materials(model)
+    # of flexures neither density nor loss factor count, so other chapters need not know these
+    found |= {f.material.name: f.material for f in model.flexures.values()}
     columns = (
         Column("material", "", False),
         Column("Young's modulus", "GPa"),

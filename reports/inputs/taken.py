@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from strutwork.kinematics.joint import State
+from strutwork.kinematics.joint import DIRECTIONS, State
 from strutwork.machines.model import Model
 from strutwork.names import listed
 from strutwork.overconstraint.tolerance import TILTS
@@ -58,14 +58,20 @@ def _joints(model: Model) -> Iterator[str]:
     held = [j.name for j in own if State.LOCKED in j.states and not j.driven]
     if held:
         yield f"{_some(held)}: held directions without a given stiffness are rigid."
-    stiff = [j.name for j in own if any(d not in j.stiffness for d in j.driven)]
+    stiff = [
+        j.name for j in own if any(j.states[DIRECTIONS.index(d)] == State.LOCKED for d in j.driven)
+    ]
     if stiff:
         verb = "holds its" if len(stiff) == 1 else "hold their"
         yield f"{_some(stiff)} {verb} driven direction rigidly: no stiffness of the drive is given."
+    if any(entry.geometry is not None for entry in model.bearings.values()):
+        yield "Bearings have the stiffness at their preload; in load cases it follows the load."
     if model.supports:
         yield "Supports are rigid."
     if own:
         yield "Joints have no mass and no size of their own."
+    if model.flexures:
+        yield "Flexures have the stiffness that they have without load, and no mass or damping."
 
 
 def _heavy(model: Model) -> Iterator[str]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from strutwork.fea import uff_read
-from strutwork.machines import model_file, model_solid_mesh
+from strutwork.machines import model_file, part_files
 from tests.cli.conftest import Program
 
 SOLID = """
@@ -82,7 +82,7 @@ def test_a_solid_lies_in_the_folder_of_its_model_file(
 def test_a_solid_that_is_huge_is_refused_by_its_size(strutwork: Program, tmp_path: Path) -> None:
     with (tmp_path / "part.vtu").open("wb") as file:
         # holes take no disk
-        file.truncate(model_solid_mesh.MAX_PART + 1_000_000)
+        file.truncate(part_files.MAX_PART + 1_000_000)
     run = strutwork("check", solid_file(tmp_path, "mesh", "part.vtu"))
     assert run.status == 1
     assert "501 MB" in run.err

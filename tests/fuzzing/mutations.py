@@ -57,6 +57,7 @@ def seeds() -> dict[str, str]:
     """The files that are mutated, by name."""
     folders = (
         "examples",
+        "examples/bearings",
         "examples/machines",
         "tests/cases/models",
         "tests/cases/robustness",

@@ -172,7 +172,7 @@ def tiny(folder: Path) -> Path:
 
 def _without_code(_: str, names: list[str]) -> list[str]:
     rooms = {package.rpartition(".")[2] for package in jit_cache.PACKAGES[1:]}
-    others = {"cutting", "machines", "overconstraint", "reports", "studies"}
+    others = {"cutting", "flexures", "machines", "overconstraint", "reports", "studies"}
     return [name for name in names if name in rooms | others | {"__pycache__"}]
 
 

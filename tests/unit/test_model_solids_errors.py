@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from strutwork.errors import ModelError, StrutworkError
-from strutwork.machines import model_solid_mesh
+from strutwork.machines import part_files
 from strutwork.meshes import (
     block,
     write_mesh,
@@ -183,7 +183,7 @@ def test_what_is_wrong_is_named_by_its_field(what: str, parts: Path) -> None:
 
 def test_parts_have_a_largest_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     write_mesh(brick(), tmp_path / "part.msh")
-    monkeypatch.setattr(model_solid_mesh, "MAX_PART", 1000)
+    monkeypatch.setattr(part_files, "MAX_PART", 1000)
     with pytest.raises(ModelError, match=r"solids\.column\.mesh: .* MB, more than"):
         model_of(from_file("part.msh"), folder=tmp_path)
 

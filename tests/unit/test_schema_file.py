@@ -13,6 +13,8 @@ from jsonschema import Draft7Validator
 from pydantic import BaseModel
 
 from strutwork.machines import (
+    model_bearing_schema,
+    model_flexure_schema,
     model_motion_schema,
     model_process_schema,
     model_schema,
@@ -124,7 +126,13 @@ def test_what_no_direction_is_is_refused(fixed: object, validator: Draft7Validat
 def test_every_key_has_a_description_and_every_description_a_key() -> None:
     tables = {
         value.__name__: {field.alias or name for name, field in value.model_fields.items()}
-        for module in (model_schema, model_motion_schema, model_process_schema, model_solid_schema)
+        for module in (
+            model_schema,
+            *(model_schema, model_bearing_schema, model_flexure_schema),
+            model_motion_schema,
+            model_process_schema,
+            model_solid_schema,
+        )
         for value in vars(module).values()
         if isinstance(value, type) and issubclass(value, BaseModel) and value.model_fields
     }

@@ -1,0 +1,390 @@
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import root
+
+from strutwork.errors import ContactError, ModelError, UnitError
+from strutwork.fea import modes
+from strutwork.kinematics.joint import State
+from strutwork.machines.bearing_catalogue import package_catalogue, read_catalogue
+from strutwork.machines.bearing_equilibrium import equilibrium
+from strutwork.machines.model import Model
+from strutwork.machines.model_file import parse_model
+from strutwork.msa import tool_compliance
+from strutwork.msa.assembly import system_of
+from strutwork.msa.program_builder import compile_program
+from strutwork.reports.model_solution import solve_model
+from strutwork.studies.error_inputs import DriveError, with_servos
+
+Array = NDArray[Any]
+
+BALLS = """
+[bearings.front]
+type = "angular_contact"
+source = "made up"
+balls = 15
+ball_diameter = "6.35 mm"
+pitch_diameter = "36 mm"
+contact_angle = "25 deg"
+inner_groove = 0.52
+outer_groove = 0.53
+arrangement = "back_to_back"
+spacing = "12 mm"
+preload = "150 N"
+"""
+
+ROLLERS = """
+[bearings.rear]
+type = "cylindrical_rollers"
+source = "made up"
+rollers = 16
+length = "6 mm"
+clearance = "-6 um"
+"""
+
+#: A rigid shaft in a pair of ball bearings and a roller bearing, and a mass.
+SHAFT = """
+title = "Shaft"
+preload = "cut"
+
+[nodes]
+seat = [0, 0, 0]
+front = [0, 0, 0]
+back = [0, 0, "-120 mm"]
+rear = [0, 0, "-120 mm"]
+nose = [0, 0, "60 mm"]
+
+[[supports]]
+node = "seat"
+fixed = "all"
+
+[[supports]]
+node = "back"
+fixed = "all"
+
+[[bodies]]
+name = "shaft"
+nodes = ["front", "rear", "nose"]
+mass = "3 kg"
+center_of_mass = [0, 0, "-30 mm"]
+inertia = [[0.01, 0, 0], [0, 0.01, 0], [0, 0, 0.001]]
+
+[[joints]]
+name = "balls"
+type = "revolute"
+between = ["seat", "front"]
+bearing = "front"
+driven = ["rz"]
+
+[[joints]]
+name = "rollers"
+type = "cylindrical"
+between = ["back", "rear"]
+bearing = "rear"
+
+[[loads]]
+case = "cut"
+node = "nose"
+force = ["90 N", "20 N", "-100 N"]
+
+[[loads]]
+case = "push"
+node = "nose"
+force = [0, 0, "-300 N"]
+
+[[loads]]
+case = "too much"
+node = "nose"
+force = [0, 0, "-600 N"]
+
+[tool]
+tcp = "nose"
+"""
+
+
+def shaft(*edits: tuple[str, str], folder: Path | None = None) -> Model:
+    text = SHAFT + BALLS + ROLLERS
+    for old, new in edits:
+        assert old in text
+        text = text.replace(old, new, 1)
+    return parse_model(text, folder=folder)
+
+
+def test_a_joint_has_the_stiffness_of_its_bearing_at_preload() -> None:
+    model = shaft()
+    joints = {j.name: j for j in model.structure.linkage.joints}
+    free = {State.FREE, State.LOCKED}
+    assert [s not in free for s in joints["balls"].states] == [True] * 5 + [False]
+    held = [True, True, False, True, True, False]
+    assert [s not in free for s in joints["rollers"].states] == held
+    for name, joint in joints.items():
+        if name in model.bearings:
+            np.testing.assert_array_equal(joint.stiffness_matrix, model.bearings[name].stiffness)
+    # the rest of the program takes it as any elastic joint
+    by_way = [tool_compliance(model.placed, m) for m in ("saddle_point", "null_space")]
+    np.testing.assert_allclose(by_way[0], by_way[1], rtol=1e-9, atol=1e-18)
+
+
+def test_equilibrium_of_two_bearings_against_a_direct_solution() -> None:
+    """The five equations of a rigid shaft, solved by MINPACK on the contacts alone."""
+    model = shaft()
+    found = equilibrium(model, model.case("cut"))
+    front, rear = (model.bearings[j].bearing for j in ("balls", "rollers"))
+    assert front is not None
+    assert rear is not None
+    force = np.array([90.0, 20.0, -100.0])
+    load = np.concatenate([force, np.cross([0.0, 0.0, 0.06], force)])
+    arm = np.array([0.0, 0.0, -0.12])
+
+    def left(u: Array) -> Array:
+        q = np.array([*u, 0.0]) * 1e-6 * np.array([1, 1, 1, 10, 10, 10])
+        behind = np.concatenate([q[:3] + np.cross(q[3:], arm), q[3:]])
+        there = rear.loads(behind)
+        there[3:] += np.cross(arm, there[:3])
+        return np.asarray(front.loads(q) + there - load)[:5]
+
+    direct = root(left, np.zeros(5), tol=1e-13, method="hybr").x * 1e-6
+    expected = np.array([*direct[:3], *(10 * direct[3:]), 0.0])
+    state = found.states[0]
+    np.testing.assert_allclose(state.displacement, expected, rtol=1e-6, atol=1e-13)
+    for one in found.states:
+        np.testing.assert_allclose(one.secant @ one.displacement, one.load, rtol=1e-7, atol=1e-7)
+    # the joint's force in the solution is the bearing's
+    index = model.structure.linkage.joint_index["balls"]
+    np.testing.assert_allclose(
+        found.solution.joint_forces[index, :5, 0], -state.load[:5], rtol=1e-6, atol=1e-6
+    )
+
+
+def test_the_tangent_at_the_load_is_the_slope_of_the_displacement() -> None:
+    model = shaft()
+    case = model.case("cut")
+    slope = tool_compliance(equilibrium(model, case).tangent)[0, 0]
+    step = 1e-3
+
+    def moved(more: float) -> float:
+        node, wrench = case.wrenches[0]
+        loads = ((node, (wrench[0] + more, *wrench[1:])),)
+        solved = equilibrium(model, type(case)(case.name, loads)).solution
+        return float(solved.displacement("nose", case.name)[0])
+
+    assert (moved(step) - moved(-step)) / (2 * step) == pytest.approx(slope, rel=1e-4)
+    at_preload = tool_compliance(model.placed)[0, 0]
+    assert abs(slope / at_preload - 1.0) > 1e-3
+
+
+def test_the_compiled_kernel_leaves_coupled_stiffnesses_to_the_other_solvers() -> None:
+    """It has one stiffness for each coordinate; a bearing that is tilted couples two."""
+    model = parse_model(
+        """
+[nodes]
+seat = [0, 0, 0]
+shaft = [0, 0, 0]
+nose = [0, 0, 0.1]
+[[supports]]
+node = "seat"
+fixed = "all"
+[[bodies]]
+name = "shaft"
+nodes = ["shaft", "nose"]
+[[joints]]
+name = "rollers"
+type = "revolute"
+between = ["seat", "shaft"]
+bearing = "roller-row-6"
+driven = ["rz"]
+[[loads]]
+node = "nose"
+force = ["200 N", "30 N", 0]
+[tool]
+tcp = "nose"
+"""
+    )
+    loaded = equilibrium(model, model.cases[0]).tangent
+    assert compile_program(system_of(model.placed)) is not None
+    assert compile_program(system_of(loaded)) is None
+
+
+def test_energy_is_the_work_of_the_load() -> None:
+    model = shaft()
+    case = model.case("push")
+    nodes, weights = np.polynomial.legendre.leggauss(3)
+    work = 0.0
+    for x, w in zip(0.5 * (1 + nodes), 0.5 * weights, strict=True):
+        # ∫ u dF along a growing load is the complementary energy: F u − E
+        part = type(case)(case.name, (("nose", (0.0, 0.0, -300.0 * x, 0.0, 0.0, 0.0)),))
+        u = equilibrium(model, part).solution.displacement("nose", case.name)[2]
+        work += w * -300.0 * float(u)
+    solution = equilibrium(model, case).solution
+    u = float(solution.displacement("nose", case.name)[2])
+    assert solution.strain_energy[0] == pytest.approx(-300.0 * u - work, rel=1e-4)
+
+
+@pytest.mark.filterwarnings("ignore:tool. does not move:strutwork.errors.ModelWarning")
+def test_solve_states_secant_tangent_and_the_tool_under_load() -> None:
+    model = shaft(
+        ('node = "nose"\nforce = [0, 0, "-600 N"]', 'node = "nose"\nforce = [0, 0, "9 N"]')
+    )
+    answer = solve_model(model).to_dict()
+    cut = answer["cases"]["cut"]
+    assert set(cut["bearings"]) == {"balls", "rollers"}
+    assert 3 <= cut["bearing_steps"] <= 60
+    assert cut["bearings"]["balls"]["entry"] == "front"
+    exact = tool_compliance(equilibrium(model, model.case("cut")).tangent)
+    np.testing.assert_allclose(cut["tcp"]["compliance"], exact, rtol=1e-12)
+    np.testing.assert_allclose(
+        answer["tcp"]["compliance"], tool_compliance(model.placed), rtol=1e-9
+    )
+
+
+def test_vibration_takes_the_tangent_at_the_load_of_the_preload() -> None:
+    model = shaft()
+    tangent = equilibrium(model, model.case("cut")).tangent
+    bare = modes(tangent, 5).frequencies
+    # the geometric stiffness of 100 N is small beside the bearings'
+    np.testing.assert_allclose(modes(model.vibrating, 5).frequencies, bare, rtol=1e-4)
+    assert np.abs(modes(model.placed, 5).frequencies / bare - 1.0).max() > 2e-3
+
+
+def test_lost_preload_names_bearing_load_and_remedy() -> None:
+    model = shaft()
+    with pytest.raises(ContactError) as caught:
+        equilibrium(model, model.case("too much"))
+    words = str(caught.value)
+    for part in (
+        "bearing front of the joint balls",
+        "too much",
+        "600 N along it",
+        "opens at 4",
+        "150 N",
+    ):
+        assert part in words
+    assert "give the entry more" in words
+    big = shaft(
+        ('node = "nose"\nforce = [0, 0, "-600 N"]', 'node = "rear"\nforce = ["9 kN", 0, 0]'),
+        ('"150 N"', '"30 kN"'),
+    )
+    with pytest.raises(ContactError, match="one side"):
+        equilibrium(big, big.case("too much"))
+
+
+def test_a_given_stiffness_and_its_opening() -> None:
+    guide = """
+[bearings.front]
+type = "stiffness"
+source = "made up"
+stiffness = { x = "100 N/um", y = "100 N/um", z = "200 N/um", rx = 1e5, ry = 1e5 }
+opens_at = { z = "500 N" }
+"""
+    model = parse_model(SHAFT + guide + ROLLERS)
+    z = equilibrium(model, model.case("push")).solution.displacement("nose", "push")[2]
+    assert z == pytest.approx(-300.0 / 200e6, rel=1e-9)
+    with pytest.raises(ContactError, match=r"bears 600 N in z, and its contact opens at 500 N"):
+        equilibrium(model, model.case("too much"))
+
+
+def test_a_drive_beside_a_guide_keeps_its_stiffness() -> None:
+    text = """
+[nodes]
+rail = [0, 0, 0]
+table = [0, 0, 0]
+[[supports]]
+node = "rail"
+fixed = "all"
+[[joints]]
+name = "guide"
+type = "prismatic"
+between = ["rail", "table"]
+bearing = "rail-contacts"
+driven = ["z"]
+stiffness = { z = "50 N/um" }
+[[loads]]
+node = "table"
+force = [0, "-300 N", "100 N"]
+[tool]
+tcp = "table"
+"""
+    model = parse_model(text)
+    found = equilibrium(model, model.cases[0])
+    moved = found.solution.displacement("table", "load")
+    assert moved[2] == pytest.approx(100.0 / 50e6, rel=1e-9)
+    contacts = model.bearings["guide"].bearing
+    assert contacts is not None
+    servo = with_servos(model.structure, [DriveError("guide", "z", servo_stiffness=150e6)])
+    soft = servo.linkage.joints[0].stiffness_matrix
+    assert soft[2, 2] == pytest.approx(37.5e6)
+    assert soft[1, 1] == contacts.tangent()[1, 1]
+    assert contacts.loads(found.states[0].displacement)[1] == pytest.approx(-300.0, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        (
+            'source = "made up"\nballs',
+            'source = " "\nballs',
+            r"bearings\.front\.source: is missing",
+        ),
+        ('source = "made up"\nballs', "balls", r"source = \"data sheet"),
+        (
+            'type = "angular_contact"',
+            'type = "angular"',
+            r"bearings\.front\.type: .angular. is not known",
+        ),
+        ('type = "angular_contact"\n', "", r"bearings\.front\.type: is missing"),
+        (
+            'ball_diameter = "6.35 mm"',
+            'ball_diameter = "6.35 N"',
+            r"bearings\.front\.ball_diameter",
+        ),
+        ("inner_groove = 0.52", "inner_groove = 0.4", r"inner_groove: 0\.4 is out of range"),
+        ('bearing = "rear"', 'bearing = "reer"', r"names the unknown bearing .reer"),
+        ('type = "cylindrical"', 'type = "planar"', "fits joints of the type fixed or revolute"),
+        ('type = "revolute"', 'type = "spherical"', "free in rx, ry"),
+        ('driven = ["rz"]', 'driven = ["z"]', "drives z, where its bearing front resists"),
+        ('driven = ["rz"]', "stiffness = { x = 1e8 }", "has a stiffness in x beside"),
+        (
+            'clearance = "-6 um"',
+            'clearance = "6 um"',
+            "no contact without load.*\n.*negative clearance",
+        ),
+        ('arrangement = "back_to_back"', 'arrangement = "single"', "bearing front: is single"),
+        ('preload = "150 N"', "", "bearing front: has no contact without load"),
+        ('spacing = "12 mm"', "space = 1", r"bearings\.front\.space: is not a known key"),
+    ],
+)
+def test_wrong_entries(old: str, new: str, words: str) -> None:
+    with pytest.raises(ModelError, match=words):
+        shaft((old, new))
+
+
+def test_a_unit_of_another_dimension_is_a_unit_error() -> None:
+    with pytest.raises(UnitError, match=r"bearings\.front\.preload"):
+        shaft(('preload = "150 N"', 'preload = "150 mm"'))
+
+
+def test_a_catalogue_beside_the_model(tmp_path: Path) -> None:
+    (tmp_path / "own.toml").write_text(BALLS + ROLLERS)
+    model = parse_model('catalogue = "own.toml"\n' + SHAFT, folder=tmp_path)
+    assert model.bearings["balls"].origin == "own.toml"
+    # the model's own entry goes first
+    other = BALLS.replace('"150 N"', '"300 N"')
+    model = parse_model('catalogue = "own.toml"\n' + SHAFT + other, folder=tmp_path)
+    assert model.bearings["balls"].origin == "the model file"
+    assert model.bearings["balls"].preload == "300 N"
+    with pytest.raises(ModelError, match="leads out of the folder"):
+        parse_model('catalogue = "../own.toml"\n' + SHAFT, folder=tmp_path)
+    (tmp_path / "own.toml").write_text(BALLS.replace('source = "made up"\n', ""))
+    with pytest.raises(ModelError, match=r"bearings\.front\.source: is missing"):
+        read_catalogue(tmp_path / "own.toml")
+
+
+def test_every_entry_of_the_package_has_a_source_and_a_stiffness() -> None:
+    for name, entry in package_catalogue().items():
+        assert len(entry.source) > 20, name
+        assert all(entry.stiffness[i, i] > 0 for i, d in enumerate("xyz") if d in entry.held)
