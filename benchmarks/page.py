@@ -113,7 +113,8 @@ PARTS = (
         "Variants",
         "performance-variants.md",
         "each machine by itself",
-        "The frequency, which is computed machine by machine, mostly in Python.",
+        "Python, which makes each machine from its numbers and which one thread at a time can run; "
+        "then the compiled elimination, and dense matrices of the modes.",
     ),
     Part(
         "solid_speed",

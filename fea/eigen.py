@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -167,13 +167,8 @@ def _one_by_one(reduced: Reduced) -> Eigen:
     rigid = np.zeros((poses, size, most))
     for count in np.unique(reduced.rigid_count):
         chosen = np.flatnonzero(reduced.rigid_count == count)
-        part = Reduced(
-            type(reduced.system)(reduced.system.placed[chosen], reduced.system.topology),
-            reduced.basis[chosen],
-            reduced.stiffness[chosen],
-            reduced.mass[chosen],
-            _compressed(reduced.rigid[chosen], int(count)),
-        )
+        part = reduced.at_poses(chosen)
+        part = replace(part, rigid=_compressed(part.rigid, int(count)))
         found = solve_eigen(part)
         m = found.square.shape[1]
         vectors[chosen, :, :m] = found.flexibility

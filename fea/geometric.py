@@ -108,8 +108,8 @@ def pulled(placed: PlacedStructure, axial: Array) -> PlacedStructure:
     length, _ = system.placed.beam_geometry
     beam = structure.segments[:, 0]
     pieces = np.array([b.elements for b in structure.beams], dtype=float)
-    properties = np.array([b.properties for b in structure.beams]).reshape(-1, 6).T
-    local = local_geometric_stiffness((length / pieces)[:, beam], properties[:, beam])
+    properties = np.moveaxis(placed.numbers.stiffness, -1, 0)
+    local = local_geometric_stiffness((length / pieces)[:, beam], properties[..., beam])
     parts = segment_parts(system, local * flat[..., None, None])
     shaped = tuple((n, at, m.reshape((*placed.batch, 12, 12))) for n, at, m in parts)
     return replace(placed, stiffening=Stiffening("axial forces", shaped))

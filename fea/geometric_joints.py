@@ -91,15 +91,15 @@ def spring_parts(system: System, displacements: Array) -> Iterator[Part]:
         Of the mesh nodes, m and rad.
     """
     structure = system.placed.structure
-    for spring in structure.springs:
+    for s, spring in enumerate(structure.springs):
         if len(spring.nodes) == 1:
             continue
         nodes = np.array([structure.mesh_index[n] for n in spring.nodes])
         first, second = nodes
-        k = spring.diagonal
+        k = system.placed.numbers.springs[..., s, :]
         axes = system.placed.spring_axes(spring)
         moved = displacements[:, second] - displacements[:, first]
-        pull = np.einsum("...ij,j,...kj,...k->...i", axes, k, axes, moved)
+        pull = np.einsum("...ij,...j,...kj,...k->...i", axes, k, axes, moved)
         span = system.placed.positions[:, second] - system.placed.positions[:, first]
         length = np.linalg.norm(span, axis=-1)[:, None]
         apart = length > 0

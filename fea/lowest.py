@@ -20,15 +20,18 @@ Array = NDArray[Any]
 #: Residual, as a share of the largest eigenvalue, at which the subspace has converged.
 CONVERGED = 1e-12
 
-#: Rounds of subspace iteration before a stack is solved whole.
+#: Rounds of subspace iteration before a pose is solved whole.
 ROUNDS = 8
+
+#: Vectors of a subspace at least: the lowest modes of a machine with six legs are close.
+VECTORS = 16
 
 
 def natural_frequencies(placed: PlacedStructure, count: int = 10) -> tuple[Array, Array]:
     """Lowest frequencies and mode shapes in independent coordinates, nothing more.
 
-    Subspace iteration with the fourth power of L⁻¹ M L⁻ᵀ (K = L Lᵀ), checked by its residual;
-    a stack with a pose that does not converge, that floats or is small is solved whole.
+    Subspace iteration with the fourth power of L⁻¹ M L⁻ᵀ (K = L Lᵀ), checked by its residual at
+    every pose; those that do not converge, and a stack that floats or is small, are solved whole.
 
     Parameters
     ----------
@@ -66,7 +69,7 @@ def natural_frequencies(placed: PlacedStructure, count: int = 10) -> tuple[Array
 
 
 def _lowest(reduced: Reduced, count: int) -> tuple[Array, Array]:
-    block = 2 * count + 4
+    block = max(2 * count + 4, VECTORS)
     small = reduced.size < 3 * block
     found = None if small or reduced.rigid.shape[-1] else _subspace(reduced, count, block)
     return lowest(solve_eigen(reduced), count) if found is None else found
@@ -89,19 +92,32 @@ def _subspace(reduced: Reduced, count: int, block: int) -> tuple[Array, Array] |
     # any start with a part in every mode will do; a fixed one makes results repeatable
     start = np.random.default_rng(20140).normal(size=(reduced.size, block))
     vectors = np.linalg.qr(fourth @ start)[0]
+    values = np.zeros((len(product), count))
+    ritz = np.zeros((*product.shape[:2], count))
+    done = np.zeros(len(product), dtype=bool)
     for _ in range(ROUNDS):
         vectors = np.linalg.qr(fourth @ vectors)[0]
         image = product @ vectors
-        values, turn = np.linalg.eigh(np.swapaxes(vectors, -1, -2) @ image)
-        values, turn = values[:, : -count - 1 : -1], turn[:, :, : -count - 1 : -1]
-        ritz = vectors @ turn
-        residual = np.abs(image @ turn - ritz * values[:, None, :]).max(axis=(1, 2))
-        if np.any(values <= MASSLESS * values[:, :1]):
+        found, turn = np.linalg.eigh(np.swapaxes(vectors, -1, -2) @ image)
+        found, turn = found[:, : -count - 1 : -1], turn[:, :, : -count - 1 : -1]
+        turned = vectors @ turn
+        residual = np.abs(image @ turn - turned * found[:, None, :]).max(axis=(1, 2))
+        if np.any(found <= MASSLESS * found[:, :1]):
             # fewer modes than asked: what is left has no mass
             return None
-        if np.all(residual <= CONVERGED * values[:, 0]):
-            shapes = scale[..., None] * (np.swapaxes(inverse, -1, -2) @ ritz)
-            shapes, values = with_true_work(reduced, shapes, np.ascontiguousarray(values))
-            omega = 1.0 / np.sqrt(values)
-            return omega / (2.0 * np.pi), shapes * omega[:, None, :]
-    return None
+        # each pose keeps what it converged to, whatever poses are solved beside it
+        now = ~done & (residual <= CONVERGED * found[:, 0])
+        values[now], ritz[now] = found[now], turned[now]
+        done |= now
+        if done.all():
+            break
+    if not done.any():
+        return None
+    shapes = scale[..., None] * (np.swapaxes(inverse, -1, -2) @ ritz)
+    shapes, values = with_true_work(reduced, shapes, values)
+    omega = 1.0 / np.sqrt(np.where(done[:, None], values, 1.0))
+    frequencies, shapes = omega / (2.0 * np.pi), shapes * omega[:, None, :]
+    if not done.all():
+        rest = lowest(solve_eigen(reduced.at_poses(np.flatnonzero(~done))), count)
+        frequencies[~done], shapes[~done] = rest
+    return frequencies, shapes

@@ -101,7 +101,7 @@ def _find_poles(reduced: Reduced, eigen: Eigen, damping: AnyDamping) -> Poles:
     massive = eigen.finite[0]
     flexible, root = eigen.flexibility[0][:, massive], np.sqrt(eigen.square[0][massive])
     still, dragged, drag = _split(eigen.rigid[0], viscous, flexible / root)
-    delayed, prompt = _split_massless(
+    delayed, prompt = split_massless(
         eigen.flexibility[0][:, ~massive], viscous, float(root.max(initial=0.0))
     )
     # coordinates: modes of unit strain energy, with what follows them at once
@@ -188,10 +188,24 @@ def _split(rigid: Array, viscous: Array, flexible: Array) -> tuple[Array, Array,
     return rigid @ turn[:, ~resists], rigid @ turn[:, resists], values[resists]
 
 
-def _split_massless(massless: Array, viscous: Array, longest: float) -> tuple[Array, Array]:
+def split_massless(massless: Array, viscous: Array, longest: float) -> tuple[Array, Array]:
     """Motions without mass that dashpots resist, and those that none does.
 
-    What a dashpot delays by less than rounding of the `longest` time, s, is not delayed.
+    What a dashpot delays by less than rounding of the `longest` time is not delayed.
+
+    Parameters
+    ----------
+    massless : (n, m)
+        Of unit strain energy, 1/√(N/m).
+    viscous : (n, n)
+        Dashpots, N·s/m and the like.
+    longest : float
+        s.
+
+    Returns
+    -------
+    delayed, prompt : (n, d) and (n, m − d)
+        Of unit strain energy, 1/√(N/m).
     """
     if not massless.shape[1]:
         return massless, massless

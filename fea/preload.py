@@ -24,7 +24,7 @@ from strutwork.fea.geometric_joints import (
 from strutwork.kinematics import DIRECTIONS
 from strutwork.msa.assembly import System, system_of
 from strutwork.msa.loads import LoadCase
-from strutwork.msa.point_mass import mass_arm
+from strutwork.msa.point_mass import mass_forces
 from strutwork.msa.solve import Method, StaticSolution, solve
 from strutwork.msa.stiffening import Stiffening
 from strutwork.msa.structure import PlacedStructure
@@ -139,7 +139,7 @@ def _beam_parts(system: System, solution: StaticSolution, case: LoadCase) -> Arr
     per_length = system.per_length_loads(case)
     loads = np.zeros((system.poses, len(structure.beams), 2, 3))
     if per_length is not None:
-        loads = np.einsum("pbij,bkj->pbki", axes, per_length)
+        loads = np.swapaxes(axes @ np.swapaxes(per_length, -1, -2), -1, -2)
     near, change = loads[:, :, 0], loads[:, :, 1] - loads[:, :, 0]
     forces = np.empty((system.poses, len(beam), POINTS, 6))
     for i, point in enumerate(gauss_points()[0]):
@@ -153,8 +153,8 @@ def _beam_parts(system: System, solution: StaticSolution, case: LoadCase) -> Arr
         # m' = −e₁ × n
         m = m + np.stack([np.zeros_like(area[..., 0]), area[..., 2], -area[..., 1]], axis=-1)
         forces[:, :, i] = np.concatenate([n, m], axis=-1)
-    properties = np.array([b.properties for b in structure.beams]).reshape(-1, 6).T
-    return beam_geometric_stiffness((length / pieces)[:, beam], properties[:, beam], forces)
+    properties = np.moveaxis(system.placed.numbers.stiffness, -1, 0)
+    return beam_geometric_stiffness((length / pieces)[:, beam], properties[..., beam], forces)
 
 
 def _moments(system: System, solution: StaticSolution, case: LoadCase) -> Array:
@@ -183,9 +183,7 @@ def _load_forces(system: System, case: LoadCase) -> Iterator[Force]:
     if case.gravity is None:
         return
     pull = np.asarray(case.gravity, dtype=float)
-    for mass in structure.masses:
-        weight = np.broadcast_to(mass.mass * pull, (system.poses, 3))
-        yield mass.node, weight, mass_arm(mass, placed)
+    yield from mass_forces(placed, pull)
     for element in structure.elements:
         if hasattr(element, "mass"):
             fall = np.tile(np.append(pull, np.zeros(3)), len(element.nodes))
@@ -214,12 +212,13 @@ def _element_forces(system: System, solution: StaticSolution) -> Iterator[Force]
     placed, structure = system.placed, system.placed.structure
     moved = solution.displacements[..., 0]
     index = structure.mesh_index
-    for spring in structure.springs:
+    for s, spring in enumerate(structure.springs):
         stretch = moved[:, index[spring.nodes[-1]], :3]
         if len(spring.nodes) == 2:
             stretch = stretch - moved[:, index[spring.nodes[0]], :3]
         turn = placed.spring_axes(spring)[..., :3, :3]
-        stiffness = turn * spring.diagonal[:3] @ np.swapaxes(turn, -1, -2)
+        k = placed.numbers.springs[..., s, None, :3]
+        stiffness = turn * k @ np.swapaxes(turn, -1, -2)
         pull = (stiffness @ stretch[..., None])[..., 0]
         if len(spring.nodes) == 2:
             yield spring.nodes[0], pull, NOWHERE

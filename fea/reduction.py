@@ -17,16 +17,20 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.fea.geometric import geometric_stiffness, largest_work
 from strutwork.fea.stability import check_stable, motions_left_free, without_elastic_work
-from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.memory import require_dense
 from strutwork.msa.assembly import System
 from strutwork.msa.constraints import free_unknowns, scales
-from strutwork.msa.mass import mass_matrix
-from strutwork.msa.null_space import closing_rows, joint_coordinates, symmetric_product
+from strutwork.msa.mass import mass_contributions, mass_matrix
+from strutwork.msa.null_space import independent_basis, symmetric_product
+from strutwork.msa.on_coordinates import on_coordinates
 from strutwork.msa.structure import rigid_map
 from strutwork.stages import stage
 
 Array = NDArray[Any]
+
+
+class AllLockedError(ModelError):
+    """No coordinate is left: every direction is locked."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +65,22 @@ class Reduced:
     def rigid_count(self) -> NDArray[np.intp]:
         """Number of rigid-body modes at every pose, (p,)."""
         return np.asarray(np.any(self.rigid, axis=1).sum(axis=-1))
+
+    def at_poses(self, poses: NDArray[np.intp]) -> Reduced:
+        """The same at some of the poses.
+
+        Parameters
+        ----------
+        poses : (q,)
+            Their numbers.
+        """
+        return Reduced(
+            System(self.system.placed[poses], self.system.topology),
+            self.basis[poses],
+            self.stiffness[poses],
+            self.mass[poses],
+            self.rigid[poses],
+        )
 
     def at_node(self, node: str) -> Array:
         """Displacement of a mesh node per unit coordinate, (p, 6, c).
@@ -109,7 +129,7 @@ def reduce_system(system: System) -> Reduced:
 
     Raises
     ------
-    ModelError
+    AllLockedError
         No coordinate is left: every direction is locked.
     NumericalError
         The structure does not stand under its preload; names the critical share of it.
@@ -120,22 +140,10 @@ def reduce_system(system: System) -> Reduced:
 
 
 def _reduced(system: System) -> Reduced:
-    no_gaps = np.zeros((system.poses, len(system.row_labels), 0))
-    basis, _ = joint_coordinates(system, no_gaps)
+    basis = independent_basis(system)
     d = scales(system)[..., None]
-    closing = closing_rows(system)
-    if len(closing):
-        rows = system.rows[:, closing] @ basis
-        size = np.linalg.norm(rows, axis=-1, keepdims=True)
-        rows = rows / np.where(size == 0, 1.0, size)
-        _, values, right = np.linalg.svd(rows)
-        keep = np.zeros(right.shape[:2], dtype=bool)
-        keep[:, : values.shape[-1]] = values > RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
-        # the least rank over the poses decides how many columns are kept for all
-        null = np.swapaxes(right, -1, -2) * ~keep[:, None, :]
-        basis = basis @ null[..., int(keep.sum(axis=1).min()) :]
     if basis.shape[-1] == 0 or not np.any(basis):
-        raise ModelError(
+        raise AllLockedError(
             "structure",
             "has no degree of freedom: every direction is locked.",
             "Release a support, or make a joint direction elastic.",
@@ -146,14 +154,32 @@ def _reduced(system: System) -> Reduced:
         rigid = np.linalg.pinv(basis / d) @ free
         present = np.any(free, axis=1)
         rigid = rigid * present[:, None, :]
-    reduced = symmetric_product(basis, system.stiffness)
+    reduced = _elastic(system, basis)
     if system.placed.stiffening is not None:
         reduced, rigid = _stiffened(system, basis, reduced, rigid)
     # a coordinate that a pose does not have gets a stiffness and no mass: no finite frequency
     absent = ~np.any(basis, axis=1)
     diagonal = np.einsum("pii->pi", reduced)
     diagonal[absent] = np.broadcast_to(diagonal.max(axis=1, keepdims=True), diagonal.shape)[absent]
-    return Reduced(system, basis, reduced, symmetric_product(basis, mass_matrix(system)), rigid)
+    return Reduced(system, basis, reduced, _mass(system, basis), rigid)
+
+
+def _elastic(system: System, basis: Array) -> Array:
+    if system.lone is not None:
+        return on_coordinates(system, system.contributions())
+    return symmetric_product(basis, system.stiffness)
+
+
+def _mass(system: System, basis: Array) -> Array:
+    if system.lone is not None:
+        return on_coordinates(system, mass_contributions(system))
+    return symmetric_product(basis, mass_matrix(system))
+
+
+def _geometric(system: System, basis: Array) -> Array:
+    if system.lone is not None and system.placed.stiffening is not None:
+        return on_coordinates(system, system.placed.stiffening.contributions())
+    return symmetric_product(basis, geometric_stiffness(system))
 
 
 def _require_memory(system: System) -> None:
@@ -176,7 +202,7 @@ def _require_memory(system: System) -> None:
 
 def _stiffened(system: System, basis: Array, elastic: Array, free: Array) -> tuple[Array, Array]:
     """Stiffness with what a preload adds, (p, c, c), and the motions that stay free, (p, c, k)."""
-    geometric = symmetric_product(basis, geometric_stiffness(system))
+    geometric = _geometric(system, basis)
     rigid = free
     if free.shape[-1]:
         elastic = without_elastic_work(elastic, free)

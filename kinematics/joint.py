@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import cached_property
 from math import isfinite, pi
 from types import MappingProxyType
 
@@ -190,7 +191,7 @@ class Joint:
             remedy + "Directions are those of the joint's own axes, whose z is its axis.",
         )
 
-    @property
+    @cached_property
     def states(self) -> tuple[State, ...]:
         """State of each of the six directions in statics (driven directions are held)."""
         locked = {*JOINT_TYPES[self.type], *self.locks, *self.driven} - set(self.stiffness)

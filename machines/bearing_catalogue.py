@@ -109,13 +109,14 @@ def borne_stiffness(table: JointTable, entry: BearingEntry) -> Borne:
     Raises
     ------
     ModelError
-        The bearing resists where the joint is free, or where the table gives a stiffness; the joint
-        has a matrix.
+        The bearing resists where the joint is free or driven, or where the table gives a stiffness;
+        the joint has a matrix or a flexure.
     """
     part = f"joint {table.name}"
     own = by_direction(table.stiffness)
-    if table.matrix is not None:
-        raise ModelError(part, "has a bearing and a matrix.", "Keep one of the two.")
+    for other in ("matrix", "flexure"):
+        if getattr(table, other) is not None:
+            raise ModelError(part, f"has a bearing and a {other}.", "Keep one of the two.")
     twice = [d for d in entry.held if d in own]
     if twice:
         raise ModelError(

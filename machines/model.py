@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from strutwork.machines.drives import Drive
     from strutwork.machines.limits import Limit
     from strutwork.machines.model_solid_element import SolidElement
+    from strutwork.machines.servos import Servo
     from strutwork.msa import LoadCase, PlacedStructure, Structure
     from strutwork.overconstraint.tolerance import Tolerance
 
@@ -87,6 +88,8 @@ class Model:
         Poses that maps and reports look at.
     drives : tuple of Drive
         What the drives can do.
+    servos : tuple of Servo
+        The drives' controllers.
     rotation : (3, 3)
         Rotation matrix of the tool in this placement.
     closed_form : callable or None
@@ -125,6 +128,7 @@ class Model:
     closed_form: Callable[[Poses], Placement] | None = None
     shapes: tuple[MeshShape, ...] = ()
     process: DescribedProcess | None = None
+    servos: tuple[Servo, ...] = ()
     flexures: Mapping[str, Flexure] = field(default_factory=dict)
     bearings: Mapping[str, BearingEntry] = field(default_factory=dict)
 

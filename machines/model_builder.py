@@ -35,6 +35,7 @@ from strutwork.machines.model_parts import (
     springs_of,
 )
 from strutwork.machines.model_schema import ModelTable
+from strutwork.machines.model_servos import servos_of
 from strutwork.msa import Beam, Structure
 from strutwork.msa.unjoined import in_words, unjoined_nodes
 
@@ -141,6 +142,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         task=task,
         workspace=workspace_of(tables, task),
         drives=drives_of(tables, {j.name: j for j in joints}),
+        servos=servos_of(tables.servos, {j.name: j for j in joints}),
         shapes=_shapes(tables, folder, linkage, positions),
         flexures=flexures,
         bearings=bearings,

@@ -66,7 +66,7 @@ def joint_flexures(tables: ModelTable, flexures: Mapping[str, Flexure]) -> dict[
     Raises
     ------
     ModelError
-        An unknown flexure, a joint of another type, or one that states a stiffness as well.
+        An unknown flexure, a joint of another type, or one that has a stiffness or a bearing too.
     """
     found: dict[str, Flexure] = {}
     for table in tables.joints:
@@ -75,6 +75,8 @@ def joint_flexures(tables: ModelTable, flexures: Mapping[str, Flexure]) -> dict[
         part = f"joint {table.name}"
         if table.flexure not in flexures:
             raise unknown(part, "flexure", table.flexure, flexures)
+        if table.bearing is not None:
+            raise ModelError(part, "has a flexure and a bearing.", "Keep one of the two.")
         if table.type != "bushing":
             raise ModelError(
                 part,
@@ -87,8 +89,6 @@ def joint_flexures(tables: ModelTable, flexures: Mapping[str, Flexure]) -> dict[
                 "has a flexure beside a stiffness of its own.",
                 "Keep one of the two; the flexure's sizes give its stiffness.",
             )
-        if table.bearing is not None:
-            raise ModelError(part, "has a flexure and a bearing.", "Keep one of the two.")
         found[table.name] = flexures[table.flexure]
     return found
 

@@ -17,6 +17,7 @@ from strutwork.machines.model_flexures import flexures_of, joint_flexures, stiff
 from strutwork.machines.model_motion_tables import drives_of, workspace_of
 from strutwork.machines.model_parts import beams_of, damping_of, joint_of, masses_of, springs_of
 from strutwork.machines.model_schema import JointTable, ModelTable
+from strutwork.machines.model_servos import servos_of
 from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Structure
 from strutwork.msa.variant_of import share_topology
@@ -30,7 +31,7 @@ LIGHT = frozenset(
         *("title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
         *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
         "flexures",
-        *("force_limits", "workspace", "drives", "damping", "process"),
+        *("force_limits", "workspace", "drives", "servos", "damping", "process"),
     }
 )
 
@@ -111,6 +112,8 @@ def rebuilt_model(
         new["workspace"] = workspace_of(after, model.task)
     if "drives" in differ:
         new["drives"] = drives_of(after, {j.name: j for j in own})
+    if "servos" in differ:
+        new["servos"] = servos_of(after.servos, {j.name: j for j in own})
     if "damping" in differ:
         new["damping"] = damping_of(after)
     if "process" in differ:

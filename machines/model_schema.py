@@ -52,6 +52,7 @@ from strutwork.machines.model_motion_schema import (
     WorkspaceTable,
 )
 from strutwork.machines.model_process_schema import ProcessTable
+from strutwork.machines.model_servo_schema import ServoTable
 from strutwork.machines.model_solid_schema import ShapeTable, SolidTable
 
 #: A beam may be divided into this many elements at most.
@@ -370,6 +371,7 @@ class ModelTable(Table):
     task: TaskTable | None = None
     workspace: WorkspaceTable | None = None
     drives: tuple[DriveTable, ...] = ()
+    servos: tuple[ServoTable, ...] = ()
     damping: DampingTable | None = None
     process: ProcessTable | None = None
     bearings: dict[Name, BearingTable] = Field(default_factory=dict)

@@ -14,7 +14,7 @@ from strutwork.kinematics import DIRECTIONS, State
 from strutwork.msa.beam import fixed_end_loads
 from strutwork.msa.clusters import Clusters
 from strutwork.msa.loads import LoadCase
-from strutwork.msa.point_mass import mass_weight
+from strutwork.msa.point_mass import mass_weights
 from strutwork.msa.structure import PlacedStructure, rigid_map
 from strutwork.msa.topology import Topology
 from strutwork.names import choices
@@ -32,6 +32,21 @@ class System(Clusters):
         With one batch axis.
     topology : Topology
     """
+
+    @property
+    def lone(self) -> System | None:
+        """The same at the one pose, where all poses are the same; None elsewhere.
+
+        What the placement alone decides is computed of it, once.
+        """
+        alone = self.placed.alone
+        if alone is None:
+            return None
+        kept = alone.__dict__
+        if "_system" not in kept:
+            kept["_system"] = system_of(alone)
+        found: System = kept["_system"]
+        return found
 
     def nodal_loads(self, cases: Sequence[LoadCase]) -> Array:
         """Loads at the mesh nodes, (p, n, 6, m), line loads and gravity by fixed-end forces.
@@ -57,9 +72,8 @@ class System(Clusters):
                     )
                 loads[:, structure.mesh_index[node], :, m] += wrench
             pull = np.asarray(case.gravity)
-            for mass in structure.masses if case.gravity is not None else ():
-                at = structure.mesh_index[mass.node]
-                loads[:, at, :, m] += mass_weight(mass, pull, self.placed)
+            for node, weight in mass_weights(self.placed, pull) if case.gravity is not None else ():
+                loads[:, structure.mesh_index[node], :, m] += weight
             for element in structure.elements if case.gravity is not None else ():
                 if hasattr(element, "mass"):
                     # a rigid translation of its nodes is one of the whole element
@@ -73,7 +87,9 @@ class System(Clusters):
         return loads
 
     def per_length_loads(self, case: LoadCase) -> Array | None:
-        """Load per length at both ends of every beam, global axes, (b, 2, 3), N/m; or None.
+        """Load per length at both ends of every beam, global axes, (..., b, 2, 3), N/m; or None.
+
+        With an axis of poses where each is another structure.
 
         Parameters
         ----------
@@ -84,7 +100,8 @@ class System(Clusters):
         if not structure.beams or not (case.line_loads or case.gravity is not None):
             return None
         index = {beam.name: i for i, beam in enumerate(structure.beams)}
-        result = np.zeros((len(structure.beams), 2, 3))
+        per_metre = self.placed.numbers.inertia[..., 0]
+        result = np.zeros((*per_metre.shape, 2, 3))
         for line in case.line_loads:
             if line.beam not in index:
                 raise ModelError(
@@ -92,16 +109,16 @@ class System(Clusters):
                     f'names the unknown beam "{line.beam}".',
                     "Define the beam.",
                 )
-            result[index[line.beam]] += (line.first, line.second)
+            result[..., index[line.beam], :, :] += (line.first, line.second)
         if case.gravity is not None:
-            for i, beam in enumerate(structure.beams):
+            for beam in structure.beams:
                 if beam.material.density is None:
                     raise ModelError(
                         f"material {beam.material.name}",
                         f'has no density, and beam "{beam.name}" needs it for gravity.',
                         "Give the material a density.",
                     )
-                result[i] += beam.material.density * beam.section.area * np.asarray(case.gravity)
+            result += per_metre[..., None, None] * np.asarray(case.gravity)
         return result
 
     def line_loads(self, case: LoadCase) -> Array | None:
@@ -121,21 +138,20 @@ class System(Clusters):
 
         Parameters
         ----------
-        per_length : (b, 2, 3)
+        per_length : (..., b, 2, 3)
             At both ends of every beam, global axes, N/m.
         """
         structure = self.placed.structure
         length, axes = self.placed.beam_geometry
         beam = structure.segments[:, 0]
+        per_length = np.broadcast_to(per_length, (self.poses, *per_length.shape[-3:]))
         pieces = np.array([b.elements for b in structure.beams], dtype=float)
         order = np.concatenate([np.arange(b.elements) for b in structure.beams])
         at = [order / pieces[beam], (order + 1) / pieces[beam]]
-        change = per_length[beam, 1] - per_length[beam, 0]
-        ends = [
-            np.einsum("psij,sj->psi", axes[:, beam], per_length[beam, 0] + x[:, None] * change)
-            for x in at
-        ]
-        properties = np.array([b.properties for b in structure.beams]).T[:, beam]
+        near = per_length[:, beam, 0]
+        change = per_length[:, beam, 1] - near
+        ends = [np.einsum("psij,psj->psi", axes[:, beam], near + x[:, None] * change) for x in at]
+        properties = np.moveaxis(self.placed.numbers.stiffness, -1, 0)[..., beam]
         return fixed_end_loads((length / pieces)[:, beam], properties, ends[0], ends[1])
 
     def add_segment_loads(self, loads: Array, local: Array) -> None:
@@ -211,9 +227,7 @@ class System(Clusters):
         for j in self.topology.elastic_joints:
             if not np.any(gaps[j]):
                 continue
-            force = self.joint_frames[:, j] @ (
-                structure.linkage.joints[j].stiffness_matrix @ gaps[j]
-            )
+            force = self.joint_frames[:, j] @ (self.placed.numbers.joints[..., j, :, :] @ gaps[j])
             first, second = self._joint_nodes[j]
             loads[:, first] -= force
             loads[:, second] += force

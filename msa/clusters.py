@@ -66,9 +66,9 @@ class Clusters:
             for s, (beam, a, b) in enumerate(structure.segments):
                 yield f"beam {structure.beams[beam].name}", np.array([a, b]), stiffness[:, s]
         index = structure.linkage.node_index
-        for spring in structure.springs:
+        for s, spring in enumerate(structure.springs):
             turn = placed.spring_axes(spring)
-            k = turn @ np.diag(spring.diagonal) @ np.swapaxes(turn, -1, -2)
+            k = turn * placed.numbers.springs[..., s, None, :] @ np.swapaxes(turn, -1, -2)
             nodes = np.array([index[n] for n in spring.nodes])
             if len(nodes) == 2:
                 k = np.concatenate(
@@ -77,7 +77,7 @@ class Clusters:
             yield f"spring {spring.name}", nodes, np.broadcast_to(k, (self.poses, *k.shape[-2:]))
         for j in self.topology.elastic_joints:
             joint = structure.linkage.joints[j]
-            k = self._joint_global(j, joint.stiffness_matrix)
+            k = self._joint_global(j, placed.numbers.joints[..., j, :, :])
             yield (
                 f"joint {joint.name}",
                 self._joint_nodes[j],

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from strutwork.msa.assembly import System
 from strutwork.msa.structure import rigid_map
 
 Array = NDArray[Any]
+T = TypeVar("T")
 
 #: Misfits of redundant rows may disagree by this share of the largest.
 CONSISTENCY = 1e-9
@@ -74,6 +76,28 @@ class Rows:
         return np.asarray(self.left @ (self.values[..., None] * reduced)) / self.size[..., None]
 
 
+def of_lone(system: System, name: str, made: Callable[[System], T]) -> T | None:
+    """What the placement alone decides, of the one pose that all are; None where they differ.
+
+    Parameters
+    ----------
+    system : System
+    name : str
+        By which it is kept.
+    made : callable
+        Makes it of a system at one pose.
+    """
+    lone = system.lone
+    if lone is None:
+        return None
+    # a frozen dataclass keeps derived data in its __dict__, as cached_property does
+    kept = lone.__dict__
+    if name not in kept:
+        kept[name] = made(lone)
+    found: T = kept[name]
+    return found
+
+
 def scales(system: System) -> Array:
     """Scales D of the unknowns, (p, n): one for translations, 1/length for rotations, 1/m.
 
@@ -99,6 +123,9 @@ def orthonormal_rows(system: System) -> Rows:
     ----------
     system : System
     """
+    one = of_lone(system, "_rows", orthonormal_rows)
+    if one is not None:
+        return one[np.zeros(system.poses, dtype=np.intp)]
     scaled = system.rows * scales(system)[:, None]
     size = np.linalg.norm(scaled, axis=-1)
     size = np.where(size == 0, 1.0, size)
@@ -204,6 +231,9 @@ def free_unknowns(system: System) -> Array:
     system : System
         At p poses, with n unknowns.
     """
+    one = of_lone(system, "_free", free_unknowns)
+    if one is not None:
+        return np.repeat(one, system.poses, axis=0)
     structure = system.placed.structure
     linkage = structure.linkage
     bodies = len(linkage.body_names)

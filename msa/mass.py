@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.msa.assembly import System, system_of
 from strutwork.msa.beam import to_global
-from strutwork.msa.point_mass import mass_axes
+from strutwork.msa.point_mass import mass_axes, mass_numbers
 from strutwork.msa.structure import PlacedStructure, rigid_map
 
 if TYPE_CHECKING:
@@ -99,7 +99,7 @@ def lumped_mass(length: Array, inertia: Array) -> Array:
 
 
 def beam_inertia(placed: PlacedStructure) -> Array:
-    """ρA, ρ(Iy + Iz), ρIy, ρIz of every beam, (4, b), kg/m and kg·m.
+    """ρA, ρ(Iy + Iz), ρIy, ρIz of every beam, (4, ..., b), kg/m and kg·m.
 
     Parameters
     ----------
@@ -111,20 +111,14 @@ def beam_inertia(placed: PlacedStructure) -> Array:
     ModelError
         A material without density.
     """
-    rows = []
     for beam in placed.structure.beams:
-        density = beam.material.density
-        if density is None:
+        if beam.material.density is None:
             raise ModelError(
                 f"material {beam.material.name}",
                 f'has no density, and beam "{beam.name}" needs its mass.',
                 "Give the material a density.",
             )
-        s = beam.section
-        turning = 1.0 if beam.mass == "consistent" else 0.0
-        y, z = turning * s.second_moment_y, turning * s.second_moment_z
-        rows.append([density * s.area, density * (y + z), density * y, density * z])
-    return np.array(rows).reshape(-1, 4).T
+    return np.moveaxis(placed.numbers.inertia, -1, 0)
 
 
 def segment_mass(placed: PlacedStructure) -> Array:
@@ -140,13 +134,13 @@ def segment_mass(placed: PlacedStructure) -> Array:
     length, axes = placed.beam_geometry
     beam = structure.segments[:, 0]
     pieces = np.array([b.elements for b in structure.beams], dtype=float)
-    properties = np.array([b.properties for b in structure.beams]).reshape(-1, 6).T
+    properties = np.moveaxis(placed.numbers.stiffness, -1, 0)
     inertia = beam_inertia(placed)
     span = (length / pieces)[..., beam]
-    local = local_mass(span, properties[:, beam], inertia[:, beam])
+    local = local_mass(span, properties[..., beam], inertia[..., beam])
     lumped = np.array([b.mass == "lumped" for b in structure.beams])[beam]
     if lumped.any():
-        local = np.where(lumped[:, None, None], lumped_mass(span, inertia[:, beam]), local)
+        local = np.where(lumped[:, None, None], lumped_mass(span, inertia[..., beam]), local)
     mass = to_global(axes[..., beam, :, :], local)
     offsets = placed.segment_offsets
     if not np.any(offsets):
@@ -157,23 +151,25 @@ def segment_mass(placed: PlacedStructure) -> Array:
     return np.asarray(np.swapaxes(carry, -1, -2) @ mass @ carry)
 
 
-def point_mass_matrix(mass: float, inertia: Array, offset: Array) -> Array:
-    """Mass of a rigid body at a node from which its centre stands off, (6, 6), kg, kg·m, kg·m².
+def point_mass_matrix(mass: float | Array, inertia: Array, offset: Array) -> Array:
+    """Mass of a rigid body at a node from which its centre stands off, (..., 6, 6).
+
+    In kg, kg·m and kg·m².
 
     Parameters
     ----------
-    mass : float
+    mass : (...)
         kg.
-    inertia : (3, 3)
+    inertia : (..., 3, 3)
         About the centre, kg·m².
-    offset : (3,)
+    offset : (..., 3)
         From the node to the centre, m.
     """
     carried = rigid_map(offset)
-    centre = np.zeros((6, 6))
-    centre[:3, :3] = mass * np.eye(3)
-    centre[3:, 3:] = inertia
-    return np.asarray(carried.T @ centre @ carried)
+    centre = np.zeros(carried.shape)
+    centre[..., :3, :3] = np.asarray(mass)[..., None, None] * np.eye(3)
+    centre[..., 3:, 3:] = inertia
+    return np.asarray(np.swapaxes(carried, -1, -2) @ centre @ carried)
 
 
 def mass_contributions(system: System) -> list[tuple[str, NDArray[np.intp], Array]]:
@@ -193,10 +189,8 @@ def mass_contributions(system: System) -> list[tuple[str, NDArray[np.intp], Arra
             (f"beam {structure.beams[beam].name}", np.array([a, b]), mass[:, s])
             for s, (beam, a, b) in enumerate(structure.segments)
         ]
-    for item in structure.masses:
-        matrix = point_mass_matrix(
-            item.mass, np.asarray(item.inertia, dtype=float), np.asarray(item.offset, dtype=float)
-        )
+    for item, numbers in zip(structure.masses, mass_numbers(placed), strict=True):
+        matrix = point_mass_matrix(*numbers)
         turn = np.zeros((system.poses, 6, 6))
         turn[:, :3, :3] = turn[:, 3:, 3:] = mass_axes(item, placed)
         whole = turn @ matrix @ np.swapaxes(turn, -1, -2)

@@ -32,7 +32,7 @@ def beam_end_forces(system: System, displacements: Array) -> tuple[Array, Array]
     segments = structure.segments
     length, axes = _geometry(system, displacements)
     pieces = np.array([b.elements for b in structure.beams], dtype=displacements.dtype)
-    properties = np.array([b.properties for b in structure.beams]).T[:, segments[:, 0]]
+    properties = np.moveaxis(system.placed.numbers.stiffness, -1, 0)[..., segments[:, 0]]
     stiffness = local_stiffness((length / pieces)[:, segments[:, 0]], properties)
     offsets = system.placed.segment_offsets.astype(displacements.dtype)
     at_ends = displacements[:, segments[:, 1:]]

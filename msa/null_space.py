@@ -15,7 +15,13 @@ from numpy.typing import NDArray
 from strutwork.kinematics import State
 from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.msa.assembly import System, system_of
-from strutwork.msa.constraints import check_consistent, free_unknowns, orthonormal_rows, scales
+from strutwork.msa.constraints import (
+    check_consistent,
+    free_unknowns,
+    of_lone,
+    orthonormal_rows,
+    scales,
+)
 from strutwork.msa.diagnosis import check_held, mechanism_error
 from strutwork.msa.structure import rigid_map
 from strutwork.msa.trust import Unknowns, solve_trusted
@@ -39,13 +45,18 @@ def joint_coordinates(system: System, gaps: Array) -> tuple[Array, Array]:
     particular : (p, n, m)
         Displacements that close the carrying joints' misfits.
     """
+    m = gaps.shape[-1]
+    if not m:
+        one = of_lone(system, "_coordinates", lambda lone: joint_coordinates(lone, gaps[:1]))
+        if one is not None:
+            basis, particular = (np.broadcast_to(a, (system.poses, *a.shape[1:])) for a in one)
+            return basis, particular
     structure = system.placed.structure
     forest = system.topology.forest
     linkage = structure.linkage
     states = linkage.states()
     row_of = {(int(j), int(d)): r for r, (j, d) in enumerate(zip(*system.row_owner, strict=True))}
     positions = system.placed.positions
-    m = gaps.shape[-1]
     basis = np.zeros((system.poses, structure.vertex_count, 6, forest.count))
     particular = np.zeros((system.poses, structure.vertex_count, 6, m))
     for step in forest.steps:
@@ -72,6 +83,36 @@ def joint_coordinates(system: System, gaps: Array) -> tuple[Array, Array]:
         particular[:, v] += swing[..., locked] @ gaps[:, rows]
     n = system.topology.size
     return basis.reshape(system.poses, n, -1), particular.reshape(system.poses, n, m)
+
+
+def independent_basis(system: System) -> Array:
+    """Displacements of the clusters per unit of the independent coordinates, (p, n, c).
+
+    Those of the spanning forest, less those that close loops. Columns that a pose has less than
+    another are zero.
+
+    Parameters
+    ----------
+    system : System
+        At p poses, with n unknowns.
+    """
+    one = of_lone(system, "_independent", independent_basis)
+    if one is not None:
+        return np.broadcast_to(one, (system.poses, *one.shape[1:]))
+    no_gaps = np.zeros((system.poses, len(system.row_labels), 0))
+    basis, _ = joint_coordinates(system, no_gaps)
+    closing = closing_rows(system)
+    if not len(closing):
+        return basis
+    rows = system.rows[:, closing] @ basis
+    size = np.linalg.norm(rows, axis=-1, keepdims=True)
+    rows = rows / np.where(size == 0, 1.0, size)
+    _, values, right = np.linalg.svd(rows)
+    keep = np.zeros(right.shape[:2], dtype=bool)
+    keep[:, : values.shape[-1]] = values > RANK_TOLERANCE * np.maximum(values[:, :1], 1e-30)
+    # the least rank over the poses decides how many columns are kept for all
+    null = np.swapaxes(right, -1, -2) * ~keep[:, None, :]
+    return np.asarray(basis @ null[..., int(keep.sum(axis=1).min()) :])
 
 
 def closing_rows(system: System) -> NDArray[np.intp]:

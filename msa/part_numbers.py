@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
-from strutwork.msa.structure import Structure
+
+if TYPE_CHECKING:
+    from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
 
@@ -17,6 +20,8 @@ Array = NDArray[Any]
 @dataclass(frozen=True)
 class PartNumbers:
     """Closed forms of a structure's sections, materials, joints, springs and masses.
+
+    Of several structures, each array has an axis of these in front.
 
     Parameters
     ----------
@@ -75,6 +80,19 @@ class PartNumbers:
             np.array([s.diagonal for s in structure.springs]).reshape(-1, 6),
             np.array(masses, dtype=float).reshape(-1, 13),
         )
+
+    @classmethod
+    def stacked(cls, several: Sequence[PartNumbers]) -> PartNumbers:
+        """Those of several structures of one topology, in their order.
+
+        Parameters
+        ----------
+        several : sequence of PartNumbers
+        """
+        return cls(*(np.stack([getattr(n, f.name) for n in several]) for f in fields(cls)))
+
+    def __getitem__(self, index: Any) -> PartNumbers:
+        return PartNumbers(*(getattr(self, f.name)[index] for f in fields(self)))
 
     def rate(self, before: PartNumbers, width: float) -> PartNumbers:
         """Change per unit of a parameter since `before`, which stands `width` below.

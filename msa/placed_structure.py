@@ -18,6 +18,7 @@ from strutwork.msa.stiffening import Stiffening
 from strutwork.names import choices
 
 if TYPE_CHECKING:
+    from strutwork.msa.part_numbers import PartNumbers
     from strutwork.msa.structure import Structure
 
 Array = NDArray[Any]
@@ -43,6 +44,16 @@ class PlacedStructure:
 
     def __repr__(self) -> str:
         return f"<PlacedStructure: {self.structure!r}, batch {self.batch}>"
+
+    @property
+    def numbers(self) -> PartNumbers:
+        """Of the structure's parts; of each pose's own where these are several structures."""
+        return self.structure.numbers
+
+    @property
+    def alone(self) -> PlacedStructure | None:
+        """At the one pose, a batch of one, where all poses are the same; None elsewhere."""
+        return None
 
     @property
     def batch(self) -> tuple[int, ...]:
@@ -206,8 +217,8 @@ class PlacedStructure:
         length, axes = self.beam_geometry
         beam = s.segments[:, 0]
         pieces = np.array([b.elements for b in s.beams], dtype=float)
-        properties = np.array([b.properties for b in s.beams]).reshape(-1, 6).T
-        local = local_stiffness((length / pieces)[..., beam], properties[:, beam])
+        properties = np.moveaxis(self.numbers.stiffness, -1, 0)
+        local = local_stiffness((length / pieces)[..., beam], properties[..., beam])
         stiffness = to_global(axes[..., beam, :, :], local)
         offsets = self.segment_offsets
         if not np.any(offsets):

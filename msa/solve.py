@@ -20,6 +20,7 @@ from strutwork.msa.loads import LoadCase
 from strutwork.msa.nodal import beam_end_forces
 from strutwork.msa.null_space import solve_null_space
 from strutwork.msa.saddle_point import solve_saddle_point
+from strutwork.msa.shared_placement import solve_shared
 from strutwork.msa.sparse import SPARSE_FROM, solve_sparse
 from strutwork.msa.structure import PlacedStructure
 from strutwork.msa.trust import Unknowns
@@ -30,7 +31,9 @@ from strutwork.stages import stage
 Array = NDArray[Any]
 Method = Literal["saddle_point", "null_space", "condensed", "sparse"]
 
-METHODS: Mapping[str, Callable[[System, Array, Array], Unknowns]] = MappingProxyType(
+Solver = Callable[[System, Array, Array], Unknowns]
+
+METHODS: Mapping[str, Solver] = MappingProxyType(
     {
         "saddle_point": solve_saddle_point,
         "null_space": solve_null_space,
@@ -38,6 +41,9 @@ METHODS: Mapping[str, Callable[[System, Array, Array], Unknowns]] = MappingProxy
         "sparse": solve_sparse,
     }
 )
+
+#: What solves structures that share one placement (`strutwork.msa.stacked`).
+SHARED = "shared placement"
 
 
 @dataclass(frozen=True)
@@ -208,12 +214,15 @@ def solve(
     """
     system = system_of(placed)
     chosen = method or default_method(system)
-    if chosen not in METHODS:
+    solver = METHODS.get(chosen)
+    if method is None and system.lone is not None:
+        chosen, solver = SHARED, solve_shared
+    if solver is None:
         raise ModelError("solve", f'unknown method "{chosen}".', "One of: " + ", ".join(METHODS))
     every: dict[str, Array] = {}
 
     def run(part: NDArray[np.intp]) -> None:
-        found = _solved(system_of(system.placed[part]), cases, chosen)
+        found = _solved(system_of(system.placed[part]), cases, solver)
         for name, array in found.items():
             if name not in every:
                 every[name] = np.full((system.poses, *array.shape[1:]), np.nan)
@@ -238,11 +247,11 @@ def _load(system: System, cases: Sequence[LoadCase]) -> Array:
     return system.gather(system.nodal_loads(cases) + system.elastic_gap_loads(elastic))
 
 
-def _solved(system: System, cases: Sequence[LoadCase], method: str) -> dict[str, Array]:
+def _solved(system: System, cases: Sequence[LoadCase], solver: Solver) -> dict[str, Array]:
     """The arrays of a `StaticSolution` at every pose of a system; any pose may raise for all."""
     system.placed.check()
     on_rows, elastic = system.gaps(cases)
-    unknowns = METHODS[method](system, _load(system, cases), on_rows)
+    unknowns = solver(system, _load(system, cases), on_rows)
     displacements = system.expand(unknowns.displacements)
     if not np.all(np.isfinite(displacements)):
         raise NumericalError("static solution", "is not finite.", "Check the model's numbers.")
@@ -295,7 +304,8 @@ def _fixed_end_energy(system: System, loads: Array) -> Array:
     beam = structure.segments[:, 0]
     length, _ = system.placed.beam_geometry
     pieces = np.array([b.elements for b in structure.beams], dtype=float)
-    ea, _, eiy, eiz, shear_y, shear_z = np.array([b.properties for b in structure.beams]).T[:, beam]
+    properties = np.moveaxis(system.placed.numbers.stiffness, -1, 0)
+    ea, _, eiy, eiz, shear_y, shear_z = properties[..., beam]
     span = (length / pieces)[:, beam]
     first, second = _per_length(loads, span, shear_y, shear_z)
     points, weights = np.polynomial.legendre.leggauss(4)
@@ -352,7 +362,7 @@ def _joints(
         first, second = (index[n] for n in linkage.joints[j].between)
         turn = np.swapaxes(system.joint_frames[:, j], -1, -2)
         stretch = turn @ (displacements[:, second] - displacements[:, first]) - gaps[j]
-        force = linkage.joints[j].stiffness_matrix @ stretch
+        force = system.placed.numbers.joints[..., j, :, :] @ stretch
         forces[:, j] -= force
         energy += 0.5 * np.einsum("pim,pim->pm", stretch, force)
     return forces, energy

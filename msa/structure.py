@@ -15,6 +15,7 @@ from strutwork.kinematics import GROUND, Body, Linkage, Placement, check_coincid
 from strutwork.msa.beam import Beam
 from strutwork.msa.element import Element
 from strutwork.msa.held import check_held
+from strutwork.msa.part_numbers import PartNumbers
 from strutwork.msa.placed_structure import PlacedStructure
 from strutwork.msa.proportions import warn_of_proportions
 from strutwork.msa.rigid_map import rigid_map, turned_back
@@ -93,6 +94,11 @@ class Structure:
             f"<Structure: {len(self.linkage.nodes)} nodes, {len(self.beams)} beams, "
             f"{len(self.linkage.joints)} joints, {6 * self.vertex_count} dof before joints>"
         )
+
+    @cached_property
+    def numbers(self) -> PartNumbers:
+        """Of its parts, which no pose changes."""
+        return PartNumbers.of(self)
 
     @property
     def flexible_parts(self) -> list[tuple[str, ...]]:

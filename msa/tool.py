@@ -107,9 +107,12 @@ def compliance_and_outcome(
             "One of: compiled, " + ", ".join(METHODS),
         )
     program = None
-    many = system.poses >= COMPILED_FROM or expected_poses(placed.structure) >= VARIANTS_FROM
+    structure = placed.structure
+    many = system.poses >= COMPILED_FROM or expected_poses(structure) >= VARIANTS_FROM
     if method == "compiled" or (method is None and many):
-        program = program_of(system) if available() else None
+        # the kernel has the numbers of one structure for all poses
+        one = system.placed.numbers is structure.numbers
+        program = program_of(system) if one and available() else None
         if program is None and method == "compiled":
             raise ModelError(
                 "tool_compliance",

@@ -232,9 +232,26 @@ def _largest_stiffness(system: System) -> Array:
     d = _unit(system, system.topology.size)
     if system.poses == 1:
         diagonal = system.sparse_stiffness.diagonal()[None]
+    elif system.lone is not None:
+        diagonal = _diagonal(system)
     else:
         diagonal = np.einsum("pii->pi", system.stiffness)
     return np.asarray((np.abs(diagonal) * d**2).max(axis=1, initial=0.0))
+
+
+def _diagonal(system: System) -> Array:
+    """Diagonal of the stiffness, (p, n), without the matrix."""
+    found = np.zeros((system.poses, system.topology.size))
+    for _, nodes, part in system.contributions():
+        dofs, moves = system.dofs(nodes)
+        block = system.carried(nodes, part)
+        for first in range(0, len(dofs), 6):
+            for second in range(0, len(dofs), 6):
+                # ends in one cluster meet on its diagonal
+                if moves[first] and dofs[first] == dofs[second]:
+                    own = block[:, first : first + 6, second : second + 6]
+                    found[:, dofs[first : first + 6]] += np.einsum("pii->pi", own)
+    return found
 
 
 def _withhold(system: System, error: Array) -> None:

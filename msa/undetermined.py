@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.msa.assembly import System, system_of
-from strutwork.msa.constraints import orthonormal_rows, scales
+from strutwork.msa.constraints import of_lone, orthonormal_rows, scales
 from strutwork.msa.row_groups import row_groups, unit_rows
 from strutwork.msa.sparse import SPARSE_FROM
 from strutwork.msa.structure import PlacedStructure
@@ -46,6 +46,9 @@ def undetermined(placed: PlacedStructure) -> NDArray[np.bool_]:
 
 
 def _dense_share(system: System) -> Array:
+    one = of_lone(system, "_share", _dense_share)
+    if one is not None:
+        return np.repeat(one, system.poses, axis=0)
     rows = orthonormal_rows(system)
     return outside(rows.left, rows.values > 0)
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.msa.assembly import System
 from strutwork.msa.loads import LoadCase
-from strutwork.msa.point_mass import mass_weight
+from strutwork.msa.point_mass import mass_weights
 
 Array = NDArray[Any]
 
@@ -60,10 +60,9 @@ def part_weights(system: System, gravity: ArrayLike) -> tuple[tuple[str, ...], A
         if int(owner[index[body.nodes[0]]]) not in structure.flexible_bodies
     ]
     rigid = {n: body.name for body in (*bodies, *structure.rigid) for n in body.nodes}
-    for mass in structure.masses:
-        name = rigid.get(mass.node, f"mass at {mass.node}")
-        loads = found.setdefault(name, np.zeros(shape))
-        loads[:, structure.mesh_index[mass.node]] += mass_weight(mass, pull, system.placed)
+    for node, weight in mass_weights(system.placed, pull):
+        loads = found.setdefault(rigid.get(node, f"mass at {node}"), np.zeros(shape))
+        loads[:, structure.mesh_index[node]] += weight
     if not found:
         return (), np.zeros((*shape, 0))
     return tuple(found), np.stack(list(found.values()), axis=-1)

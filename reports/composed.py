@@ -18,6 +18,7 @@ from strutwork.reports.chapters import (
     inputs,
     motion,
     reversals,
+    servo,
     singularities,
     stability,
     workspace_assembly,
@@ -132,6 +133,7 @@ CHAPTERS: tuple[Offered, ...] = (
         lambda s: vibration_chapter(s.vibration),
     ),
     _module(workspace_vibration),
+    _module(servo),
     _module(stability),
     Offered(
         "tolerances",

@@ -57,6 +57,7 @@ _ROOMS = (
     "overconstraint",
     "papers",
     "reports",
+    "servo",
     "studies",
 )
 

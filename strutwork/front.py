@@ -19,7 +19,7 @@ from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import at_pose
 from strutwork.msa import tool_compliance
-from strutwork.outward import Outward
+from strutwork.outward import OUTWARD, Outward
 from strutwork.tool_stiffness import ToolStiffness
 from strutwork.units import ANGLE, LENGTH, quantity
 
@@ -47,8 +47,7 @@ QUESTIONS = (
     "check",
     "compare",
     "frequency_response",
-    "function",
-    "gradient",
+    *OUTWARD,
     "modes",
     "plot",
     "report",

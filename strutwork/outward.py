@@ -1,4 +1,4 @@
-"""What a machine gives to other programs: a function of its numbers, and gradients."""
+"""What a machine gives to other programs: functions, gradients, state spaces, closed loops."""
 
 from __future__ import annotations
 
@@ -9,12 +9,37 @@ if TYPE_CHECKING:
     import xarray as xr
     from numpy.typing import ArrayLike
 
+    from strutwork.fea.port_states import PortStates
+    from strutwork.machines.servos import Servo
+    from strutwork.servo import ClosedLoop
     from strutwork.studies.function import MachineFunction
     from strutwork.studies.parameter import Parameter
+
+#: Names of the methods.
+OUTWARD = ("closed_loop", "function", "gradient", "state_space")
 
 
 class Outward:
     """Methods of `strutwork.front.Machine` for other programs."""
+
+    def closed_loop(self, servos: Sequence[Servo] = (), **options: Any) -> ClosedLoop:
+        """The drives' controllers around the machine where it stands.
+
+        Parameters
+        ----------
+        servos : sequence of Servo
+            The model's own where there is none.
+        **options
+            Of `strutwork.studies.servo_loop.loop_question`: ports, damping, band, modes.
+
+        Raises
+        ------
+        StrutworkError
+            No controllers, no damping; else as `strutwork.servo.closed_loop.closed_loop`.
+        """
+        from strutwork.studies.servo_loop import machine_loop
+
+        return machine_loop(self, servos, **options)  # type: ignore[arg-type]
 
     def function(
         self,
@@ -75,3 +100,26 @@ class Outward:
         from strutwork.studies.gradient import machine_gradient
 
         return machine_gradient(self, quantities, by, task, band)
+
+    def state_space(
+        self, inputs: Sequence[Any], outputs: Sequence[Any], **options: Any
+    ) -> PortStates:
+        """State space between ports, where the machine stands; `to_control()` for python-control.
+
+        Parameters
+        ----------
+        inputs : sequence of str, Port or Motor
+            "NODE:x" for a force at a node, "motor JOINT:z" for that of a drive.
+        outputs : sequence of str, Port, Motor, or pairs of one with a quantity
+            Displacements, or "velocity" or "acceleration" of a pair.
+        **options
+            Of `strutwork.studies.servo_loop.machine_state_space`: damping, modes.
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.studies.servo_loop.machine_state_space`.
+        """
+        from strutwork.studies.servo_loop import machine_state_space
+
+        return machine_state_space(self, inputs, outputs, **options)  # type: ignore[arg-type]

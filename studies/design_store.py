@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
-from strutwork.files import write_whole
 from strutwork.studies.chunks import Arrays, ChunkStore
 from strutwork.studies.dataset_files import read_result_file, write_netcdf
 from strutwork.studies.design import Design
@@ -22,6 +19,15 @@ from strutwork.studies.design_judged import Judged
 from strutwork.studies.design_search import generations
 from strutwork.studies.design_table import design_rows, reasons_of
 from strutwork.studies.design_terms import GRADIENT
+from strutwork.studies.executor import place as kept_elsewhere
+from strutwork.studies.finished_parts import (
+    OTHER_FILE,
+    beside,
+    remove,
+    require_resumed,
+    result_there,
+    write_rows,
+)
 from strutwork.studies.progress import Progress
 
 Array = NDArray[Any]
@@ -48,7 +54,8 @@ def run_design(
         generations are kept beside it until then.
     resume : bool
         Go on from finished generations, or from a result with fewer generations; a result that is
-        complete is read.
+        complete is read. A folder of `strutwork.studies.executor.computed_on` keeps the generations
+        instead, and they stay there.
     workers : int, optional
         Threads; default one per processor.
     progress : callable, optional
@@ -71,28 +78,18 @@ def run_design(
     OutputError
         The file cannot be written: finished generations stay.
     """
-    before: xr.Dataset | None = None
-    store: ChunkStore | None = None
-    if path is not None:
-        place = Path(path)
-        before = _there(place, design)
-        if before is not None and resume and _complete(before, design):
-            return before
-        store = ChunkStore(_parts(place), design.key)
-        if not resume and store.path(0).exists():
-            raise ModelError(
-                str(store.path(0).parent),
-                "holds finished generations of this design, which was interrupted.",
-                "Give --resume (resume=True) to go on from them, or remove the folder.",
-            )
+    before = None if path is None else _there(Path(path), design)
+    if before is not None and resume and _complete(before, design):
+        return before
+    store = _store(design, path, resume=resume)
     archive = Archive(design)
 
     def known(number: int) -> tuple[Array, Judged] | None:
-        kept = judged_of(before, design, number) if resume and before is not None else None
-        if kept is None and store is not None:
+        found = judged_of(before, design, number) if resume and before is not None else None
+        if found is None and store is not None:
             arrays = store.read(number)
-            kept = None if arrays is None else _from_arrays(arrays)
-        return kept
+            found = None if arrays is None else _from_arrays(arrays)
+        return found
 
     total = design.search.machines
     starts = design.search.method == GRADIENT
@@ -117,8 +114,24 @@ def run_design(
             "Change the ranges of its parameters or its constraints.",
         )
     if path is not None:
-        _write(Path(path), found, design)
+        write_netcdf(Path(path), found)
+        write_rows(Path(path).with_suffix(".csv"), *design_rows(found))
+        if kept_elsewhere().folder is None:
+            remove(parts_of(design, Path(path)))
     return found
+
+
+def _store(design: Design, path: str | Path | None, *, resume: bool) -> ChunkStore | None:
+    """Where finished generations are kept; None: nowhere."""
+    kept = kept_elsewhere().folder
+    if kept is not None:
+        # generations that are kept on purpose stay, and are gone on from without being asked
+        return ChunkStore(kept, design.key)
+    if path is None:
+        return None
+    parts = parts_of(design, Path(path))
+    require_resumed(parts, "finished generations of this design", resume=resume)
+    return ChunkStore(parts.parent, design.key)
 
 
 def read_design_result(path: str | Path) -> xr.Dataset:
@@ -149,11 +162,7 @@ def parts_of(design: Design, path: Path) -> Path:
     path : Path
         Of its result.
     """
-    return ChunkStore(_parts(path), design.key).path(0).parent
-
-
-def _parts(path: Path) -> Path:
-    return path.with_name(f"{path.name}.parts")
+    return ChunkStore(beside(path), design.key).path(0).parent
 
 
 def _complete(found: xr.Dataset, design: Design) -> bool:
@@ -165,19 +174,15 @@ def _complete(found: xr.Dataset, design: Design) -> bool:
 def _there(path: Path, design: Design) -> xr.Dataset | None:
     if path.suffix != ENDING:
         raise ModelError(str(path), "names no kind of file.", "End it in .nc for NetCDF.")
-    if not path.exists():
+    found = result_there(path, read_design_result)
+    if found is None:
         return None
-    remedy = "Name another file, or remove this one."
-    try:
-        found = read_design_result(path)
-    except ModelError as error:
-        raise ModelError(str(path), f"is there already and {error.problem}", remedy) from error
     if found.attrs["design_key"] != design.key:
         raise ModelError(
             str(path),
             f"holds the result of another design ({found.attrs.get('title', '')}), or of this one "
             "by other code or other versions of libraries.",
-            remedy,
+            OTHER_FILE,
         )
     return found
 
@@ -201,23 +206,3 @@ def _from_arrays(arrays: Arrays) -> tuple[Array, Judged]:
     reasons = tuple(str(r) for r in arrays["reasons"])
     judged = Judged(arrays["values"], arrays["status"], arrays["reached"], reasons)
     return arrays["shares"], judged
-
-
-def _write(path: Path, found: xr.Dataset, design: Design) -> None:
-    write_netcdf(path, found)
-    _write_csv(path.with_suffix(".csv"), found)
-    shutil.rmtree(parts_of(design, path), ignore_errors=True)
-    if _parts(path).is_dir() and not any(_parts(path).iterdir()):
-        _parts(path).rmdir()
-
-
-def _write_csv(path: Path, found: xr.Dataset) -> Path:
-    heads, rows = design_rows(found)
-
-    def write(part: Path) -> None:
-        with part.open("w", encoding="utf-8", errors="backslashreplace", newline="") as file:
-            writer = RowWriter(file)
-            writer.writerow(heads)
-            writer.writerows(rows)
-
-    return write_whole(path, write)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,6 +15,8 @@ from strutwork.machines.model import Model
 from strutwork.msa import PlacedStructure
 from strutwork.outcome import Outcome
 from strutwork.studies.answers import Column
+from strutwork.studies.models_together import first_frequencies
+from strutwork.studies.standing import Standing
 
 Array = NDArray[Any]
 
@@ -60,3 +62,13 @@ class HomeFrequency:
             raise ModelError("structure", "has no mode.", "Give it mass and elastic parts.")
         poses = placed.batch
         return {"first_frequency": np.full(poses, value)}, Outcome.good(poses)
+
+    @staticmethod
+    def of_many(standing: Sequence[tuple[Model, Standing] | None]) -> Array:
+        """As `strutwork.studies.models_together.first_frequencies`, (n,), Hz.
+
+        Parameters
+        ----------
+        standing : sequence of n (Model, Standing) or None
+        """
+        return first_frequencies(standing)

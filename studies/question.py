@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
@@ -23,7 +23,9 @@ from strutwork.studies.covering_band import band_of
 from strutwork.studies.dynamic import ONE_PERCENT
 from strutwork.studies.frequency_answer import HomeFrequency
 from strutwork.studies.model_damping import model_damping
+from strutwork.studies.models_together import masses
 from strutwork.studies.stability_answer import Stability
+from strutwork.studies.standing import Standing
 from strutwork.studies.transmission_answer import Transmission
 
 Array = NDArray[Any]
@@ -127,6 +129,16 @@ class Mass:
         value = float(np.ravel(total_mass(self.model.placed))[0])
         poses = placed.batch
         return {"mass": np.full(poses, value)}, Outcome.good(poses)
+
+    @staticmethod
+    def of_many(standing: Sequence[tuple[Model, Standing] | None]) -> Array:
+        """As `strutwork.studies.models_together.masses`, (n,), kg.
+
+        Parameters
+        ----------
+        standing : sequence of n (Model, Standing) or None
+        """
+        return masses(standing)
 
 
 def _stiffness(_: Asked, model: Model) -> Answer:

@@ -68,6 +68,8 @@ class Run:
         Called with how many poses are done, and of how many; those of kept chunks come first.
     inputs : callable or None
         What a chunk is of, in words, for the report of its failure; default its poses' numbers.
+    keeps : bool
+        Whether finished chunks may be kept.
     """
 
     workers: int | None = None
@@ -75,10 +77,18 @@ class Run:
     folder: Path | None = None
     progress: Progress | None = None
     inputs: Callable[[Chunk], str] | None = None
+    keeps: bool = True
+
+    @property
+    def unkept(self) -> Run:
+        """The same, keeping nothing, whatever the folder of `computed_on`."""
+        return replace(self, folder=None, keeps=False)
 
     @property
     def kept_in(self) -> Path | None:
         """Folder of the finished chunks."""
+        if not self.keeps:
+            return None
         folder = self.folder if self.folder is not None else place().folder
         return None if folder is None else Path(folder)
 

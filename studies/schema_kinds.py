@@ -18,6 +18,7 @@ from strutwork.files import write_text
 from strutwork.machines.model_descriptions import DESCRIPTIONS as MODEL
 from strutwork.machines.model_process_schema import ProcessTable
 from strutwork.machines.schema_file import described, finished
+from strutwork.machines.servo_file import ServosTable
 from strutwork.studies import (
     calibration_descriptions,
     design_descriptions,
@@ -98,6 +99,11 @@ KINDS: dict[str, Kind] = {
         "Causes of displacements of the tool: docs/accuracy.md",
     ),
     "process": Kind(ProcessTable, MODEL, "A milling cut: docs/how-to/lobes.md"),
+    "servo": Kind(
+        ServosTable,
+        {**MODEL, "ServosTable": {"servos": MODEL["ModelTable"]["servos"]}},
+        "Controllers of drives: docs/how-to/servo.md",
+    ),
 }
 
 

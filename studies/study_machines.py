@@ -16,6 +16,7 @@ from strutwork.msa.variant_of import expect_poses
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.filters import PoseStatus
+from strutwork.studies.models_together import Stands
 from strutwork.studies.parameter import Varied
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.question import Question
@@ -159,20 +160,41 @@ class Machines:
             missing = np.int8(PoseStatus.UNSOLVED)
             found["pose_status"] = np.full((count, self.poses - 1), missing)
         words = [""]
-        for i in range(count):
-            try:
-                why = self._ask(chunk.start + i, i, found)
-            except StrutworkError as error:
-                why = " ".join(f"{error.part}: {error.problem}".split())
+        every = [self._standing(number) for number in range(chunk.start, chunk.stop)]
+        known = self._together([one for one, _ in every])
+        for i, (one, wrong) in enumerate(every):
+            why = wrong if one is None else self._why(one, i, found, known)
             if why not in words:
                 words.append(why)
             found["reason"][i] = words.index(why)
         return found | {"reasons": np.array(words[1:], dtype=str)}
 
-    def _ask(self, number: int, row: int, found: Arrays) -> str:
+    def _standing(self, number: int) -> tuple[Stands | None, str]:
+        """One machine at its poses, or why it cannot be."""
+        try:
+            model = self.model(number)
+            return (model, self.stand(model)), ""
+        except StrutworkError as error:
+            return None, _words(error)
+
+    def _together(self, standing: list[Stands | None]) -> Arrays:
+        """Answers of one number a machine that all can be asked at once, by question, (n,)."""
+        found: Arrays = {}
+        for question in self.questions:
+            many = getattr(question.of(self.machine.origin.model), "of_many", None)
+            if many is not None:
+                found[question.name] = many(standing)
+        return found
+
+    def _why(self, one: Stands, row: int, found: Arrays, known: Arrays) -> str:
+        try:
+            return self._ask(one, row, found, known)
+        except StrutworkError as error:
+            return _words(error)
+
+    def _ask(self, one: Stands, row: int, found: Arrays, known: Arrays) -> str:
         """Fill the row of one machine; why it has no numbers, empty where it has."""
-        model = self.model(number)
-        standing = self.stand(model)
+        model, standing = one
         status = standing.status.copy()
         reasons = [r for r in standing.reasons if r]
         if standing.good.size:
@@ -181,7 +203,12 @@ class Machines:
             placed = model.structure.at(standing.placement)
             answers: dict[str, dict[str, Array]] = {}
             for question in self.questions:
-                values, outcome = question.of(model)(placed)
+                answer = question.of(model)
+                if question.name in known and np.isfinite(known[question.name][row]):
+                    value = np.full(placed.batch, known[question.name][row])
+                    answers[question.name] = {answer.columns[0].name: value}
+                    continue
+                values, outcome = answer(placed)
                 answers[question.name] = values
                 reasons += [outcome.reason(int(i)) for i in np.flatnonzero(~outcome.solved)]
                 status[standing.good[~outcome.solved]] = PoseStatus.UNSOLVED
@@ -219,3 +246,7 @@ class Machines:
                 out[row] = value
                 if reduction == "worst":
                     found[f"{kept.name}_pose"][row] = np.where(np.isnan(value), -1, at)
+
+
+def _words(error: StrutworkError) -> str:
+    return " ".join(f"{error.part}: {error.problem}".split())

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import xarray as xr
 
-from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError, OutputError
-from strutwork.files import write_error, write_whole
+from strutwork.files import write_error
 from strutwork.staging import staging
+from strutwork.studies.chunks import ChunkStore
 from strutwork.studies.dataset_files import read_result_file, write_netcdf
 from strutwork.studies.executor import Executor
 from strutwork.studies.executor import place as kept_elsewhere
+from strutwork.studies.finished_parts import (
+    OTHER_FILE,
+    beside,
+    remove,
+    require_resumed,
+    result_there,
+    write_rows,
+)
 from strutwork.studies.progress import Progress
 from strutwork.studies.study import Study
 from strutwork.studies.study_table import study_columns
@@ -70,18 +77,11 @@ def run_to_file(
         _write_csv(place.with_suffix(".csv"), found)
         return found
     parts = parts_of(study, place)
-    if not resume and parts.is_dir() and any(parts.iterdir()):
-        raise ModelError(
-            str(parts),
-            "holds finished parts of this study, which was interrupted.",
-            "Give --resume (resume=True) to go on from them, or remove the folder.",
-        )
+    require_resumed(parts, "finished parts of this study", resume=resume)
     found = study.run(workers=workers, progress=progress, folder=parts, executor=executor)
     write_result(place, found)
     _write_csv(place.with_suffix(".csv"), found)
-    shutil.rmtree(parts, ignore_errors=True)
-    if parts.parent.is_dir() and not any(parts.parent.iterdir()):
-        parts.parent.rmdir()
+    remove(parts)
     return found
 
 
@@ -94,7 +94,7 @@ def parts_of(study: Study, path: Path) -> Path:
     path : Path
         Of its result.
     """
-    return path.with_name(f"{path.name}.parts") / study.key[:16]
+    return ChunkStore(beside(path), study.key).path(0).parent
 
 
 def write_result(path: Path, dataset: xr.Dataset) -> Path:
@@ -157,13 +157,9 @@ def read_result(path: str | Path) -> xr.Dataset:
 
 def _there(path: Path, study: Study) -> xr.Dataset | None:
     """The result of this study that is there; None where there is no file."""
-    if not path.exists():
+    found = result_there(path, read_result)
+    if found is None:
         return None
-    remedy = "Name another file, or remove this one."
-    try:
-        found = read_result(path)
-    except ModelError as error:
-        raise ModelError(str(path), f"is there already and {error.problem}", remedy) from error
     if found.attrs["study_key"] == study.key:
         return found
     if found.attrs.get("inputs_sha256") == study.inputs:
@@ -171,24 +167,20 @@ def _there(path: Path, study: Study) -> xr.Dataset | None:
             str(path),
             f"holds the result of this study by other code ({found.attrs.get('source', 'unknown')})"
             " or other versions of libraries.",
-            remedy,
+            OTHER_FILE,
         )
     raise ModelError(
-        str(path), f"holds the result of another study ({found.attrs.get('title', '')}).", remedy
+        str(path),
+        f"holds the result of another study ({found.attrs.get('title', '')}).",
+        OTHER_FILE,
     )
 
 
 def _write_csv(path: Path, dataset: xr.Dataset) -> Path:
     """One row a machine."""
     columns = study_columns(dataset)
-
-    def write(part: Path) -> None:
-        with part.open("w", encoding="utf-8", errors="backslashreplace", newline="") as file:
-            writer = RowWriter(file)
-            writer.writerow([c.head for c in columns])
-            writer.writerows(zip(*(c.cells for c in columns), strict=True))
-
-    return write_whole(path, write)
+    heads = [c.head for c in columns]
+    return write_rows(path, heads, zip(*(c.cells for c in columns), strict=True))
 
 
 def _require_zarr(path: Path) -> None:

@@ -39,6 +39,7 @@ CHUNK = 256
 #: Packages whose code decides a survey's numbers.
 _CODE = (
     *("kinematics", "meshes", "msa", "fea", "overconstraint", "flexures", "machines", "cutting"),
+    "servo",
     "studies",
 )
 

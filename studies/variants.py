@@ -153,7 +153,8 @@ class Variants:
         whole: Arrays = {}
         words = [""]
         run = Run(workers)
-        for chunk, part in run.chunks(machines, len(table), BLOCK, str):
+        # a folder of `computed_on` keeps studies, not populations: who searches keeps these
+        for chunk, part in run.unkept.chunks(machines, len(table), BLOCK, str):
             local = ["", *part.pop("reasons").tolist()]
             words += [w for w in dict.fromkeys(local) if w not in words]
             place = np.array([words.index(w) for w in local], dtype=np.int32)

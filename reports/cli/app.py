@@ -40,6 +40,7 @@ COMMANDS = {
     "modes": f"{_HERE}.app:modes",
     "frf": f"{_HERE}.frf_command:frf",
     "lobes": f"{_HERE}.lobes_command:lobes",
+    "servo": f"{_HERE}.servo_command:servo",
     "calibrate": f"{_HERE}.calibrate_command:calibrate",
     "compare": f"{_HERE}.compare_command:compare",
     "correlate": f"{_HERE}.correlate_command:correlate",
@@ -63,7 +64,7 @@ COMMANDS = {
 SILENT = ("new", "report", "schema")
 
 #: Those whose studies may be computed elsewhere and resumed: --cluster and --keep.
-PLACED = ("accuracy", "compare", "map", "scale", "study", "trajectory", "workspace")
+PLACED = ("accuracy", "compare", "design", "map", "scale", "study", "trajectory", "workspace")
 
 
 class Program(Commands):

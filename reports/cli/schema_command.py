@@ -18,6 +18,7 @@ class FileKind(StrEnum):
     CALIBRATION = "calibration"
     ERRORS = "errors"
     PROCESS = "process"
+    SERVO = "servo"
 
 
 def schema(

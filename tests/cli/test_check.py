@@ -32,6 +32,8 @@ COUNTS = {
     # 15 free nodes; four mounts hold three directions each of one body: 12 − 6
     "08_column_on_mounts": (90, 0, 0, 6),
     # 4 bodies; bearings, motor, guide 5 rows each, threads 5, belts 1: 20 + 10 + 2 = 32 of rank 23
+    # three bodies, and four flexures that count as locked in six directions each: 24 − 18
+    "09_flexure_stage": (18, 0, 0, 6),
     "10_screws_and_belt": (27, 1, 0, 9),
 }
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from strutwork.reports.cli.compare_command import is_universal
+from strutwork.studies.chunks import ChunkStore
 from tests.cli.conftest import Program
 
 ROOT = Path(__file__).parents[2]
@@ -133,6 +134,27 @@ def test_at_another_pose(strutwork: Program) -> None:
     assert rows_of(moved)[key] != rows_of(home)[key]
     # what they are looked at over stays where it is
     assert rows_of(moved)["worst_stiffness_free_z"] == rows_of(home)["worst_stiffness_free_z"]
+
+
+@pytest.mark.slow
+def test_kept_parts_serve_the_same_comparison_again(
+    strutwork: Program, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    kept, other = tmp_path / "kept", tmp_path / "other.toml"
+    text = HEAD.read_text(encoding="utf-8")
+    assert "210 GPa" in text
+    other.write_text(text.replace("210 GPa", "200 GPa"), encoding="utf-8")
+    words = ("compare", HEAD, other, "--around", "rx=-5deg..5deg:3", "--keep", kept, "--json")
+    first = strutwork(*words).result
+    parts = {p: p.stat().st_mtime_ns for p in kept.rglob("chunk-*.npz")}
+    assert parts
+
+    def written(*_: object) -> None:
+        raise AssertionError("a chunk is computed again")
+
+    monkeypatch.setattr(ChunkStore, "write", written)
+    assert strutwork(*words).result == first
+    assert {p: p.stat().st_mtime_ns for p in kept.rglob("chunk-*.npz")} == parts
 
 
 def test_a_page(strutwork: Program, bars: tuple[Path, Path], tmp_path: Path) -> None:

@@ -84,6 +84,40 @@ def test_the_answer_comes_last(strutwork: Program, file: Path) -> None:
     assert "EUR" in run.out
 
 
+def test_a_search_along_gradients_says_where_it_ended(
+    strutwork: Program, file: Path, tmp_path: Path
+) -> None:
+    text = f"""
+machine = "{RPS}"
+workspace = {{}}
+[[parameters]]
+path = "sections.cylinder.outer_diameter"
+range = ["55 mm", "90 mm"]
+name = "cylinder"
+[[objectives]]
+quantity = "mass"
+[[constraints]]
+quantity = "stiffness_z"
+at_least = "stated"
+[search]
+method = "gradient"
+starts = 2
+"""
+    file.write_text(text, encoding="utf-8")
+    page = tmp_path / "page"
+    run = strutwork("design", file, "--report", page)
+    assert run.status == 0, run.err
+    assert " machines along the gradients from 2 starts (SLSQP); " in run.out
+    assert "2 starts ended at the same mass." in run.out
+    assert "2 starts ended at the same mass." in (page / "report.html").read_text(encoding="utf-8")
+    # what is kept of the machine as described: its own cylinder
+    assert "Least mass: 46.97 kg, machine 1 of the front (cylinder 70 mm)." in run.out
+    file.write_text(text.replace('"stiffness_z"', '"locked_in_force"'), encoding="utf-8")
+    refused = strutwork("design", file)
+    assert refused.status == 1
+    assert "has no gradient: it is a sum of sizes" in refused.err
+
+
 @pytest.mark.parametrize(
     ("edit", "message"),
     [

@@ -90,6 +90,7 @@ def test_reactions_and_springs_carry_the_loads(path: Path, strutwork: Program) -
         },
         "06_table_on_two_rails": {},
         "08_column_on_mounts": {"cutting": [200, 100, -150]},
+        "09_flexure_stage": {"push": [10, 0, 0]},
         "10_screws_and_belt": {"push": [0, 0, -1000]},
     }
     applied = every[path.stem]

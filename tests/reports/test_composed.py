@@ -20,13 +20,26 @@ from tests.model_files import EXAMPLES
 MACHINE = Path(__file__).parents[2] / "examples/machines/3-rps.toml"
 
 
+SERVOS = """
+[[servos]]
+joints = ["drive1", "drive2", "drive3"]
+direction = "z"
+position_gain = "40 1/s"
+motor_velocity_gain = "0.5 N*m*s/rad"
+integral_time = "15 ms"
+pitch = "10 mm"
+motor_inertia = "10 kg*cm^2"
+"""
+
+
 @pytest.fixture(scope="module")
 def small() -> str:
-    """The machine with few poses to look at."""
+    """The machine with few poses to look at, and controllers."""
     return (
         MACHINE.read_text()
         .replace("points = 7", "points = 3")
         .replace("points = 3 }", "points = 2 }", 1)
+        + SERVOS
     )
 
 

@@ -38,6 +38,7 @@ def words(found: Chapter) -> str:
         "machines/6-ups.toml",
         "machines/gantry.toml",
         "06_table_on_two_rails.toml",
+        "09_flexure_stage.toml",
         "10_screws_and_belt.toml",
         "mit-ss1",
         "proposed-3pprs",
@@ -58,6 +59,7 @@ def test_every_part_of_the_model_is_in_the_files(target: str, tmp_path: Path) ->
         ("inputs-springs.csv", [s.name for s in structure.springs]),
         ("inputs-tolerances.csv", [t.name for t in model.tolerances]),
         ("inputs-nodes.csv", list(structure.linkage.nodes)),
+        ("inputs-flexures.csv", list(model.flexures)),
     ):
         assert written.get(name, []) == parts, name
     joints = written.get("inputs-joints.csv", [])

@@ -11,10 +11,15 @@ from scipy.optimize import root
 from strutwork.errors import ContactError, ModelError, UnitError
 from strutwork.fea import modes
 from strutwork.kinematics.joint import State
-from strutwork.machines.bearing_catalogue import package_catalogue, read_catalogue
+from strutwork.machines.bearing_catalogue import (
+    borne_stiffness,
+    package_catalogue,
+    read_catalogue,
+)
 from strutwork.machines.bearing_equilibrium import equilibrium
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
+from strutwork.machines.model_schema import JointTable
 from strutwork.msa import tool_compliance
 from strutwork.msa.assembly import system_of
 from strutwork.msa.program_builder import compile_program
@@ -361,6 +366,12 @@ tcp = "table"
 def test_wrong_entries(old: str, new: str, words: str) -> None:
     with pytest.raises(ModelError, match=words):
         shaft((old, new))
+
+
+def test_a_joint_has_a_bearing_or_a_flexure() -> None:
+    keys = {"name": "hinge", "type": "bushing", "between": ("a", "b"), "flexure": "leaf"}
+    with pytest.raises(ModelError, match="joint hinge: has a bearing and a flexure"):
+        borne_stiffness(JointTable.model_validate(keys), package_catalogue()["rail-25"])
 
 
 def test_a_unit_of_another_dimension_is_a_unit_error() -> None:

@@ -43,7 +43,7 @@ def public(names: list[str]) -> list[str]:
 
 
 def test_completion_shows_few_names(machine: Machine) -> None:
-    assert len(public(dir(sw))) <= 12
+    assert len(public(dir(sw))) <= 14
     assert {"load", "machines"} <= set(dir(sw))
     assert public(dir(machine)) == sorted(QUESTIONS)
     assert all(callable(getattr(machine, q)) and getattr(Machine, q).__doc__ for q in QUESTIONS)

@@ -56,7 +56,7 @@ FILES = [
     *(
         f
         for f in sorted((ROOT / "examples").rglob("*.toml"))
-        if f.parent.name not in ("studies", "errors", "calibration")
+        if f.parent.name not in ("studies", "errors", "calibration", "servos")
     ),
     *(
         CASES / f"{n}.toml"

@@ -239,7 +239,7 @@ def test_examples_are_read(path: Path) -> None:
     model = read_model(path)
     assert model.title
     assert model.placed.batch == ()
-    assert len(EXAMPLES) == 8
+    assert len(EXAMPLES) == 9
 
 
 def test_order_of_tables_does_not_matter() -> None:

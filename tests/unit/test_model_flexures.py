@@ -139,6 +139,7 @@ def test_sizes_outside_the_range_of_the_formulas_are_a_warning() -> None:
         (put("joints.0.flexure", "hinj"), "joint joint", 'unknown flexure "hinj"'),
         (put("joints.0.type", "revolute"), "joint joint", "elastic in all directions"),
         (put("joints.0.stiffness", {"x": 1e6}), "joint joint", "stiffness of its own"),
+        (put("joints.0.bearing", "any"), "joint joint", "and a bearing"),
         (put("joints.0.limits", {"x": [-1e-3, 1e-3]}), "joint joint", "does not move"),
         (put("flexures.hinge.material", "stel"), "flexure hinge", 'unknown material "stel"'),
         (put("flexures.hinge.thickness", "12 mm"), "flexure hinge", "no hinge"),

@@ -21,7 +21,7 @@ PACKAGE = ROOT / "strutwork"
 ROOMS = ["strutwork", *sorted(p.name for p in PACKAGE.iterdir() if p.is_symlink())]
 LONGEST_FILE = 400
 #: Extras whose oldest versions are tested as well.
-FLOORED = ("cluster", "design", "openmdao")
+FLOORED = ("cluster", "design", "openmdao", "servo")
 
 
 def sources() -> list[Path]:

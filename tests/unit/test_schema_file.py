@@ -33,8 +33,8 @@ from strutwork.machines.schema_file import (
 
 ROOT = Path(__file__).parents[2]
 COMMITTED = ROOT / "docs" / "schema" / FILE_NAME
-# files of studies, calibrations and errors are no model files
-OTHERS = ("studies", "errors", "calibration")
+# files of studies, calibrations, errors and servos are no model files
+OTHERS = ("studies", "errors", "calibration", "servos")
 EXAMPLES = [f for f in sorted((ROOT / "examples").glob("**/*.toml")) if f.parent.name not in OTHERS]
 CASES = [*sorted((ROOT / "tests" / "cases" / "models").glob("*.toml"))]
 

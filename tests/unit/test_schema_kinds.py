@@ -23,6 +23,7 @@ EXAMPLES = [
     ),
     *(("calibration", file) for file in sorted((ROOT / "examples/calibration").glob("*.toml"))),
     *(("errors", file) for file in sorted((ROOT / "examples/errors").glob("*.toml"))),
+    *(("servo", file) for file in sorted((ROOT / "examples/servos").glob("*.toml"))),
     *(("process", file) for file in sorted((ROOT / "machines/data").glob("*process*.toml"))),
 ]
 BASE: dict[str, Any] = {"machine": "m.toml", "parameters": [{"path": "a", "values": ["2 mm", 3]}]}

@@ -11,15 +11,24 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from strutwork.errors import ClusterError, StudyError, StudyWarning
+from strutwork.kinematics import following
+from strutwork.machines.load import load
 from strutwork.studies import cluster_work
+from strutwork.studies import study as study_module
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.cluster import Dask
 from strutwork.studies.cluster_client import check_versions, forget
 from strutwork.studies.cluster_work import Identity, compute, identity, pickled
-from strutwork.studies.executor import Threads
+from strutwork.studies.design import Design
+from strutwork.studies.design_store import run_design
+from strutwork.studies.executor import Threads, computed_on
+from strutwork.studies.parameter import Parameter
 from strutwork.studies.run import Chunk, Run
+from strutwork.studies.study import Study
+from strutwork.studies.trajectory import Samples, study_trajectory
 from tests.cluster_processes import STARTS, Cluster, cluster
 
 pytest.importorskip("distributed")
@@ -254,3 +263,41 @@ def test_ctrl_c_says_what_is_kept(tmp_path: Path) -> None:
     with pytest.warns(StudyWarning, match=said), pytest.raises(KeyboardInterrupt):
         list(found)
     assert squares(Run(workers=1, folder=tmp_path), Work(tmp_path / "log", 0.0)) == EXPECTED
+
+
+@pytest.mark.slow
+def test_study_trajectory_and_design_are_the_same_on_a_local_cluster(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    pytest.importorskip("pymoo")
+    monkeypatch.setattr(study_module, "CHUNK_MOST", 4)
+    monkeypatch.setattr(following, "PIECE", 16)
+    hexapod = "examples/machines/6-ups.toml"
+    varied = Parameter("joints.ball*.stiffness.*", distribution="normal", scatter="10 %")
+    answers = ("stiffness", "frequency", "mass")
+    study = Study.of(hexapod, [varied], *answers, count=8, workspace={"x": [-0.1, 0.1]})
+    model, times = load(hexapod), np.linspace(0.0, 1.0, 12)
+    samples = Samples(times, {("", "x"): 0.02 * np.sin(3 * times)})
+    design = Design.of(
+        hexapod,
+        {"sections.ram.diameter": ("45 mm", "60 mm"), "joints.ball*.stiffness.*": (3e8, 5e8)},
+        *("stiffness_z", "first_frequency", "mass"),
+        workspace={"x": [-0.1, 0.1]},
+        population=72,
+        generations=2,
+    )
+
+    def every() -> tuple[xr.Dataset, bytes, xr.Dataset]:
+        forces = study_trajectory(model, samples, reactions=True).followed.forces
+        return study.run(), forces.tobytes(), run_design(design)
+
+    here, cluster_of_two = every(), Dask(workers=2)
+    try:
+        with computed_on(cluster_of_two):
+            there = every()
+    finally:
+        cluster_of_two.close()
+    assert there[0].identical(here[0])
+    assert there[1] == here[1]
+    for name, values in here[2].data_vars.items():
+        assert there[2][name].to_numpy().tobytes() == values.to_numpy().tobytes(), name

@@ -15,6 +15,8 @@ from strutwork.studies import study as study_module
 from strutwork.studies.calibrate import calibrate
 from strutwork.studies.calibration_problem import Parameter, Target
 from strutwork.studies.cluster_work import compute, identity, pickled
+from strutwork.studies.design import Design
+from strutwork.studies.design_store import parts_of, run_design
 from strutwork.studies.executor import computed_on, default_executor
 from strutwork.studies.parameter import Parameter as Varying
 from strutwork.studies.scale import scale_study
@@ -138,3 +140,29 @@ def test_machines_of_a_study_are_made_elsewhere(
         with computed_on(executor, tmp_path):
             assert study.run().identical(expected)
     assert (there.sent, again.sent) == (2, 0)
+
+
+def test_designs_are_computed_elsewhere_and_their_generations_kept(tmp_path: Path) -> None:
+    pytest.importorskip("pymoo")
+    design = Design.of(
+        "examples/machines/3-rps.toml",
+        {"sections.cylinder.outer_diameter": ("60 mm", "90 mm")},
+        *("stiffness_z", "first_frequency", "mass"),
+        workspace={},
+        population=36,
+        generations=2,
+    )
+    expected = run_design(design)
+    there, again = Elsewhere(), Elsewhere()
+    for executor in (there, again):
+        with computed_on(executor, tmp_path / "kept"):
+            found = run_design(design, tmp_path / "front.nc", resume=executor is again)
+        assert not parts_of(design, tmp_path / "front.nc").exists()
+        for name in expected.data_vars:
+            assert found[name].to_numpy().tobytes() == expected[name].to_numpy().tobytes(), name
+    (tmp_path / "front.nc").unlink()
+    with computed_on(again, tmp_path / "kept"):
+        run_design(design, tmp_path / "front.nc")
+    # two chunks of each generation, and none of those that are kept
+    assert (there.sent, again.sent) == (4, 0)
+    assert len(list((tmp_path / "kept" / design.key[:16]).iterdir())) == 2

@@ -1,0 +1,109 @@
+"""Finished parts of a study or design that is written to a file: beside it until it is complete."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+import xarray as xr
+
+from strutwork.csv_rows import RowWriter
+from strutwork.errors import ModelError
+from strutwork.files import write_whole
+
+#: What to do about a file that cannot be written over.
+OTHER_FILE = "Name another file, or remove this one."
+
+
+def beside(path: Path) -> Path:
+    """Folder of the finished parts of all that is to be written to a file.
+
+    Parameters
+    ----------
+    path : Path
+    """
+    return path.with_name(f"{path.name}.parts")
+
+
+def require_resumed(parts: Path, what: str, *, resume: bool) -> None:
+    """Refuse to compute again what an interrupted run has finished, unless it is gone on from.
+
+    Parameters
+    ----------
+    parts : Path
+        Folder of what is finished.
+    what : str
+        As "finished parts of this study".
+    resume : bool
+        Whether it is gone on from.
+
+    Raises
+    ------
+    ModelError
+        There are some, and `resume` is not given.
+    """
+    if not resume and parts.is_dir() and any(parts.iterdir()):
+        raise ModelError(
+            str(parts),
+            f"holds {what}, which was interrupted.",
+            "Give --resume (resume=True) to go on from them, or remove the folder.",
+        )
+
+
+def remove(parts: Path) -> None:
+    """Remove finished parts whose result is written, and the folder around them if it is empty.
+
+    Parameters
+    ----------
+    parts : Path
+    """
+    shutil.rmtree(parts, ignore_errors=True)
+    if parts.parent.is_dir() and not any(parts.parent.iterdir()):
+        parts.parent.rmdir()
+
+
+def result_there(path: Path, read: Callable[[Path], xr.Dataset]) -> xr.Dataset | None:
+    """The result that a file holds; None where there is no file.
+
+    Parameters
+    ----------
+    path : Path
+    read : callable
+        Reads such a result, or raises ModelError.
+
+    Raises
+    ------
+    ModelError
+        The file holds something else.
+    """
+    if not path.exists():
+        return None
+    try:
+        return read(path)
+    except ModelError as error:
+        raise ModelError(str(path), f"is there already and {error.problem}", OTHER_FILE) from error
+
+
+def write_rows(path: Path, heads: Sequence[str], rows: Iterable[Sequence[object]]) -> Path:
+    """Write a table as CSV, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+    heads : sequence of str
+    rows : iterable of sequences of cells
+
+    Raises
+    ------
+    OutputError
+        It cannot be written.
+    """
+
+    def write(part: Path) -> None:
+        with part.open("w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+            writer = RowWriter(file)
+            writer.writerow(heads)
+            writer.writerows(rows)
+
+    return write_whole(path, write)
