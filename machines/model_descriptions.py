@@ -287,8 +287,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
     },
     "ToolTable": {
         "tcp": "node at which compliance and stiffness are given",
-        "against": "node of the workpiece, relative to which the tool has its stiffness, responses "
-        "and errors; the ground by default",
+        "against": "workpiece's node, to which results of the tool are relative; default: ground",
     },
     "RayleighTable": {
         "alpha": "factor of the mass matrix",
