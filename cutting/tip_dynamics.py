@@ -207,7 +207,8 @@ def tip_ports(
     ModelError
         An unknown node, or one that is held in all three.
     """
-    ports = [Port(node, axis, against) for axis in "xyz"]
+    # the chip's forces act on the workpiece where the tool stands
+    ports = [Port(node, axis, against, carried=against is not None) for axis in "xyz"]
     kept, reason = [], None
     reduced.at_node(node)
     for k, port in enumerate(ports):

@@ -80,7 +80,8 @@ def idle_motions(placed: PlacedStructure) -> tuple[IdleMotion, ...]:
     moved = system.expand(free)[0][: len(linkage.nodes)] * np.repeat([1.0, reach], 3)[:, None]
     moved = moved / np.abs(moved).max(axis=(0, 1))
     tool = linkage.tool
-    seen = moved[:, :3] if tool is None else moved[structure.mesh_index[tool]]
+    ends = [node for node in (tool, linkage.against) if node is not None]
+    seen = moved[:, :3] if tool is None else moved[[structure.mesh_index[node] for node in ends]]
     _, values, right = np.linalg.svd(seen.reshape(-1, moved.shape[-1]))
     rank = int(np.count_nonzero(values > STILL))
     # what floats as a whole is no idle part of something else

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.reduction import Reduced
-from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics import DIRECTIONS, Linkage
+from strutwork.msa.rigid_map import rigid_map
 
 Array = NDArray[Any]
 
@@ -30,6 +31,9 @@ class Port:
         A direction name, or a vector of translation and rotation parts in global axes, no unit.
     against : str or None
         A second node: motion relative to it, and an equal and opposite load on it.
+    carried : bool
+        The second node's body carries the point of the first, as a workpiece the point at which the
+        tool stands: its rotation counts, and the opposite load acts there.
 
     Raises
     ------
@@ -40,6 +44,7 @@ class Port:
     node: str
     direction: str | tuple[float, ...]
     against: str | None = None
+    carried: bool = False
 
     def __post_init__(self) -> None:
         if isinstance(self.direction, str):
@@ -114,7 +119,7 @@ class Port:
         """
         at = reduced.at_node(self.node)
         if self.against is not None:
-            at = at - reduced.at_node(self.against)
+            at = at - self._other(reduced)
         motion = np.einsum("i,pic->pc", self.vector, at)
         # a loop's coordinates are found numerically: a held direction keeps their rounding
         size = np.abs(reduced.basis).max(axis=(1, 2)) * np.linalg.norm(self.vector)
@@ -127,6 +132,58 @@ class Port:
                 "Choose another node or direction.",
             )
         return np.asarray(motion)
+
+    def _other(self, reduced: Reduced) -> Array:
+        """Motion of the second node, or of the point that its body carries, (p, 6, c)."""
+        found = reduced.at_node(str(self.against))
+        if not self.carried:
+            return found
+        placed = reduced.system.placed
+        index = placed.structure.mesh_index
+        arm = placed.positions[:, index[self.node]] - placed.positions[:, index[str(self.against)]]
+        return np.asarray(rigid_map(arm) @ found)
+
+
+def tool_port(linkage: Linkage, direction: str, node: str | None = None) -> Port:
+    """Port of the tool, relative to the workpiece where the linkage names one.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool.
+    direction : str
+        A direction name.
+    node : str, optional
+        The tool by default; another node is taken as it is.
+
+    Raises
+    ------
+    ModelError
+        No tool, or an unknown direction.
+    """
+    if linkage.tool is None:
+        raise ModelError("linkage", "has no tool.", "Name the tool centre point's node.")
+    if node is not None and node != linkage.tool:
+        return Port(node, direction)
+    return Port(linkage.tool, direction, linkage.against, carried=linkage.against is not None)
+
+
+def tool_ports(linkage: Linkage, node: str | None = None) -> tuple[Port, ...]:
+    """The three translations of `tool_port`.
+
+    Parameters
+    ----------
+    linkage : Linkage
+        With a tool.
+    node : str, optional
+        The tool by default.
+
+    Raises
+    ------
+    ModelError
+        As `tool_port`.
+    """
+    return tuple(tool_port(linkage, axis, node) for axis in DIRECTIONS[:3])
 
 
 def port_motions(reduced: Reduced, ports: Sequence[Port], rigid: Array) -> tuple[Array, Array]:

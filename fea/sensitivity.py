@@ -32,6 +32,7 @@ from strutwork.msa.constraints import orthonormal_rows, scales
 from strutwork.msa.mass import mass_matrix
 from strutwork.msa.part_forms import Fields, FormBuilder, Forms
 from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.tool_load_rates import tool_load_rates
 
 Array = NDArray[Any]
 
@@ -207,7 +208,7 @@ def dynamic_sensitivity(
     changes : sequence of PlacedChange
         At the same poses, one axis.
     port : Port
-        At the node of the tool.
+        Of the tool, as `tool_port` makes it.
     damping : damping of any kind
         Held as it is; loss factors of materials and dashpots of joints follow the parameters.
     band : (float, float)
@@ -225,9 +226,12 @@ def dynamic_sensitivity(
         As `least_dynamic_stiffness`.
     """
     system = _unloaded(placed)
-    if port.against is not None or port.node != system.placed.structure.linkage.tool:
+    linkage = system.placed.structure.linkage
+    if (port.node, port.against) != (linkage.tool, linkage.against):
         raise ModelError(
-            f"port {port}", "is not at the tool.", "Take the derivatives at the tool's node."
+            f"port {port}",
+            f"is not that of the tool{linkage.relative_to}.",
+            "Take the derivatives at the port that `tool_port` makes.",
         )
     values, places, rates = [], [], []
     for pose in range(system.poses):
@@ -299,6 +303,9 @@ def _receptance_rates(
         total = total + 1j * omega * (background.alpha * mass + background.beta * stiffness)
     if modal is not None:
         total = total + 1j * omega * _modal_rates(builder, reduced, eigen, x, modal.ratio)
+    turned = tool_load_rates(system, changes)
+    if turned is not None:
+        total = total - 2.0 * (turned[:, 0] @ port.vector) @ moved
     return np.asarray((np.conj(response) * -total).real / abs(response))
 
 

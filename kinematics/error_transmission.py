@@ -19,7 +19,7 @@ from strutwork.errors import ModelError
 from strutwork.kinematics.joint import DIRECTIONS
 from strutwork.kinematics.linkage import Linkage
 from strutwork.kinematics.placement import Placement
-from strutwork.kinematics.rows import characteristic_lengths, constraint_rows
+from strutwork.kinematics.rows import body_references, characteristic_lengths, constraint_rows
 from strutwork.names import choices
 
 Array = NDArray[Any]
@@ -45,8 +45,9 @@ class ErrorTransmission:
     columns : tuple of (joint, direction)
         The errors, in joint axes: of the second side against the first.
     matrix : (..., 6, g)
-        Displacement of the tool centre point and rotation of the tool, global axes, per unit
-        error, m and rad. NaN where it is not determined.
+        Displacement of the tool centre point and rotation of the tool, relative to the workpiece
+        where the linkage names one, global axes, per unit error, m and rad. NaN where it is not
+        determined.
     redundant : (...) of bool
         More rows than can be met: errors are locked in as forces, and what is soft decides.
     loose : (...) of bool
@@ -92,8 +93,7 @@ def error_transmission(
     ModelError
         No moving tool, an unknown joint, or a free direction: its play moves no tool.
     """
-    tool = linkage.tool_body
-    if tool < 0:
+    if max(linkage.tool_body, linkage.workpiece_body) < 0:
         raise ModelError("tool", "is on the ground.", "Name a node of a moving body.")
     held = linkage.elastic_or_locked()
     rows = list(zip(*np.nonzero(held), strict=True))
@@ -119,7 +119,7 @@ def error_transmission(
     redundant, loose = np.zeros(count, dtype=bool), np.zeros(count, dtype=bool)
     good = np.flatnonzero(flat.reachable)
     for part in np.array_split(good, max(1, -(-len(good) // PIECE))):
-        found, redundant[part], loose[part] = _parted(linkage, flat[part], tool)
+        found, redundant[part], loose[part] = _parted(linkage, flat[part])
         matrix[part] = found[..., pick]
     matrix[redundant | loose] = np.nan
     loose[~flat.reachable] = True
@@ -132,7 +132,7 @@ def error_transmission(
     )
 
 
-def _parted(linkage: Linkage, placement: Placement, tool: int) -> tuple[Array, Mask, Mask]:
+def _parted(linkage: Linkage, placement: Placement) -> tuple[Array, Mask, Mask]:
     """Matrix by all rows (p, 6, r), rows that depend on others, a tool that nothing holds."""
     rows = constraint_rows(linkage, placement)
     a = rows.on_bodies()
@@ -152,9 +152,10 @@ def _parted(linkage: Linkage, placement: Placement, tool: int) -> tuple[Array, M
     q, upper = np.linalg.qr(np.swapaxes(a, -1, -2))
     pivots = np.abs(np.diagonal(upper, axis1=-2, axis2=-1))
     redundant = np.any((pivots <= INDEPENDENT * np.maximum(size, 1e-300)) | idle, axis=-1)
-    ends = q[:, 6 * tool : 6 * tool + 6]
+    moves = _tool_moves(linkage, placement, length)
+    ends = moves @ q
     # the tool's displacements that no row sees
-    free = np.eye(6) - ends @ np.swapaxes(ends, -1, -2)
+    free = moves @ np.swapaxes(moves, -1, -2) - ends @ np.swapaxes(ends, -1, -2)
     loose = np.abs(np.diagonal(free, axis1=-2, axis2=-1)).max(axis=-1) > INDEPENDENT
     safe = np.where(redundant[:, None, None], np.eye(r), upper)
     moved = np.swapaxes(np.linalg.solve(safe, np.swapaxes(ends, -1, -2)), -1, -2)
@@ -164,3 +165,22 @@ def _parted(linkage: Linkage, placement: Placement, tool: int) -> tuple[Array, M
     moved = moved * scale[:, None]
     moved[:, 3:] /= length[:, None, None]
     return moved, redundant, loose & ~redundant
+
+
+def _tool_moves(linkage: Linkage, placement: Placement, length: Array) -> Array:
+    """The tool's twist by those of the bodies, turns at the machine's size, (p, 6, 6 b).
+
+    Relative to the point of the workpiece at which it stands, where the linkage names one.
+    """
+    poses = len(placement.positions)
+    result = np.zeros((poses, len(linkage.body_names), 6, 6))
+    if linkage.tool_body >= 0:
+        result[:, linkage.tool_body] += np.eye(6)
+    work = linkage.workpiece_body
+    if work >= 0:
+        tool = placement.positions[:, linkage.node_index[str(linkage.tool)]]
+        arm = (tool - body_references(linkage, placement)[:, work]) / length[:, None]
+        carried = np.tile(np.eye(6), (poses, 1, 1))
+        carried[:, :3, 3:] = -np.cross(arm[:, None, :], np.eye(3)).swapaxes(-1, -2)
+        result[:, work] -= carried
+    return np.moveaxis(result, 1, 2).reshape(poses, 6, -1)

@@ -51,11 +51,14 @@ class Linkage:
         The node of the tool centre point.
     couplings : tuple of Coupling
         Joint coordinates that follow others.
+    against : str or None
+        A node of the workpiece, relative to which the tool gives way and errs; None for the ground.
 
     Raises
     ------
     ModelError
-        A repeated or unknown name, a node in two bodies, or a coupling that cannot be.
+        A repeated or unknown name, a node in two bodies, a workpiece without a tool, or a coupling
+        that cannot be.
     """
 
     nodes: tuple[str, ...]
@@ -63,6 +66,7 @@ class Linkage:
     joints: tuple[Joint, ...]
     tool: str | None = None
     couplings: tuple[Coupling, ...] = ()
+    against: str | None = None
 
     def __post_init__(self) -> None:
         _unique("node", self.nodes)
@@ -76,6 +80,12 @@ class Linkage:
             _known(f"joint {joint.name}", joint.between, known)
         if self.tool is not None:
             _known("tool", (self.tool,), known)
+        if self.against is not None:
+            _known("tool.against", (self.against,), known)
+            if self.tool is None:
+                raise ModelError(
+                    "tool.against", "is given without a tool.", "Name the tool centre point's node."
+                )
         owner: dict[str, str] = {}
         for body in self.bodies:
             for node in body.nodes:
@@ -141,6 +151,18 @@ class Linkage:
         if self.tool is None:
             raise ModelError("linkage", "has no tool.", "Name the tool centre point's node.")
         return int(self.body_of_node[self.node_index[self.tool]])
+
+    @property
+    def workpiece_body(self) -> int:
+        """Index into `body_names` of the workpiece's body, -1 for ground."""
+        if self.against is None:
+            return -1
+        return int(self.body_of_node[self.node_index[self.against]])
+
+    @property
+    def relative_to(self) -> str:
+        """Words behind the tool: " relative to NODE" where there is a workpiece, else none."""
+        return "" if self.against is None else f" relative to {self.against}"
 
     @cached_property
     def ties(self) -> tuple[Tie, ...]:

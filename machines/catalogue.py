@@ -83,6 +83,9 @@ class CatalogueEntry:
     process : str
         The cut whose stability its report states, of `strutwork.machines.process_file`; empty for
         none. Assumed, not its paper's.
+    errors : str
+        Causes of errors from which its report has an error sheet, of `strutwork.machines.data`;
+        empty for none. Assumed, not its paper's.
     models : tuple of Variant
         Its models, the first that of `factory`; empty of one that has no other.
     """
@@ -97,6 +100,7 @@ class CatalogueEntry:
     scale: str = ""
     around_home: Mapping[str, tuple[float, int]] = field(default_factory=dict)
     process: str = ""
+    errors: str = ""
     models: tuple[Variant, ...] = ()
 
 
@@ -137,6 +141,7 @@ _ENTRIES = (
         _COMPARED,
         around_home=_UPRIGHT,
         process="process-end-mill",
+        errors="errors-eclipse",
         models=models_for_statics_and_vibration("eclipse-3pprs", Eclipse3PPRS),
     ),
     CatalogueEntry(
@@ -180,6 +185,7 @@ _ENTRIES = (
         "strutwork.papers.son_2002.scale_command:run",
         {"x": (0.1, 9), "ry": (radians(20.0), 9)},
         "process-end-mill",
+        "errors-mit-ss1",
     ),
     CatalogueEntry(
         "hexel-hexapod",
@@ -218,6 +224,7 @@ _ENTRIES = (
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home=_UPRIGHT,
         process="process-end-mill",
+        errors="errors-eclipse",
         models=models_by_drives(EclipsePrototype),
     ),
     CatalogueEntry(
@@ -229,6 +236,7 @@ _ENTRIES = (
         "strutwork.papers.kim_2001.pages:machine_chapters",
         around_home={"x": (0.1, 5), "y": (0.1, 5), "z": (0.05, 3)},
         process="process-face-mill",
+        errors="errors-eclipse-large",
         models=models_by_drives(EclipseMachine),
     ),
     CatalogueEntry(

@@ -141,6 +141,11 @@ class Model:
         """Node of the tool centre point."""
         return self.structure.linkage.tool
 
+    @property
+    def relative(self) -> str:
+        """Words behind the tool: " relative to NODE" where the file names a workpiece."""
+        return self.structure.linkage.relative_to
+
     def require_tool(self) -> str:
         """Node of the tool centre point.
 

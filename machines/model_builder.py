@@ -104,8 +104,10 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         joints=(*joints, *supports.values()),
         tool=None if tables.tool is None else tables.tool.tcp,
         couplings=couplings,
+        against=None if tables.tool is None else tables.tool.against,
     )
     structure = Structure(linkage, beams, springs, rigid, masses, solids)
+    _ = structure.workpiece_vertex  # a workpiece that moves with the tool is an error now
     positions = [
         *(tables.nodes[n] for n in nodes),
         *monitors.values(),

@@ -154,6 +154,11 @@ def _check_nodes(tables: ModelTable) -> None:
         *((f"loads[{i}]", (t.node,)) for i, t in enumerate(tables.loads)),
         *((f"settlements[{i}]", (t.node,)) for i, t in enumerate(tables.settlements)),
         *(() if tables.tool is None else (("tool", (tables.tool.tcp,)),)),
+        *(
+            ()
+            if tables.tool is None or tables.tool.against is None
+            else (("tool.against", (tables.tool.against,)),)
+        ),
     ]
     for part, nodes in (*connecting, *others):
         for node in nodes:

@@ -287,7 +287,10 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "static_rating": "static load rating (ISO 76), instead of radial_force",
         "safety_factor": "by which the rating is divided; 1 by default",
     },
-    "ToolTable": {"tcp": "node at which compliance and stiffness are given"},
+    "ToolTable": {
+        "tcp": "node at which compliance and stiffness are given",
+        "against": "workpiece's node, to which results of the tool are relative; default: ground",
+    },
     "RayleighTable": {
         "alpha": "factor of the mass matrix",
         "beta": "factor of the stiffness matrix",

@@ -320,9 +320,10 @@ class ForceLimitTable(Table):
 
 
 class ToolTable(Table):
-    """The tool centre point."""
+    """The tool centre point, and the node of the workpiece."""
 
     tcp: Name
+    against: Name | None = None
 
 
 class RayleighTable(Table):

@@ -64,7 +64,7 @@ def model_tolerances(
         part = f"tolerance {table.name}"
         if named[table.name] > 1:
             raise ModelError(part, "is defined twice.", "Give every tolerance its own name.")
-        made.append(_tolerance(table, part, known, tables))
+        made.append(tolerance_of(table, known, tables.nodes))
     limits: dict[tuple[str, str], float] = {}
     carried = {joint.name: joint for joint in joints}
     for i, limit in enumerate(tables.force_limits):
@@ -73,12 +73,28 @@ def model_tolerances(
     return ModelTolerances(tuple(made), costs, limits)
 
 
-def _tolerance(
-    table: ToleranceTable, part: str, known: Mapping[str, Joint], tables: ModelTable
+def tolerance_of(
+    table: ToleranceTable, known: Mapping[str, Joint], nodes: Mapping[str, object]
 ) -> Tolerance:
+    """The tolerance of a table.
+
+    Parameters
+    ----------
+    table : ToleranceTable
+    known : mapping of name to Joint
+        That it may name.
+    nodes : mapping of name to anything
+        That may be its datum.
+
+    Raises
+    ------
+    ModelError
+        An unknown joint or datum, or a size given twice or not at all.
+    """
+    part = f"tolerance {table.name}"
     joints = _named(table, part, known)
-    if table.datum is not None and table.datum not in tables.nodes:
-        raise unknown(part, "datum", table.datum, tables.nodes)
+    if table.datum is not None and table.datum not in nodes:
+        raise unknown(part, "datum", table.datum, nodes)
     return Tolerance(
         name=table.name,
         kind=table.kind,

@@ -40,6 +40,27 @@ def read_process(path: str | Path) -> DescribedProcess:
     return found
 
 
+def known_errors(name: str) -> Path:
+    """Where the errors file of a machine of the literature is.
+
+    Parameters
+    ----------
+    name : str
+        As its entry in the catalogue has it.
+    """
+    return DATA / f"{name}.toml"
+
+
+def is_known(path: Path) -> bool:
+    """Whether a file is one of the package's own, whose values are assumed.
+
+    Parameters
+    ----------
+    path : Path
+    """
+    return path.parent == DATA
+
+
 def known_process(name: str) -> DescribedProcess:
     """A process of the package by its name.
 

@@ -268,10 +268,14 @@ class Clusters:
     def tool_load(self) -> Array:
         """Six unit wrenches at the tool on the unknowns, (p, n, 6).
 
+        Where the linkage names a workpiece, the opposite ones act on its node, carried there from
+        the tool: the transpose is then the tool's displacement relative to the point of the
+        workpiece at which it stands.
+
         Raises
         ------
         ModelError
-            The linkage has no tool.
+            The linkage has no tool, or the workpiece moves with it.
         """
         structure = self.placed.structure
         if structure.linkage.tool is None:
@@ -282,4 +286,9 @@ class Clusters:
         if vertex >= 0:
             carried = rigid_map(self.placed.arms[:, node])
             load[:, 6 * vertex : 6 * vertex + 6] = np.swapaxes(carried, -1, -2)
+        other = structure.workpiece_vertex
+        if other >= 0:
+            positions = self.placed.positions
+            arm = positions[:, node] - positions[:, structure.reference_nodes[other]]
+            load[:, 6 * other : 6 * other + 6] -= np.swapaxes(rigid_map(arm), -1, -2)
         return load

@@ -120,14 +120,16 @@ class _Condensed:
 
 
 def _at_tool(system: System, basis: Array) -> NDArray[np.bool_]:
-    """Coordinates that move the tool's cluster; without a tool none."""
+    """Coordinates that move the tool's cluster or the workpiece's; without a tool none."""
     structure = system.placed.structure
+    result = np.zeros(basis.shape[-1], dtype=bool)
     if structure.linkage.tool is None:
-        return np.zeros(basis.shape[-1], dtype=bool)
-    vertex = structure.vertex_of_node[structure.linkage.node_index[structure.linkage.tool]]
-    if vertex < 0:
-        return np.zeros(basis.shape[-1], dtype=bool)
-    return np.asarray(np.any(basis[:, 6 * vertex : 6 * vertex + 6] != 0, axis=(0, 1)))
+        return result
+    tool = int(structure.vertex_of_node[structure.linkage.node_index[structure.linkage.tool]])
+    for vertex in (tool, structure.workpiece_vertex):
+        if vertex >= 0:
+            result |= np.any(basis[:, 6 * vertex : 6 * vertex + 6] != 0, axis=(0, 1))
+    return result
 
 
 def _scaled_solve(system: System, matrix: Array, right: Array) -> Array:

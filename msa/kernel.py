@@ -72,6 +72,10 @@ def _tool_loads(p, point, axis, pivot, entry, load):  # type: ignore[no-untyped-
                 load[c, 3, w], load[c, 4, w], load[c, 5, w] = ax, ay, az
             else:
                 load[c, 0, w], load[c, 1, w], load[c, 2, w] = ax, ay, az
+        if p.tool_sign[t] < 0.0:
+            for d in range(6):
+                for w in range(LANES):
+                    load[c, d, w] = -load[c, d, w]
     s = p.spread
     for k in range(s.tool_from.shape[0]):
         c, i, e = s.tool_from[k], s.tool_to[k], s.tool_entry[k]

@@ -123,7 +123,7 @@ def movable_directions(system: System) -> MovableDirections:
     length = tool_length(system)
     held = _holding(system)
     basis = np.zeros((system.poses, 6, 6))
-    if held.vertex < 0:
+    if held.vertex < 0 and held.work < 0:
         return MovableDirections(basis, length)
     if not held.rows.size:
         return MovableDirections(basis + np.eye(6), length)
@@ -134,13 +134,30 @@ def movable_directions(system: System) -> MovableDirections:
     rows = rows / np.where(size == 0, 1.0, size)
     _, values, right = np.linalg.svd(rows, full_matrices=False)
     right = right * (values > RANK_TOLERANCE * values[:, :1])[..., None]
-    at = 6 * int(np.searchsorted(held.vertices, held.vertex))
-    # rows of the projector on what the constraints allow that belong to the tool
-    allowed = -np.swapaxes(right[..., at : at + 6], -1, -2) @ right
-    allowed[:, range(6), range(at, at + 6)] += 1.0
+    if held.work < 0:
+        at = 6 * int(np.searchsorted(held.vertices, held.vertex))
+        # rows of the projector on what the constraints allow that belong to the tool
+        allowed = -np.swapaxes(right[..., at : at + 6], -1, -2) @ right
+        allowed[:, range(6), range(at, at + 6)] += 1.0
+    else:
+        moves = _relative(system, held, length)
+        allowed = moves - (moves @ np.swapaxes(right, -1, -2)) @ right
     left, moved, _ = np.linalg.svd(allowed, full_matrices=False)
     basis = left * (moved > RANK_TOLERANCE)[:, None, :]
     return MovableDirections(_uncoupled(basis), length)
+
+
+def _relative(system: System, held: _Holding, length: Array) -> Array:
+    """The tool's scaled twist relative to the workpiece by those of the clusters, (p, 6, 6 v)."""
+    load = system.tool_load()
+    scale = twist_scale(length)
+    result = np.zeros((system.poses, len(held.vertices), 6, 6))
+    for vertex in (held.vertex, held.work):
+        if vertex >= 0:
+            own = np.swapaxes(load[:, 6 * vertex : 6 * vertex + 6], -1, -2)
+            at = int(np.searchsorted(held.vertices, vertex))
+            result[:, at] = scale[:, :, None] * own / scale[:, None, :]
+    return np.moveaxis(result, 1, 2).reshape(system.poses, 6, -1)
 
 
 def tool_length(system: System) -> Array:
@@ -157,7 +174,7 @@ def tool_length(system: System) -> Array:
     held = _holding(system)
     structure = system.placed.structure
     positions = system.placed.positions
-    if held.vertex < 0 or not held.rows.size:
+    if max(held.vertex, held.work) < 0 or not held.rows.size:
         return np.ones(system.poses)
     joint, _ = system.row_owner
     index, joints = structure.linkage.node_index, structure.linkage.joints
@@ -172,13 +189,23 @@ def always_movable(system: System) -> bool:
     """Whether the tool can move in all six directions at every pose, whatever the coordinates.
 
     True where the clusters that rows join to the tool form a tree without ground: then no row
-    can depend on another, and the tool may go anywhere with the others following.
+    can depend on another, and the tool may go anywhere with the others following. Relative to a
+    workpiece either of the two may be the one that can go anywhere, if no row joins them.
 
     Parameters
     ----------
     system : System
     """
     held = _holding(system)
+    if held.work < 0:
+        return _goes_anywhere(system, held)
+    sides = [_held_at(system, vertex) for vertex in (held.vertex, held.work)]
+    if held.vertex in sides[1].vertices:
+        return False
+    return any(_goes_anywhere(system, side) for side in sides)
+
+
+def _goes_anywhere(system: System, held: _Holding) -> bool:
     if held.vertex < 0:
         return False
     pairs = _row_vertices(system)[held.rows]
@@ -191,11 +218,12 @@ def always_movable(system: System) -> bool:
 
 @dataclass(frozen=True)
 class _Holding:
-    """The tool's cluster, clusters that rows join to it (sorted), and those rows."""
+    """The tool's cluster, clusters that rows join to it (sorted), those rows, the workpiece's."""
 
     vertex: int
     vertices: NDArray[np.intp]
     rows: NDArray[np.intp]
+    work: int = -1
 
 
 def _row_vertices(system: System) -> NDArray[np.intp]:
@@ -205,11 +233,17 @@ def _row_vertices(system: System) -> NDArray[np.intp]:
 
 def _holding(system: System) -> _Holding:
     structure = system.placed.structure
-    none = np.zeros(0, dtype=np.intp)
     if structure.linkage.tool is None:
         raise ModelError("structure", "has no tool.", "Name the tool centre point's node.")
     vertex = int(structure.vertex_of_node[structure.mesh_index[structure.linkage.tool]])
-    if vertex < 0:
+    return _held_at(system, vertex, structure.workpiece_vertex)
+
+
+def _held_at(system: System, vertex: int, work: int = -1) -> _Holding:
+    structure = system.placed.structure
+    moving = [v for v in (vertex, work) if v >= 0]
+    if not moving:
+        none = np.zeros(0, dtype=np.intp)
         return _Holding(vertex, none, none)
     pairs = _row_vertices(system)
     # one after another: a row that ties two joints joins the clusters of both
@@ -219,11 +253,11 @@ def _holding(system: System) -> _Holding:
     count = structure.vertex_count
     links = sp.coo_array((np.ones(len(inner)), (inner[:, 0], inner[:, 1])), shape=(count, count))
     _, label = connected_components(links, directed=False)
-    vertices = np.flatnonzero(label == label[vertex])
+    vertices = np.flatnonzero(np.isin(label, label[moving]))
     # a row inside one cluster holds nothing
     acts = (pairs[:, ::2] != pairs[:, 1::2]).any(axis=1)
     rows = np.flatnonzero(np.isin(pairs, vertices).any(axis=1) & acts)
-    return _Holding(vertex, vertices, rows)
+    return _Holding(vertex, vertices, rows, work)
 
 
 def _local_rows(system: System, held: _Holding) -> Array:

@@ -75,6 +75,39 @@ def _gathered(part: System, loads: Array) -> Array:
     return part.gather(loads[: part.poses])
 
 
+def tool_displacement(placed: PlacedStructure, displacements: Array) -> Array:
+    """Displacements of the tool, relative to the workpiece where the linkage names one.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        With a tool.
+    displacements : (..., n, 6, m)
+        Of the mesh nodes, the linkage's first; global axes, m and rad.
+
+    Returns
+    -------
+    (..., 6, m)
+        Global axes, m and rad; relative to the point of the workpiece at which the tool stands.
+
+    Raises
+    ------
+    ModelError
+        No tool.
+    """
+    linkage = placed.structure.linkage
+    if linkage.tool is None:
+        raise ModelError("tool", "the linkage has none.", "Name a node as the tool.")
+    tool = linkage.node_index[linkage.tool]
+    found = displacements[..., tool, :, :]
+    if linkage.against is None:
+        return np.asarray(found)
+    other = linkage.node_index[linkage.against]
+    places = placed.placement.positions
+    arm = places[..., tool, :] - places[..., other, :]
+    return np.asarray(found - rigid_map(arm) @ displacements[..., other, :, :])
+
+
 def relative_motion(placed: PlacedStructure, against: str | None = None) -> Array:
     """What makes the tool's motion relative to the workpiece of the motions of two nodes.
 

@@ -177,7 +177,9 @@ class Program(NamedTuple):
         Entries of the factor.
     tool_node : int
     tool_moves : (g,)
-        Coordinates that move the tool's cluster directly.
+        Coordinates that move the tool's cluster directly, or the workpiece's, and not both.
+    tool_sign : (g,)
+        1 where it is the tool's, −1 where it is the workpiece's; no unit.
     tool_touches : (h,)
         Independent coordinates that move the tool.
     loops : LoopProgram
@@ -219,6 +221,7 @@ class Program(NamedTuple):
     slots: int
     tool_node: int
     tool_moves: Ints
+    tool_sign: Array
     tool_touches: Ints
     loops: LoopProgram
     spread: SpreadProgram

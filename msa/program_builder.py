@@ -61,7 +61,11 @@ def compile_program(system: System) -> Program | None:
         return None
     coordinates, of_vertex = _coordinates(topology)
     tool_node = structure.mesh_index[linkage.tool]
-    moves = of_vertex.get(int(structure.vertex_of_node[tool_node]), [])
+    of_tool = of_vertex.get(int(structure.vertex_of_node[tool_node]), [])
+    of_work = of_vertex.get(structure.workpiece_vertex, [])
+    # a coordinate that carries both moves them as one, about whatever point
+    moves = [c for c in of_tool if c not in of_work] + [c for c in of_work if c not in of_tool]
+    sign = np.array([1.0 if c in of_tool else -1.0 for c in moves])
     closing = _closing_touches(topology, of_vertex)
     loops: tuple[Loop, ...] = ()
     turns = np.array([c.direction >= 3 for c in coordinates])
@@ -88,7 +92,9 @@ def compile_program(system: System) -> Program | None:
         for loop in loops
     )
     follows = following(loops)
-    moves = sorted(int(position[c]) for c in moves)
+    moved = position[ints(moves)]
+    sign = sign[np.argsort(moved)]
+    moves = sorted(int(c) for c in moved)
     reached = [follows.reached(t) for t in touches]
     count = len(coordinates) - len(follows)
     pattern = {(i, i) for i in range(count)}
@@ -156,6 +162,7 @@ def compile_program(system: System) -> Program | None:
         slots=slots,
         tool_node=tool_node,
         tool_moves=ints(moves),
+        tool_sign=sign,
         tool_touches=ints(follows.reached(moves)),
         loops=loop_program(
             topology,

@@ -128,7 +128,7 @@ def spread_program(
     elastic : dict of int to float
         Stiffness of elastic coordinates, N/m or N·m/rad.
     moves : list of int
-        Coordinates that move the tool's cluster.
+        Coordinates that move the tool's cluster or the workpiece's.
     """
     own, spread = [], []
     for touch, group in zip(touches, reached, strict=True):

@@ -31,6 +31,7 @@ from strutwork.msa.stiffness import (
     scaled,
 )
 from strutwork.msa.structure import PlacedStructure
+from strutwork.msa.tool_load_rates import tool_load_rates
 
 Array = NDArray[Any]
 
@@ -111,6 +112,10 @@ def compliance_sensitivity(
     compliance = (compliance + np.swapaxes(compliance, -1, -2)) / 2.0
     fields = Fields(found.displacements.astype(float), found.multipliers.astype(float))
     rates = -FormBuilder(system, changes).forms(fields).elastic
+    turned = tool_load_rates(system, changes)
+    if turned is not None:
+        own = np.swapaxes(turned, -1, -2) @ fields.unknowns
+        rates = rates + own + np.swapaxes(own, -1, -2)
     _keep_movable(system, compliance)
     return ComplianceSensitivity(tuple(c.name for c in changes), compliance, rates)
 

@@ -177,6 +177,31 @@ class Structure:
         return np.asarray([label[i] for i in range(len(self.mesh_nodes))], dtype=np.intp)
 
     @cached_property
+    def workpiece_vertex(self) -> int:
+        """Rigid cluster relative to which the tool moves, -1 for the ground.
+
+        Raises
+        ------
+        ModelError
+            It is the tool's own.
+        """
+        linkage = self.linkage
+        if linkage.against is None or linkage.tool is None:
+            return -1
+        vertex = self.vertex_of_node
+        tool, other = (
+            int(vertex[linkage.node_index[name]]) for name in (linkage.tool, linkage.against)
+        )
+        if tool == other:
+            raise ModelError(
+                "tool.against",
+                f'names "{linkage.against}", which is one rigid body with the tool '
+                f'"{linkage.tool}": they never move relative to each other.',
+                "Name a node of the body that holds the workpiece.",
+            )
+        return other
+
+    @cached_property
     def vertex_count(self) -> int:
         """Number of moving rigid clusters."""
         return int(self.vertex_of_node.max(initial=-1)) + 1

@@ -14,6 +14,7 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Linkage, State
 from strutwork.msa.assembly import system_of
 from strutwork.msa.loads import LoadCase
+from strutwork.msa.nodal_response import tool_displacement
 from strutwork.msa.solve import Method, solve
 from strutwork.msa.structure import PlacedStructure
 from strutwork.msa.undetermined import undetermined
@@ -43,8 +44,8 @@ class Influence:
         On the second node of every joint in joint axes, per unit misfit: N/m, N·m/m, N/rad and
         N·m/rad.
     tool : (..., 6, g)
-        Displacement and rotation of the tool per unit misfit, global axes: m/m, rad/m, m/rad and
-        rad/rad.
+        Displacement and rotation of the tool per unit misfit, relative to the workpiece where the
+        linkage names one, global axes: m/m, rad/m, m/rad and rad/rad.
     redundant : (...) of int
         States of self-stress; where there is none the forces are exactly zero.
     residual : (...)
@@ -209,10 +210,12 @@ def _solved(
     forces = np.where(
         found.takes_part[..., None] & active[..., None, None, :], solution.joint_forces, 0.0
     )
-    node = 0 if linkage.tool is None else linkage.node_index[linkage.tool]
-    tool = solution.displacements[..., node, :, :]
-    if linkage.tool is None:
-        tool = np.zeros_like(tool)
+    moved = solution.displacements
+    tool = (
+        np.zeros_like(moved[..., 0, :, :])
+        if linkage.tool is None
+        else tool_displacement(placed, moved)
+    )
     forces, tool = without_rounding(placed, columns, forces, tool)
     check_tool_place(system_of(placed), tool.reshape(-1, *tool.shape[-2:]))
     return forces, tool, found.count, solution.residual, undetermined(placed)

@@ -11,6 +11,7 @@ from strutwork.errors import MechanismError
 from strutwork.kinematics import characteristic_lengths, mobility
 from strutwork.msa.assembly import System
 from strutwork.msa.constraints import free_unknowns, scales
+from strutwork.msa.nodal_response import tool_displacement
 
 Array = NDArray[Any]
 
@@ -44,8 +45,7 @@ def check_tool_place(system: System, tool: Array) -> None:
     free = free_unknowns(system)
     if not free.shape[-1]:
         return
-    node = linkage.node_index[linkage.tool]
-    moved = system.expand(free * scales(system)[..., None])[:, node]
+    moved = tool_displacement(system.placed, system.expand(free * scales(system)[..., None]))
     # rotations count by what they move at the machine's own length
     length = characteristic_lengths(system.placed.placement)[:, None, None]
     largest = np.zeros(system.poses)

@@ -273,11 +273,19 @@ def _machine(
     """
     from strutwork.machines.load import load
     from strutwork.machines.naming import named_machine
+    from strutwork.machines.process_file import known_errors
     from strutwork.reports.composed import chapters_beside, report_of
 
     model, found = load(name), named_machine(name)
     model = model if process is None else replace(model, process=process)
-    about = Subject(model if put is None else put(model), name, name, progress, errors=errors)
+    own_errors = found.entry.errors if errors is None else ""
+    about = Subject(
+        model if put is None else put(model),
+        name,
+        name,
+        progress,
+        errors=known_errors(own_errors) if own_errors else errors,
+    )
     if put is not None or not found.report:
         subtitle = found.entry.topology
         if put is None:

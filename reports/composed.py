@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from strutwork.errors import StrutworkError
+from strutwork.machines.process_file import is_known
 from strutwork.names import visible
 from strutwork.reports.chapters import (
     accuracy,
@@ -256,7 +257,7 @@ def report_of(subject: Subject) -> tuple[Chapter, ...]:
     if subject.solution is not None:
         settings["solver"] = subject.solution.statics.method
     command = None
-    if subject.errors is not None:
+    if subject.errors is not None and not is_known(subject.errors):
         beside = visible(subject.errors.name)
         settings["errors"] = beside
         again = (shlex.quote(shown), shlex.quote(beside))

@@ -81,10 +81,12 @@ class ModelSolution:
             beside["flexures"] = described_flexures(self.model)
         if self.compliance is None:
             return {"cases": cases, "tcp": None, **beside}
+        against = self.model.structure.linkage.against
         return {
             "cases": cases,
             **beside,
             "tcp": {
+                **({} if against is None else {"against": against}),
                 "compliance": self.compliance.tolist(),
                 "stiffness": None if self.stiffness is None else self.stiffness.tolist(),
             },

@@ -27,6 +27,7 @@ from strutwork.fea.idle import IdleMotion, free_motions, idle_line, idle_motions
 from strutwork.fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
 from strutwork.fea.mode_damping import damping_ratios
 from strutwork.fea.modes import searched_modes
+from strutwork.fea.ports import tool_port
 from strutwork.fea.uff import UniversalFile, mode_file, node_positions, response_records
 from strutwork.fea.uff_write import write_universal
 from strutwork.files import write_whole
@@ -42,7 +43,6 @@ Array = NDArray[Any]
 
 #: Names that stand for the tool where no node bears them.
 TOOL_NAMES = ("TCP", "tcp", "tool")
-
 
 #: Why there is no stiffness between two ports.
 APART = (
@@ -93,12 +93,14 @@ class Target:
                     "means the tool, but the model has none.",
                     'Add a table [tool] with tcp = "NODE", or name a node.',
                 )
-            return Port.parse(f"{tool}{colon}{direction}", (tool,))
+            text = f"{tool}{colon}{direction}"
         port = Port.parse(text, tuple(known))
         for name in (port.node, port.against):
             if name is not None and name not in known:
                 remedy = choices("Nodes", name, self.nodes, 8)
                 raise ModelError(f'port "{text}"', f'has no node "{name}".', remedy)
+        if port.node == tool and port.against is None:
+            return tool_port(self.placed.structure.linkage, str(port.direction))
         return port
 
     def require_damping(self) -> AnyDamping:

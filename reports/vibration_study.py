@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.fea import FrequencyResponse, ModalRatio, Modes, Port, frequency_response
+from strutwork.fea import FrequencyResponse, ModalRatio, Modes, frequency_response
 from strutwork.fea.frf import response_at
 from strutwork.fea.least_stiffness import LeastStiffness, least_dynamic_stiffness
+from strutwork.fea.ports import tool_ports
 from strutwork.fea.validity import beyond
 from strutwork.kinematics import GROUND
 from strutwork.machines.catalogue import Machine
@@ -80,6 +81,11 @@ class VibrationStudy:
     def validity(self) -> str:
         """Empty, or which superelement is shown beyond the frequencies to which it holds."""
         return beyond(self.placed, max(self.band[1], *self.modes.frequencies, 0.0))
+
+    @property
+    def relative(self) -> str:
+        """Words behind the tool where it is relative to a workpiece, else none."""
+        return self.placed.structure.linkage.relative_to
 
     @property
     def placed(self) -> PlacedStructure:
@@ -170,16 +176,17 @@ def _study(
     target: Target, lines: Sequence[tuple[str, str]], band: tuple[float, float] | None
 ) -> VibrationStudy:
     found = target_modes(target, MODES)
-    tool = target.placed.structure.linkage.tool
+    linkage = target.placed.structure.linkage
+    tool = linkage.tool
     stop = ""
     if band is None and tool is not None and target.damping is not None:
-        band, stop = covering_band(target.placed, [Port(tool, axis) for axis in AXES])
+        band, stop = covering_band(target.placed, tool_ports(linkage))
     if tool is None or target.damping is None or band is None:
         span = band or (0.0, 0.0)
         return VibrationStudy(
             target.stem, target.title, found, tuple(lines), span, None, (), np.empty(0)
         )
-    ports = tuple(Port(tool, axis) for axis in AXES)
+    ports = tool_ports(linkage)
     least = tuple(least_dynamic_stiffness(target.placed, p, p, target.damping, band) for p in ports)
     drawn = np.unique(
         np.concatenate([np.geomspace(*band, LINES), [one.frequency for one in least]])

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea import Port
 from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.ports import tool_ports
 from strutwork.fea.preload import preloaded
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
@@ -165,7 +165,7 @@ class Vibration:
 
     def __call__(self, placed: PlacedStructure) -> tuple[dict[str, Array], Outcome]:
         """Of a flat batch."""
-        ports = tuple(Port(self.tool, axis) for axis in AXES)
+        ports = tool_ports(placed.structure.linkage, self.tool)
 
         def stack(part: PlacedStructure) -> dict[str, Array]:
             loaded = part if self.preload is None else preloaded(part, self.preload)

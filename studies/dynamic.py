@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea import Damping, ModalRatio, Port
+from strutwork.fea import Damping, ModalRatio, Port, ports
 from strutwork.fea.dynamic_stiffness import check_band, minimum_of
 from strutwork.fea.eigen import solve_eigen
 from strutwork.fea.modal import ModalModel, modal_model_of
@@ -50,9 +50,7 @@ def tool_ports(machine: Machine) -> tuple[Port, ...]:
     ModelError
         The machine has no tool.
     """
-    if machine.linkage.tool is None:
-        raise ModelError("linkage", "has no tool.", "Name the tool centre point's node.")
-    return tuple(Port(machine.linkage.tool, axis) for axis in AXES)
+    return ports.tool_ports(machine.linkage)
 
 
 def modal_data(

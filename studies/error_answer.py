@@ -89,9 +89,11 @@ class ErrorSheets:
             c.name: np.full((poses, *(widths[d] for d in c.dims)), np.nan) for c in self.columns
         }
 
+        inputs = self.inputs.computed(self.model)
+
         def some(index: NDArray[np.intp]) -> None:
             for i in index:
-                sheet = error_sheet(self.model, self.inputs, placed[int(i)])
+                sheet = error_sheet(self.model, inputs, placed[int(i)])
                 arrays["known"][i] = sheet.mean
                 arrays["worst_case"][i] = sheet.worst
                 arrays["standard_deviation"][i] = sheet.deviation
@@ -184,6 +186,7 @@ def axis_errors(model: Model, inputs: ErrorInputs, axis: str, positions: Array) 
             "Give a range within the workspace.",
         )
     placed = model.structure.at(placement)
+    inputs = inputs.computed(model)
     sheets: list[ErrorSheet] = [error_sheet(model, inputs, placed[i]) for i in range(len(values))]
     known = np.array([sheet.mean for sheet in sheets])
     errors = known - known[0]

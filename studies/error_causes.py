@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.damping import ModalRatio
 from strutwork.fea.ground_vibration import GroundVibration, ground_vibration
 from strutwork.fea.load_response import load_response
 from strutwork.kinematics import DIRECTIONS, State
@@ -19,9 +20,10 @@ from strutwork.msa.loads import LoadCase
 from strutwork.msa.solve import solve
 from strutwork.msa.structure import PlacedStructure
 from strutwork.overconstraint.accuracy import accuracy
-from strutwork.overconstraint.joint_errors import JointError, error_sources
+from strutwork.overconstraint.joint_errors import JointError
 from strutwork.overconstraint.sources import MisfitSources
 from strutwork.overconstraint.unit_sets import Disc
+from strutwork.studies.error_calibration import GeometryCalibration, turned
 from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_known import NONE, KnownCauses
 from strutwork.studies.error_sheet import CAUSES, PEAK, ErrorRow, ErrorSheet, NormalBall
@@ -64,7 +66,11 @@ class ErrorCauses:
         StrutworkError
             As the solvers.
         """
-        rows = [*self._varied(), *self.known.rows(), *self._periodic()]
+        geometry, drives = self._varied()
+        before: tuple[ErrorRow, ...] = ()
+        if self.inputs.calibrated is not None:
+            before, geometry = tuple(geometry), self._after(geometry, self.inputs.calibrated)
+        rows = [*geometry, *drives, *self.known.rows(), *self._periodic()]
         vibration = self.vibration
         notes: list[str] = []
         if vibration is not None:
@@ -78,23 +84,48 @@ class ErrorCauses:
             )
         rows.sort(key=lambda row: CAUSES.index(row.cause))
         return ErrorSheet(
-            tuple(rows), tuple(notes), self._drive_forces(), self.known.drift(self.inputs.moments)
+            tuple(rows),
+            tuple(notes),
+            self._drive_forces(),
+            self.known.drift(self.inputs.moments),
+            self.inputs.calibrated,
+            before,
         )
 
-    def _varied(self) -> list[ErrorRow]:
+    def _varied(self) -> tuple[list[ErrorRow], list[ErrorRow]]:
         """Tolerances, and the resolution and backlash of drives."""
-        tolerances = self.model.tolerances if self.inputs.geometry else ()
+        tolerances = self.inputs.all_tolerances(self.model)
         errors = self._joint_errors()
         if not tolerances and not errors:
-            return []
-        if self.inputs.against is None:
-            found = accuracy(self.known.soft, tolerances, errors)
-            sources, gain, mean = found.sources, found.gain, found.mean
-        else:
-            sources = error_sources(self.known.soft, tolerances, errors)
-            matrix = self.known.transmission(self.known.soft, sources.columns)
-            gain, mean = matrix @ sources.map, matrix @ sources.mean
-        return _rows(sources, gain, mean, len(tolerances))
+            return [], []
+        soft = self.known.soft
+        if self.inputs.calibrated is not None:
+            soft = turned(self.model, soft)
+        found = accuracy(soft, tolerances, errors)
+        rows = _rows(found.sources, found.gain, found.mean, len(tolerances))
+        return (
+            [row for row in rows if row.cause == "geometry"],
+            [row for row in rows if row.cause != "geometry"],
+        )
+
+    def _after(self, rows: list[ErrorRow], calibrated: GeometryCalibration) -> list[ErrorRow]:
+        """The geometry after its calibration; the middle of zones is known and compensated."""
+        gain = np.concatenate([row.gain for row in rows], axis=1)
+        left, noise = gain @ calibrated.keep, gain @ calibrated.noise
+        cause = "geometry after calibration"
+        found, start = [], 0
+        for row in rows:
+            stop = start + row.gain.shape[1]
+            if stop > start:
+                found.append(replace(row, cause=cause, mean=np.zeros(6), gain=left[:, start:stop]))
+            start = stop
+        if noise.shape[1]:
+            part = "uncertainty of the measurement"
+            root = _root(noise @ noise.T)
+            found.append(
+                ErrorRow(cause, part, np.zeros(6), PEAK * root, (NormalBall(6),), "surface")
+            )
+        return found
 
     def _joint_errors(self) -> tuple[JointError, ...]:
         given = {(d.joint, d.direction): d for d in self.inputs.drives}
@@ -121,6 +152,9 @@ class ErrorCauses:
             It has none.
         """
         found = model_damping(self.model)
+        process = self.model.process
+        if found is None and process is not None and process.modal_ratio is not None:
+            return ModalRatio(process.modal_ratio)
         if found is None:
             raise ModelError(
                 "damping",
@@ -139,6 +173,15 @@ class ErrorCauses:
             a = response.at(np.array([force.frequency]))[0, :, 0]
             gain = np.stack([a.real, -a.imag], axis=-1)
             rows.append(ErrorRow("cutting", force.name, np.zeros(6), gain, (Disc(),), "surface"))
+        milling = self.known.milling
+        if milling is not None:
+            loads = np.concatenate([self.known.at_tool((*e, 0, 0, 0))[0] for e in np.eye(3)], -1)
+            response = load_response(self.known.soft, loads, self.damping, self.inputs.against)
+            moved = np.einsum("hom,hm->ho", response.at(milling.frequencies), milling.amplitudes)
+            for a, f in zip(moved, milling.frequencies, strict=True):
+                gain = np.stack([a.real, -a.imag], axis=-1)
+                part = f"milling, {f:.4g} Hz"
+                rows.append(ErrorRow("cutting", part, np.zeros(6), gain, (Disc(),), "surface"))
         return rows
 
     @cached_property
@@ -153,10 +196,7 @@ class ErrorCauses:
     def _ground(self, found: GroundVibration) -> list[ErrorRow]:
         rows = []
         for spectrum, covariance in zip(self.inputs.ground, found.covariance, strict=True):
-            # a root of the covariance, made with rotations at their own scale
-            scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
-            values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
-            root = scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
+            root = _root(covariance)
             rows.append(
                 ErrorRow(
                     "ground",
@@ -184,6 +224,13 @@ class ErrorCauses:
                 if not np.ma.is_masked(force):
                     forces.append((f"{joint}:{direction}", float(force)))
         return tuple(forces)
+
+
+def _root(covariance: Array) -> Array:
+    """A root of a covariance (6, 6), made with rotations at their own scale."""
+    scale = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
+    return np.asarray(scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))
 
 
 def _rows(sources: MisfitSources, gain: Array, mean: Array, tolerances: int) -> list[ErrorRow]:
@@ -233,6 +280,33 @@ def error_sheet(
     StrutworkError
         As the solvers.
     """
+    return error_causes(model, inputs, placed).sheet()
+
+
+def error_causes(
+    model: Model, inputs: ErrorInputs | None = None, placed: PlacedStructure | None = None
+) -> ErrorCauses:
+    """What `error_sheet` makes its sheet of.
+
+    Parameters
+    ----------
+    model : Model
+        With a tool.
+    inputs : ErrorInputs, optional
+    placed : PlacedStructure, optional
+
+    Raises
+    ------
+    ModelError
+        As `error_sheet`.
+    """
     model.require_tool()
     here = model.placed if placed is None else placed
-    return ErrorCauses(model, inputs or ErrorInputs(), here).sheet()
+    given, linkage = inputs or ErrorInputs(), here.structure.linkage
+    if given.against is None:
+        given = replace(given, against=linkage.against)
+    if given.against != linkage.against:
+        # all that is relative takes its node from the linkage
+        structure = replace(here.structure, linkage=replace(linkage, against=given.against))
+        model, here = replace(model, structure=structure), structure.at(here.placement)
+    return ErrorCauses(model, given.computed(model), here)

@@ -5,6 +5,9 @@ docs/accuracy.md and docs/how-to/accuracy.md say more on each.
 
 from __future__ import annotations
 
+from strutwork.machines.model_descriptions import DESCRIPTIONS as MODEL
+from strutwork.studies.calibration_descriptions import DESCRIPTIONS as CALIBRATION
+
 #: Meaning of each key, by table.
 DESCRIPTIONS: dict[str, dict[str, str]] = {
     "ErrorsTable": {
@@ -17,6 +20,31 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "cutting": "forces of the cut on the tool",
         "drives": "errors of drives",
         "ground": "vibration of the ground",
+        "source": "where the numbers come from; shown in the report",
+        "gravity": "acceleration, for a machine whose model file states none",
+        "tolerances": "tolerances beside those of the model file",
+        "milling": "milling cut in the process of the model",
+        "calibration": "calibration of the geometry, whose remaining errors count",
+    },
+    "MillingTable": {
+        "depth": "depth of cut along the tool",
+        "speed": 'speed of the spindle, such as "6000 rpm"',
+        "feed_per_tooth": "that of the process by default",
+        "harmonics": "harmonics of the tooth frequency; 3 by default",
+    },
+    "GeometryCalibrationTable": {
+        "parameters": "names or kinds of the tolerances that are calibrated; all by default",
+        "directions": "displacements of the tool that are measured; x, y and z by default",
+        "poses": "number of poses that are chosen from the candidates",
+        "at": "poses that are measured in any case",
+        "candidates": "poses to choose from; the workspace of the model file by default",
+        "uncertainty": "standard deviation of a measured translation",
+        "angular_uncertainty": "standard deviation of a measured rotation",
+    },
+    "PoseTable": CALIBRATION["PoseTable"],
+    **{
+        table: MODEL[table]
+        for table in ("ToleranceTable", "WorkspaceTable", "LengthSpan", "AngleSpan")
     },
     "CountedTable": {
         "tolerances": "whether the tolerances of the model file count; true by default",

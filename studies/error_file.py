@@ -11,9 +11,20 @@ from strutwork.fea.ground_vibration import GroundSpectrum
 from strutwork.machines.model import Model
 from strutwork.machines.model_errors import model_error
 from strutwork.machines.model_file import file_text, toml_of
+from strutwork.machines.model_motion_tables import grid_of_table
+from strutwork.machines.model_tolerances import tolerance_of
 from strutwork.names import choices
+from strutwork.overconstraint.tolerance import Tolerance
+from strutwork.studies.calibration_file import task_of
+from strutwork.studies.error_calibration import CalibrationPlan
 from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs, Temperature
-from strutwork.studies.error_schema import DriveTable, ErrorsTable, TemperatureTable
+from strutwork.studies.error_milling import MillingCut
+from strutwork.studies.error_schema import (
+    DriveTable,
+    ErrorsTable,
+    GeometryCalibrationTable,
+    TemperatureTable,
+)
 from strutwork.studies.error_temperatures import parts_of, temperature_of
 
 #: Where the file is described.
@@ -65,8 +76,9 @@ def parse_errors(text: str, source: str, model: Model) -> ErrorInputs:
         tables = ErrorsTable.model_validate(data)
     except ValidationError as error:
         raise model_error(error, data, source, ErrorsTable, PAGE) from None
-    against = None if tables.tool is None else tables.tool.against
-    if against is not None and against not in model.structure.linkage.node_index:
+    linkage = model.structure.linkage
+    against = linkage.against if tables.tool is None else tables.tool.against
+    if against is not None and against not in linkage.node_index:
         raise ModelError(
             "tool.against",
             f'names the unknown node "{against}".',
@@ -82,6 +94,52 @@ def parse_errors(text: str, source: str, model: Model) -> ErrorInputs:
         tables.model.gravity,
         tables.time,
         tables.drift,
+        _tolerances(tables, model),
+        tables.gravity,
+        _milling(tables, model),
+        None if tables.calibration is None else _plan(tables.calibration),
+        source=tables.source,
+    )
+
+
+def _tolerances(tables: ErrorsTable, model: Model) -> tuple[Tolerance, ...]:
+    linkage = model.structure.linkage
+    known = {joint.name: joint for joint in linkage.joints}
+    names = {t.name for t in model.tolerances if tables.model.tolerances}
+    found = []
+    for table in tables.tolerances:
+        if table.name in names:
+            raise ModelError(
+                f"tolerance {table.name}", "is defined twice.", "Give every tolerance its own name."
+            )
+        names.add(table.name)
+        found.append(tolerance_of(table, known, linkage.node_index))
+    return tuple(found)
+
+
+def _milling(tables: ErrorsTable, model: Model) -> MillingCut | None:
+    table = tables.milling
+    if table is None:
+        return None
+    if model.process is None:
+        raise ModelError(
+            "milling",
+            "has no process.",
+            "Add a table [process] to the model file, with cutter and material.",
+        )
+    return MillingCut(table.depth, table.speed, table.feed_per_tooth, table.harmonics)
+
+
+def _plan(table: GeometryCalibrationTable) -> CalibrationPlan:
+    grid = None if table.candidates is None else grid_of_table(table.candidates).task()
+    return CalibrationPlan(
+        table.parameters or (),
+        table.directions,
+        table.poses,
+        tuple(task_of(pose) for pose in table.at),
+        grid,
+        table.uncertainty,
+        table.angular_uncertainty,
     )
 
 

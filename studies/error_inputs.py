@@ -12,8 +12,16 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.fea.ground_vibration import GroundSpectrum
 from strutwork.kinematics import DIRECTIONS, Joint
+from strutwork.machines.model import Model
 from strutwork.msa.structure import Structure
 from strutwork.names import choices
+from strutwork.overconstraint.tolerance import Tolerance
+from strutwork.studies.error_calibration import (
+    CalibrationPlan,
+    GeometryCalibration,
+    calibrated_geometry,
+)
+from strutwork.studies.error_milling import MillingCut
 
 Array = NDArray[Any]
 
@@ -150,13 +158,25 @@ class ErrorInputs:
     drives : tuple of DriveError
     ground : tuple of GroundSpectrum
     against : str or None
-        Node of the workpiece; the ground by default.
+        Node of the workpiece; by default that of the model, or the ground where it has none.
     geometry, gravity : bool
         Whether the machine's tolerances and its gravity count.
     time : float or None
         Moment of the sheet after the temperatures began to change, s; None for a long time.
     moments : tuple of float
         Of the drift, s.
+    tolerances : tuple of Tolerance
+        Beside those of the machine.
+    acceleration : (3,) or None
+        Of gravity, m/s², for a machine that states none.
+    milling : MillingCut or None
+        In the machine's process.
+    plan : CalibrationPlan or None
+        Of the geometry.
+    calibrated : GeometryCalibration or None
+        What the plan came to; computed where it is not given.
+    source : str
+        Where the numbers come from.
     """
 
     temperatures: tuple[Temperature, ...] = ()
@@ -168,6 +188,38 @@ class ErrorInputs:
     gravity: bool = True
     time: float | None = None
     moments: tuple[float, ...] = ()
+    tolerances: tuple[Tolerance, ...] = ()
+    acceleration: tuple[float, float, float] | None = None
+    milling: MillingCut | None = None
+    plan: CalibrationPlan | None = None
+    calibrated: GeometryCalibration | None = None
+    source: str = ""
+
+    def all_tolerances(self, model: Model) -> tuple[Tolerance, ...]:
+        """Those of the machine, where they count, and its own.
+
+        Parameters
+        ----------
+        model : Model
+        """
+        return (*(model.tolerances if self.geometry else ()), *self.tolerances)
+
+    def computed(self, model: Model) -> ErrorInputs:
+        """With what the plan of the calibration comes to, once for all poses.
+
+        Parameters
+        ----------
+        model : Model
+
+        Raises
+        ------
+        StrutworkError
+            As `strutwork.studies.error_calibration.calibrated_geometry`.
+        """
+        if self.plan is None or self.calibrated is not None:
+            return self
+        found = calibrated_geometry(model, self.all_tolerances(model), self.plan)
+        return replace(self, calibrated=found)
 
 
 def with_servos(structure: Structure, drives: Sequence[DriveError]) -> Structure:

@@ -20,6 +20,7 @@ from strutwork.msa.thermal_loads import Expansion, thermal_loads
 from strutwork.msa.weights import part_weights
 from strutwork.overconstraint.unit_sets import Interval
 from strutwork.studies.error_inputs import ErrorInputs, with_servos
+from strutwork.studies.error_milling import MillingForces, milling_forces
 from strutwork.studies.error_sheet import ErrorRow
 
 Array = NDArray[Any]
@@ -65,11 +66,20 @@ class KnownCauses:
         """Relative motion of the tool per displacement of the nodes, (6, n, 6)."""
         return relative_motion(self.placed, self.inputs.against)
 
+    @cached_property
+    def milling(self) -> MillingForces | None:
+        """Of the milling cut at this pose; None where there is none."""
+        if self.inputs.milling is None:
+            return None
+        return milling_forces(self.model, self.inputs.milling, self.placed.placement)
+
     @property
     def gravity(self) -> tuple[float, float, float] | None:
         """Of the machine, where it counts, m/s²."""
         if not self.inputs.gravity:
             return None
+        if self.inputs.acceleration is not None:
+            return self.inputs.acceleration
         return next((c.gravity for c in self.model.cases if c.gravity is not None), None)
 
     @cached_property
@@ -95,6 +105,8 @@ class KnownCauses:
         for force in self.inputs.cutting:
             if force.frequency is None:
                 add("cutting", [force.name], self.at_tool(force.wrench))
+        if self.milling is not None:
+            add("cutting", ["milling, mean"], self.at_tool((*self.milling.mean, 0.0, 0.0, 0.0)))
         known = [
             Expansion(part, alpha * t.change, (alpha * t.gradient[0], alpha * t.gradient[1]))
             for t in self.inputs.temperatures

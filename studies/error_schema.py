@@ -11,14 +11,21 @@ from pydantic_core import PydanticCustomError
 
 from strutwork import units
 from strutwork.machines.model_fields import (
+    Acceleration,
     Direction,
     Force,
     Frequency,
     Moment,
     Name,
     Quantity,
+    Size,
+    Slope,
     Table,
+    TurningSpeed,
 )
+from strutwork.machines.model_motion_schema import WorkspaceTable
+from strutwork.machines.model_schema import ToleranceTable
+from strutwork.studies.calibration_schema import PoseTable
 from strutwork.units import Dimension
 
 #: Entries of a table, points of a spectrum, and moments of a drift at most.
@@ -72,7 +79,7 @@ class Thermal(Quantity):
 
 Change = Annotated[float, Thermal(TEMPERATURE)]
 Spread = Annotated[float, Thermal(TEMPERATURE, low=0.0)]
-Slope = Annotated[float, Thermal(GRADIENT)]
+Gradient = Annotated[float, Thermal(GRADIENT)]
 Coefficient = Annotated[float, Thermal(EXPANSION)]
 Time = Annotated[float, Quantity(units.TIME, above=0.0)]
 Moment0 = Annotated[float, Quantity(units.TIME, low=0.0)]
@@ -93,8 +100,8 @@ class TemperatureTable(Table):
     material: Name | None = None
     change: Change = 0.0
     spread: Spread = 0.0
-    gradient_y: Slope = 0.0
-    gradient_z: Slope = 0.0
+    gradient_y: Gradient = 0.0
+    gradient_z: Gradient = 0.0
     time_constant: Time | None = None
     expansion: Coefficient | None = None
 
@@ -143,9 +150,39 @@ class CountedTable(Table):
     gravity: StrictBool = True
 
 
+class MillingTable(Table):
+    """A milling cut whose forces displace the tool."""
+
+    depth: Size
+    speed: TurningSpeed
+    feed_per_tooth: Size | None = None
+    harmonics: Annotated[int, Field(strict=True, ge=1, le=50)] = 3
+
+
+class GeometryCalibrationTable(Table):
+    """A calibration of the geometry before the machine is used."""
+
+    parameters: Names | None = None
+    directions: Annotated[tuple[Direction, ...], Field(min_length=1, max_length=6)] = (
+        "x",
+        "y",
+        "z",
+    )
+    poses: Annotated[int, Field(strict=True, ge=1, le=500)] | None = None
+    at: Annotated[tuple[PoseTable, ...], Field(max_length=500)] = ()
+    candidates: WorkspaceTable | None = None
+    uncertainty: Size | None = None
+    angular_uncertainty: Slope | None = None
+
+
 class ErrorsTable(Table):
     """An errors file."""
 
+    source: Annotated[str, Field(max_length=2000)] = ""
+    gravity: tuple[Acceleration, Acceleration, Acceleration] | None = None
+    tolerances: Annotated[tuple[ToleranceTable, ...], Field(max_length=MOST)] = ()
+    milling: MillingTable | None = None
+    calibration: GeometryCalibrationTable | None = None
     model: CountedTable = CountedTable()
     tool: ToolTable | None = None
     expansion: Annotated[dict[Name, Coefficient], Field(max_length=MOST, default_factory=dict)]

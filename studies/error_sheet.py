@@ -21,11 +21,20 @@ from strutwork.overconstraint.sources import Block, MisfitSources
 from strutwork.overconstraint.tolerance import Tolerance
 from strutwork.overconstraint.tool_deviation import farthest
 from strutwork.overconstraint.unit_sets import UnitSet
+from strutwork.studies.error_calibration import GeometryCalibration
 
 Array = NDArray[Any]
 
 #: The causes, in the order of the sheet.
-CAUSES = ("geometry", "gravity", "thermal", "cutting", "drives", "ground")
+CAUSES = (
+    "geometry",
+    "geometry after calibration",
+    "gravity",
+    "thermal",
+    "cutting",
+    "drives",
+    "ground",
+)
 
 #: Draws of the distribution, and their seed.
 SAMPLES, SEED = 2**15, 2002
@@ -177,12 +186,18 @@ class ErrorSheet:
         What the drives carry under gravity.
     drift : tuple of (s, (6,))
         Displacement by the temperatures at moments, m and rad.
+    calibrated : GeometryCalibration or None
+        What the calibration of its geometry determines.
+    uncalibrated : tuple of ErrorRow
+        What the geometry did before.
     """
 
     rows: tuple[ErrorRow, ...]
     notes: tuple[str, ...] = ()
     drive_forces: tuple[tuple[str, float], ...] = ()
     drift: tuple[tuple[float, tuple[float, ...]], ...] = ()
+    calibrated: GeometryCalibration | None = None
+    uncalibrated: tuple[ErrorRow, ...] = ()
 
     def __repr__(self) -> str:
         return f"<ErrorSheet: {len(self.rows)} rows, m and rad>"
@@ -290,7 +305,14 @@ class ErrorSheet:
             "drive_forces": dict(self.drive_forces),
             "drift": [{"time": t, "displacement": list(u)} for t, u in self.drift],
             "notes": list(self.notes),
+            **self._calibration(),
         }
+
+    def _calibration(self) -> dict[str, Any]:
+        if self.calibrated is None:
+            return {}
+        before = _numbers(ErrorSheet(self.uncalibrated))
+        return {"calibration": self.calibrated.to_dict() | {"geometry_before": before}}
 
 
 def _numbers(sheet: ErrorSheet) -> dict[str, list[float]]:

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea import Port
 from strutwork.fea.coupled import AnyDamping
+from strutwork.fea.ports import tool_port
 from strutwork.fea.sensitivity import dynamic_sensitivity, frequency_sensitivity
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
@@ -211,7 +211,7 @@ def _least_dynamic(
     """The least dynamic stiffness (p,) and its rates (g, p)."""
     if vibrating.damping is None:
         raise ModelError("damping", "is missing.", "Add [damping], or give the machine a damping.")
-    port = Port(model.require_tool(), DIRECTIONS[one.direction])
+    port = tool_port(model.structure.linkage, DIRECTIONS[one.direction])
     least = dynamic_sensitivity(
         found.placed, found.changes, port, vibrating.damping, vibrating.band
     )

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
-from strutwork.fea import Port
+from strutwork.fea.ports import tool_ports
 from strutwork.machines.model import Model
 from strutwork.msa import PlacedStructure
 from strutwork.msa.mass import total_mass
@@ -220,8 +220,8 @@ def completed(question: Question, model: Model) -> Question:
     """
     if not isinstance(question, Asked) or question.name != "vibration" or question.band is not None:
         return question
-    tool = model.require_tool()
-    band = band_of(model.vibrating, [Port(tool, axis) for axis in "xyz"], question.count)
+    model.require_tool()
+    band = band_of(model.vibrating, tool_ports(model.structure.linkage), question.count)
     if band is None:
         raise ModelError("structure", "has no elastic mode.", "Give it mass and elastic parts.")
     return Asked(question.name, (band.low, band.high), question.count)

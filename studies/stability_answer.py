@@ -157,7 +157,8 @@ class Stability:
             )
         rpm = np.asarray(speeds, dtype=float)
         vibrating = model.vibrating
-        ports, _ = tip_ports(reduce_system(system_of(vibrating)), tool)
+        against = model.structure.linkage.against
+        ports, _ = tip_ports(reduce_system(system_of(vibrating)), tool, against)
         band = band_of(vibrating, ports)
         if band is None:
             raise ModelError(
@@ -176,6 +177,7 @@ class Stability:
             rpm,
             feed_per_tooth,
             preload=None if model.preload is None else model.case(model.preload),
+            against=against,
         )
 
     @property

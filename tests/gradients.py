@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.fea import Port, modes
+from strutwork.fea import modes
 from strutwork.fea.coupled import AnyDamping
 from strutwork.fea.least_stiffness import least_dynamic_stiffness
+from strutwork.fea.ports import tool_port
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
@@ -150,7 +151,7 @@ def answer(model: Model, asked: Asked, task: Mapping[str, float], vibrating: Vib
     if asked.kind == "frequency":
         return float(modes(at, asked.direction + 1).frequencies[asked.direction])
     if asked.kind == "least_dynamic_stiffness":
-        port = Port(model.require_tool(), DIRECTIONS[asked.direction])
+        port = tool_port(model.structure.linkage, DIRECTIONS[asked.direction])
         damping: AnyDamping = vibrating.damping  # type: ignore[assignment]
         return least_dynamic_stiffness(at, port, port, damping, vibrating.band).value
     case = model.case(asked.static.case.name)  # type: ignore[union-attr]

@@ -10,7 +10,7 @@ from strutwork.reports.chapters.error_sheet import error_blocks
 from strutwork.reports.content import Block, Chapter, Column, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, netcdf_file
 from strutwork.reports.figures.slices import slice_figure
-from strutwork.reports.numbers import share, significant
+from strutwork.reports.numbers import count, share, significant
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import grid_text, largest
 from strutwork.studies.accuracy_answer import top_sources
@@ -48,9 +48,11 @@ def write(subject: Subject) -> Chapter:
     how = "through elastic deformation" if bool(found.elastic) else "without force"
     blocks: list[Block] = [
         Text(
-            f"{len(answer.tolerances)} tolerances and {len(answer.errors)} drive errors of half a "
-            f"resolution to either side; the tool follows them {how}. At home it is displaced by "
-            f"{significant(1e6 * most)} µm in the worst case, in any direction."
+            f"{count(len(answer.tolerances), 'tolerance')} and "
+            f"{count(len(answer.errors), 'drive error')} of half a resolution to either side; the "
+            f"tool follows them {how}. At home it is displaced"
+            f"{subject.model.relative} by {significant(1e6 * most)} µm in the worst case, in any "
+            "direction."
         ),
         Table(
             "Displacement of the tool at home, to either side",
@@ -118,8 +120,9 @@ def _map(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
         )
     blocks: list[Block] = [
         Note(
-            f"Over {grid_text(subject.grid)} the tool is displaced by {significant(worst.value)} "
-            f"µm at most, at {worst.where}: the volumetric accuracy of the machine as far as "
+            f"Over {grid_text(subject.grid)} the tool is displaced{subject.model.relative} by "
+            f"{significant(worst.value)} µm at most, at {worst.where}: "
+            "the volumetric accuracy of the machine as far as "
             "these errors determine it."
         ),
         _causes(names, parts, f"at {worst.where}"),

@@ -159,7 +159,7 @@ def _stiffness(
     axes = listed([axis for axis, _ in moves])
     said = [
         Answer(
-            "At home the stiffness of the tool is ",
+            f"At home the stiffness of the tool{subject.model.relative} is ",
             f"{numbers} N/µm",
             f" along {axes}, {FREE}.",
             "tool",
@@ -285,9 +285,8 @@ def _displaced(subject: Subject) -> Answer | None:
         if np.isfinite(values).any():
             most = largest(found, values)
             after += f" and by up to {significant(most.value)} µm in the workspace, at {most.where}"
-    return Answer(
-        "Manufacturing errors displace the tool by up to ", number, f"{after}.", accuracy.KEY
-    )
+    what = f"Manufacturing errors displace the tool{subject.model.relative} by up to "
+    return Answer(what, number, f"{after}.", accuracy.KEY)
 
 
 def _reach(subject: Subject) -> tuple[Answer, ...]:

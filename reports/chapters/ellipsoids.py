@@ -97,8 +97,9 @@ def write(subject: Subject) -> Chapter:
     )
     blocks: list[Block] = [
         Text(
-            "A unit force in any direction moves the tool to the surface of the first ellipsoid, "
-            "and a unit moment rotates it to that of the second; the other directions are free "
+            f"A unit force in any direction moves the tool{subject.model.relative} to the surface "
+            "of the first ellipsoid, and a unit moment rotates it to that of the second; the other "
+            "directions are free "
             "to follow and the drives are held. A short axis is a stiff direction. "
             + (
                 "The second pose is the one of the workspace's grid at which the stiffness along "

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.process_file import is_known
+from strutwork.reports.chapters.error_calibration import calibration_blocks
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Row, Table, Text
-from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
+from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from strutwork.reports.error_tables import axis_heads, axis_rows, sheet_heads, sheet_rows
 from strutwork.reports.figures.charts import Bars, grouped
 from strutwork.reports.figures.curves import Curve, curves
@@ -19,7 +23,7 @@ from strutwork.reports.numbers import count, significant, without_rounding
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import grid_text, largest
 from strutwork.studies.error_answer import AxisErrors, ErrorSheets, axis_errors
-from strutwork.studies.error_causes import ErrorCauses
+from strutwork.studies.error_causes import ErrorCauses, error_causes
 from strutwork.studies.error_file import read_errors
 from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_sheet import ErrorSheet
@@ -29,7 +33,7 @@ from strutwork.studies.survey_files import write_survey
 Array = NDArray[Any]
 
 SHEET, DRIFT, GROUND = "error-sheet.csv", "error-drift.csv", "error-ground.csv"
-MAP = "error-sheet-survey"
+MAP, CALIBRATION = "error-sheet-survey", "error-calibration.json"
 
 #: Moments at which the drift is drawn.
 MOMENTS = 121
@@ -52,28 +56,47 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     """
     if subject.errors is None:
         return [], ()
-    inputs = read_errors(subject.errors, subject.model)
-    causes = ErrorCauses(subject.model, inputs, subject.model.placed)
+    inputs = read_errors(subject.errors, subject.model).computed(subject.model)
+    causes = error_causes(subject.model, inputs)
     sheet = causes.sheet()
-    blocks = [*_summary(sheet, inputs), *_tables(sheet)]
+    blocks = [*_summary(subject, sheet, inputs), *_tables(sheet), *calibration_blocks(sheet)]
     files = [
         csv_file(
             SHEET, "displacement of the tool by cause and part", sheet_heads(), sheet_rows(sheet)
         )
     ]
+    if sheet.calibrated is not None:
+        what = "the calibration: poses, combinations that it determines and that it does not"
+        files.append(json_file(CALIBRATION, what, sheet.calibrated.to_dict()))
     curves_, more = _curves(sheet, causes)
     blocks += curves_
     files += more
     if not subject.unmoved:
-        for some, beside in (_axes(subject, inputs), _map(subject, inputs)):
+        lines, area = subject, subject
+        if is_known(subject.errors):
+            # of what is assumed fewer poses tell enough
+            axes = {d: _few(v) for d, v in subject.grid.axes.items()}
+            lines = _over(subject, axes)
+            area = _over(subject, dict(list(axes.items())[:2]))
+        for some, beside in (_axes(lines, inputs), _map(area, inputs)):
             blocks += some
             files += beside
     return blocks, tuple(files)
 
 
-def _summary(sheet: ErrorSheet, inputs: ErrorInputs) -> list[Block]:
+def _few(values: Array) -> Array:
+    """The first, the middle and the last of the positions along an axis."""
+    return np.asarray(values)[sorted({0, len(values) // 2, len(values) - 1})]
+
+
+def _over(subject: Subject, axes: dict[str, Array]) -> Subject:
+    return replace(subject, model=replace(subject.model, workspace=TaskGrid(axes)))
+
+
+def _summary(subject: Subject, sheet: ErrorSheet, inputs: ErrorInputs) -> list[Block]:
     most = float(np.linalg.norm(sheet.largest()))
-    to = "the ground" if inputs.against is None else f"the workpiece at {inputs.against}"
+    against = inputs.against or subject.model.structure.linkage.against
+    to = "the ground" if against is None else f"the workpiece at {against}"
     by_size = sorted(sheet.causes, key=lambda c: -float(np.linalg.norm(sheet.of(c).worst[:3])))
     blocks: list[Block] = [
         Text(
@@ -84,6 +107,8 @@ def _summary(sheet: ErrorSheet, inputs: ErrorInputs) -> list[Block]:
             "vibration of the ground counts with three standard deviations."
         )
     ]
+    if inputs.source:
+        blocks.append(Note(" ".join(inputs.source.split())))
     return [*blocks, *(Note(note) for note in sheet.notes)]
 
 
@@ -105,7 +130,8 @@ def _tables(sheet: ErrorSheet) -> list[Block]:
         [part, cause, *(significant(float(v)) for v in row)]
         for (cause, part, _), row in zip(parts, every, strict=True)
     ]
-    picked = [(c, sheet.of(c).worst) for c in sheet.causes]
+    worst = np.array([sheet.of(c).worst[:3] for c in sheet.causes])
+    picked = list(zip(sheet.causes, without_rounding(worst, worst.max()), strict=True))
     bars = [
         Bars(d, [1e6 * float(w[i]) for _, w in picked], AXIS_COLOURS[d])
         for i, d in enumerate("xyz")

@@ -95,6 +95,12 @@ def _other(model: Model) -> str:
     words = []
     if model.tool is not None:
         words.append(f"The tool centre point is the node {model.tool}.")
+        against = model.structure.linkage.against
+        if against is not None:
+            words.append(
+                f"The workpiece is held at the node {against}: stiffness, responses and errors of "
+                "the tool are relative to it."
+            )
     if model.task:
         words.append(f"The task directions of the tool are {', '.join(model.task)}.")
     if model.workspace is not None:

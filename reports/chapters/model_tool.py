@@ -30,6 +30,7 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
     if compliance is None:
         note = Note("The tool moves freely under one of its six unit wrenches: no stiffness.")
         return Chapter("tool", "Stiffness at the tool", (note,))
+    linkage = solution.model.structure.linkage
     free = axis_stiffness_free(compliance)
     blocked = axis_stiffness_blocked(compliance)
     rows = []
@@ -39,8 +40,10 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
         rows.append([direction, unit, *values])
     blocks: list[Block] = [
         Text(
-            f"These values are for the tool centre point {solution.model.tool}, in global axes, "
-            "with the drives held. Stiffness along an axis is the force divided by the "
+            f"These values are for the tool centre point {solution.model.tool}"
+            f"{solution.model.relative}, in global axes, with the drives held."
+            f"{_workpiece(solution.model.relative)} Stiffness along an "
+            "axis is the force divided by the "
             "displacement along it while the five other directions are free to follow; the "
             "stiffness with them blocked, which is never less, is shown beside it."
         ),
@@ -78,6 +81,7 @@ def tool_chapter(solution: ModelSolution) -> Chapter:
     blocks.append(Details("The complete stiffness and compliance matrices", tuple(matrices)))
     content = {
         "tool": solution.model.tool,
+        **({"against": linkage.against} if linkage.against is not None else {}),
         "compliance": compliance.tolist(),
         "stiffness": None if stiffness is None else stiffness.tolist(),
         # null stands for a direction in which the tool cannot move: its stiffness is infinite
@@ -103,4 +107,13 @@ def _matrix(title: str, matrix: Array) -> Table:
     ]
     return Table(
         title, (Column("", "", False), *(Column(d) for d in DIRECTIONS)), rows, "tool.json"
+    )
+
+
+def _workpiece(relative: str) -> str:
+    if not relative:
+        return ""
+    return (
+        " A force on the tool acts with the opposite sign on the workpiece, and the displacement "
+        "is that between both at the tool."
     )

@@ -35,8 +35,9 @@ def budget_chapter(model: Model) -> Chapter:
     frames = _frames(model)
     blocks: list[Block] = [
         Text(
-            "A force at the tool does work on the parts in proportion to their strain energy; "
-            "the shares of one force add up to 100 %. Other directions are free to follow. Parts "
+            f"A force at the tool{_opposite(model)} does work on the parts in proportion to their "
+            "strain energy; the shares of one force add up to 100 %. Other directions are free to "
+            "follow. Parts "
             "whose names differ only in their numbers form one group."
         ),
         Figure(
@@ -122,3 +123,8 @@ def _details(
     small = f", {left} of them below 0.05 %" if left else ""
     table = Table(f"Shares within {title}", columns, rows, FILE)
     return Details(f"{title}: {many}{small}", (table,))
+
+
+def _opposite(model: Model) -> str:
+    against = model.structure.linkage.against
+    return "" if against is None else f" and the opposite one at {against}"

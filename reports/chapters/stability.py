@@ -85,7 +85,12 @@ def _process(study: CutStudy) -> str:
         f"{coefficients.tangential / 1e6:g} MPa tangential, {coefficients.radial / 1e6:g} MPa "
         f"radial, {coefficients.axial / 1e6:g} MPa axial{source}. "
         f"Damping: {study.lobes.target.damping}."
+        f"{_relative(study.lobes.target.placed.structure.linkage.relative_to)}"
     )
+
+
+def _relative(to: str) -> str:
+    return f" The response of the tool is{to}, on which the opposite force acts." if to else ""
 
 
 def _lobes_figure(study: CutStudy) -> Figure:

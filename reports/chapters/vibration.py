@@ -180,11 +180,12 @@ def response_figure(study: VibrationStudy) -> Figure:
     )
     return Figure(
         f"frf-{study.key}",
-        "Displacement of the tool per force in the same direction: magnitude, phase and real part. "
+        f"Displacement of the tool{study.relative} per force in the same direction: magnitude, "
+        "phase and real part. "
         f"Diamonds mark the least dynamic stiffness, the highest peak of the magnitude: {peaks}."
         f"{same}",
         response_parts(curves, marks),
-        "Magnitude, phase and real part of the receptance at the tool of "
+        f"Magnitude, phase and real part of the receptance at the tool{study.relative} of "
         f"{study.title} along x, y and z; least dynamic stiffness {peaks}.",
         f"{study.key}-frf.csv",
         720,
@@ -224,7 +225,8 @@ def minima_table(studies: Sequence[tuple[str, VibrationStudy]], data: str) -> Ta
             rows.append([name, *line] if len(studies) > 1 else line)
     low, high = studies[0][1].band
     return Table(
-        f"Least dynamic stiffness 1/|H| at the tool from {significant(low)} to "
+        f"Least dynamic stiffness 1/|H| at the tool{studies[0][1].relative} from "
+        f"{significant(low)} to "
         f"{significant(high)} Hz, other directions free",
         columns,
         rows,
@@ -290,20 +292,30 @@ def response_files(study: VibrationStudy) -> tuple[DataFile, ...]:
     heads = [f"{part}_{a}_m/N" for a in AXES for part in ("real", "imaginary")]
     columns = [c for i in range(3) for c in (diagonal[:, i].real, diagonal[:, i].imag)]
     everywhere = node_positions(study.placed.structure.mesh_nodes, study.placed.positions)
-    tool = response.outputs[0].node
-    content = UniversalFile(response_records(response), positions={tool: everywhere[tool]})
+    port = response.outputs[0]
+    universal: tuple[DataFile, ...] = ()
+    # a universal file has no place for the node of the workpiece
+    if port.against is None:
+        content = UniversalFile(
+            response_records(response), positions={port.node: everywhere[port.node]}
+        )
 
-    def write(path: Path) -> object:
-        return write_universal(path, content)
+        def write(path: Path) -> object:
+            return write_universal(path, content)
 
+        universal = (
+            DataFile(
+                f"{key}-frf.uff", f"{what}: the same, all nine, as a universal file (58)", write
+            ),
+        )
     return (
         csv_file(
             f"{key}-frf.csv",
-            f"{what}: receptances at the tool",
+            f"{what}: receptances at the tool{study.relative}",
             ["frequency_Hz", *heads],
             np.column_stack([response.frequencies, *columns]).tolist(),
         ),
-        DataFile(f"{key}-frf.uff", f"{what}: the same, all nine, as a universal file (58)", write),
+        *universal,
         csv_file(
             f"{key}-minima.csv",
             f"{what}: exact least dynamic stiffness and that of a frequency grid",

@@ -76,7 +76,12 @@ def write(subject: Subject) -> Chapter:
             "follow and the drives held. At each pose the joints place the machine, and every "
             "part follows its body."
         ),
-        Table("Static stiffness of the tool over the workspace", columns, rows, f"{STEM}.csv"),
+        Table(
+            f"Static stiffness of the tool{subject.model.relative} over the workspace",
+            columns,
+            rows,
+            f"{STEM}.csv",
+        ),
         Row(tuple(figures), 330),
     ]
     dropped = json.loads(found.attrs["dropped_by_reason"])

@@ -57,8 +57,9 @@ def write(subject: Subject) -> Chapter:
     blocks: list[Block] = [
         Text(
             f"The survey covers {grid_text(subject.grid)}. The least dynamic stiffness is the "
-            f"exact minimum of 1/|H| at the tool from {significant(low)} to {significant(high)} "
-            f"Hz, damping {subject.damping}.{under if preload else ''}"
+            f"exact minimum of 1/|H| at the tool{subject.model.relative} from "
+            f"{significant(low)} to {significant(high)} Hz, damping {subject.damping}."
+            f"{under if preload else ''}"
         ),
         Table("Vibration over the workspace", columns, rows, f"{STEM}.csv"),
         Row(tuple(figures), 330),

@@ -15,6 +15,7 @@ from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.names import visible
+from strutwork.reports.calibrated_words import calibration_lines
 from strutwork.reports.cli.output import console, print_json, table
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.subject import subject
@@ -122,6 +123,8 @@ def _print(sheet: ErrorSheet, result: dict[str, Any]) -> None:
         out.print(
             table("Drives", ["drive", "force under gravity, N or N·m"], _forces(sheet)),
         )
+    for line in calibration_lines(sheet):
+        out.print(visible(line), markup=False, soft_wrap=True)
     for note in sheet.notes:
         out.print(visible(note), markup=False, soft_wrap=True)
     for path in result["data"]:

@@ -95,7 +95,7 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
     for i, axis in enumerate((*_AXES, *(f"r{a}" for a in _AXES))):
         scale, unit = (1e-6, "N/µm") if i < 3 else (1e-3, "kN·m/rad")
         rows.append((axis, unit, *(float(v[i]) * scale for v in (free, blocked))))
-    title = f"Stiffness at the tool {found.model.tool}"
+    title = f"Stiffness at the tool {found.model.tool}{found.model.relative}"
     if found.equilibria:
         title += ", at preload"
     out.print(table(title, ["axis", "unit", "others free", "others blocked"], rows, names=2))
@@ -104,7 +104,7 @@ def _print_tool(out: Console, found: ModelSolution, compliance: NDArray[np.float
     softest, stiffest = int(np.argmin(free[:3])), int(np.argmax(free[:3]))
     low, high = (f"{show(1e-6 * float(free[i]))} N/µm in {_AXES[i]}" for i in (softest, stiffest))
     out.print(
-        f"With the other axes free to follow, the stiffness at {found.model.tool} is least with "
-        f"{low} and largest with {high}.",
+        f"With the other axes free to follow, the stiffness at {found.model.tool}"
+        f"{found.model.relative} is least with {low} and largest with {high}.",
         soft_wrap=True,
     )

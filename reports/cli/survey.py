@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from strutwork.errors import ModelError
-from strutwork.fea import Port
+from strutwork.fea.ports import tool_ports
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.load import load, load_heavy
 from strutwork.machines.model import Model
@@ -60,7 +60,7 @@ def run(
 
 def _vibration(model: Model) -> Vibration:
     tool = model.require_tool()
-    band, _ = covering_band(model.vibrating, [Port(tool, axis) for axis in "xyz"])
+    band, _ = covering_band(model.vibrating, tool_ports(model.structure.linkage))
     if band is None:
         raise ModelError("structure", "has no elastic mode.", "Give it mass and elastic parts.")
     preload = None if model.preload is None else model.case(model.preload)

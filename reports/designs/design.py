@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, StrutworkError
-from strutwork.fea import Damping, Port
+from strutwork.fea import Damping
 from strutwork.fea.least_stiffness import least_dynamic_stiffness
+from strutwork.fea.ports import tool_port, tool_ports
 from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.extent import model_size
 from strutwork.machines.model import Model
@@ -119,8 +120,9 @@ class Design:
         """The frequencies that explain the compliance of its tool, Hz; None where it has none."""
         try:
             self.target.require_damping()
-            tool = self.standing.require_tool()
-            return covering_band(self.target.placed, [Port(tool, axis) for axis in AXES])[0]
+            self.standing.require_tool()
+            ports = tool_ports(self.standing.structure.linkage)
+            return covering_band(self.target.placed, ports)[0]
         except StrutworkError:
             return None
 
@@ -145,7 +147,7 @@ class Design:
     def _least(self, axis: str, band: tuple[float, float] | None) -> Answers:
         key = f"least_dynamic_stiffness_{axis}"
         damping = self.target.require_damping()
-        port = Port(self.standing.require_tool(), axis)
+        port = tool_port(self.standing.structure.linkage, axis)
         if band is None:
             return {key: Value(why="no mode moves its tool, so there is no frequency band")}
         least = least_dynamic_stiffness(self.target.placed, port, port, damping, band)

@@ -229,6 +229,7 @@ def test_processes_end_with_the_block() -> None:
     assert [p.is_alive() for p in processes] == [False, False]
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("coarse")
 def test_a_report_is_the_same_however_it_is_answered(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch

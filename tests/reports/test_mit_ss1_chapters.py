@@ -45,6 +45,7 @@ CHAPTERS = (
     "budget",
     "workspace-stiffness",
     "stability",
+    "accuracy",
     "dynamics",
     "inputs",
     "files",
@@ -59,6 +60,16 @@ def test_page_has_all_chapters_and_stays_small(planar_report: WrittenReport) -> 
     assert tuple(re.findall(r'<section id="([^"]+)"', text)) == CHAPTERS
     # plotly itself is 4.5 MB
     assert planar_report.report.stat().st_size < 15e6
+
+
+def test_the_error_sheet_says_that_its_causes_are_assumed(planar_report: WrittenReport) -> None:
+    text = text_of(planar_report.report)
+    (section,) = re.findall(r'<section id="accuracy".*?</section>', text, re.DOTALL)
+    assert "Assumed, because the thesis states no error budget" in section
+    rows = rows_of(planar_report.report.parent / "error-sheet.csv")
+    causes = {row["cause"] for row in rows}
+    assert causes == {"geometry", "gravity", "thermal", "cutting", "drives", "ground", "all"}
+    assert "--errors" not in section
 
 
 def test_published_frequencies_stand_beside_ours(planar_report: WrittenReport) -> None:

@@ -52,7 +52,7 @@ length = "6 mm"
 clearance = "-6 um"
 """
 
-#: A rigid shaft in a pair of ball bearings and a roller bearing, and a mass.
+#: A rigid shaft in both, and a mass.
 SHAFT = """
 title = "Shaft"
 preload = "cut"
