@@ -16,6 +16,7 @@ from strutwork.fea.motor_shapes import Motor, node_row
 from strutwork.fea.ports import STILL, Port
 from strutwork.fea.state_space import StateSpace
 from strutwork.msa.assembly import System
+from strutwork.msa.rigid_map import rigid_map
 from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
@@ -302,7 +303,14 @@ def port_row(system: System, port: Port) -> Array:
     """
     row = node_row(system, port.node, port.vector)
     if port.against is not None:
-        row = row - node_row(system, port.against, port.vector)
+        vector = port.vector
+        if port.carried:
+            # the workpiece carries the point at which the tool is
+            placed = system.placed
+            index = placed.structure.mesh_index
+            arm = placed.positions[0, index[port.node]] - placed.positions[0, index[port.against]]
+            vector = rigid_map(arm).T @ vector
+        row = row - node_row(system, port.against, vector)
     return row
 
 

@@ -11,6 +11,7 @@ from strutwork.fea.coupled import AnyDamping
 from strutwork.fea.driven_modes import driven_modes
 from strutwork.fea.motor_shapes import Motor
 from strutwork.fea.port_states import Observed, Place, PortStates, port_moves, state_space
+from strutwork.fea.ports import tool_ports
 from strutwork.machines.model import Model
 from strutwork.machines.servos import Servo
 from strutwork.msa import PlacedStructure
@@ -24,9 +25,6 @@ REACH, FARTHEST = 2.0, 2000.0
 
 #: Ends of a band where no mode says one, Hz.
 LOWEST, HIGHEST = 1.0, 1000.0
-
-#: Directions at the tool that are looked at where nobody says which.
-AXES = ("x", "y", "z")
 
 
 @dataclass(frozen=True)
@@ -122,7 +120,9 @@ def loop_question(
             "Add [[servos]] to the model file, with joint, direction and gains, or give a file "
             "of them with --servos; docs/how-to/servo.md describes them.",
         )
-    where = tuple(ports) or tuple(Port(model.require_tool(), axis) for axis in AXES)
+    if not ports:
+        model.require_tool()
+    where = tuple(ports) or tool_ports(model.structure.linkage)
     damping = damping or model_damping(model)
     if band is None:
         band = _band(model, used, where, some=not ports)

@@ -10,8 +10,10 @@ from strutwork.errors import ModelError
 from strutwork.fea import LossFactor, ModalRatio, Port, Rayleigh, frequency_response
 from strutwork.fea.motor_shapes import Motor
 from strutwork.fea.port_states import Observed, state_space
+from strutwork.fea.ports import tool_ports
 from strutwork.studies.model_damping import model_damping
 from tests.drives import MASS, MOTOR, SPRING, looped, servo, slide
+from tests.tool_against import column_and_table
 
 GANTRY = "examples/machines/gantry.toml"
 FREQUENCIES = np.linspace(1.0, 900.0, 120)
@@ -43,6 +45,17 @@ def test_all_modes_give_the_response_of_the_model(gantry, damping):
         np.testing.assert_allclose(
             moved.response(FREQUENCIES), factor * expected, rtol=0, atol=1e-9 * size
         )
+
+
+def test_a_tool_relative_to_a_workpiece_gives_the_response_of_the_model():
+    model = column_and_table("table", "tip")
+    at, damping = tool_ports(model.structure.linkage), ModalRatio(0.015)
+    assert at[0].carried
+    expected = frequency_response(
+        model.placed, at, at, FREQUENCIES, damping, "all_modes"
+    ).receptance
+    found = state_space(model.placed, at, at, damping).response(FREQUENCIES)
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
 
 
 def test_few_modes_err_by_less_than_they_state(gantry):
