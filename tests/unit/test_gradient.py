@@ -287,7 +287,7 @@ def test_a_preload_is_refused() -> None:
     loaded = preloaded(model.placed, model.case("pull"))
     with pytest.raises(ModelError, match="preload"):
         frequency_sensitivity(loaded, [])
-    with pytest.raises(ModelError, match="is not at the tool"):
+    with pytest.raises(ModelError, match="is not that of the tool"):
         dynamic_sensitivity(model.placed, [], Port("root", "x"), ModalRatio(0.1), (1.0, 2.0))
 
 
