@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import dataclass
 from math import degrees
 from typing import Any
@@ -57,6 +58,30 @@ def least(found: xr.Dataset, values: Array) -> Extreme:
 def largest(found: xr.Dataset, values: Array) -> Extreme:
     """The largest of an array over the grid."""
     return _extreme(found, values, float(np.nanmax(values)))
+
+
+def extremes(found: xr.Dataset, values: Array) -> dict[str, Any] | None:
+    """Least and largest of an array over the grid with their poses, for JSON.
+
+    None where no pose has a finite value.
+    """
+    values = np.where(np.isfinite(values), values, np.nan)
+    if not np.isfinite(values).any():
+        return None
+    low, high = least(found, values), largest(found, values)
+    return {
+        "least": {"value": low.value, "at": low.task, "words": low.where},
+        "largest": {"value": high.value, "at": high.task, "words": high.where},
+    }
+
+
+def kept_poses(found: xr.Dataset) -> dict[str, Any]:
+    """How many poses of a survey count, and why the others do not, for JSON."""
+    return {
+        "poses": int(found.attrs["poses"]),
+        "poses_kept": int(found.attrs["poses_kept"]),
+        "dropped_by_reason": json.loads(found.attrs["dropped_by_reason"]),
+    }
 
 
 def _extreme(found: xr.Dataset, values: Array, value: float) -> Extreme:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_text
 from dataclasses import replace
 from math import degrees
 from pathlib import Path
@@ -23,7 +22,7 @@ from strutwork.reports.cli.survey_output import print_kept, written
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.limiting_part import limiting_sentence
 from strutwork.reports.lobes import TargetLobes, target_lobes
-from strutwork.reports.survey_words import grid_text, largest, least
+from strutwork.reports.survey_words import extremes, grid_text, kept_poses
 from strutwork.reports.vibration import Target, model_target, vibrating_model
 from strutwork.studies.stability_answer import Stability
 from strutwork.studies.survey import survey
@@ -122,25 +121,11 @@ def _grid_text(model: Model, over: list[str]) -> str:
 
 
 def _result(name: str, model: Model, found: xr.Dataset) -> dict[str, Any]:
-    extremes: dict[str, Any] = {}
-    for key, *_ in OVER:
-        values = found[key].to_numpy()
-        values = np.where(np.isfinite(values), values, np.nan)
-        if not np.isfinite(values).any():
-            extremes[key] = None
-            continue
-        low, high = least(found, values), largest(found, values)
-        extremes[key] = {
-            "least": {"value": low.value, "at": low.task, "words": low.where},
-            "largest": {"value": high.value, "at": high.task, "words": high.where},
-        }
     return {
         "target": name,
         "model": model.title,
-        "poses": int(found.attrs["poses"]),
-        "poses_kept": int(found.attrs["poses_kept"]),
-        "dropped_by_reason": json_text.loads(found.attrs["dropped_by_reason"]),
-        "extremes": extremes,
+        **kept_poses(found),
+        "extremes": {key: extremes(found, found[key].to_numpy()) for key, *_ in OVER},
     }
 
 

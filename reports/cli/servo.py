@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_text
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -21,7 +20,7 @@ from strutwork.reports.cli.subject import HOME, Where
 from strutwork.reports.cli.survey_output import print_kept, written
 from strutwork.reports.grid_words import grid_of_words
 from strutwork.reports.servo import TargetLoop, margin_words
-from strutwork.reports.survey_words import grid_text, largest, least
+from strutwork.reports.survey_words import extremes, grid_text, kept_poses
 from strutwork.reports.vibration import model_target, vibrating_model
 from strutwork.servo import LeastStiffness
 from strutwork.studies.servo_answer import ControlledDrives
@@ -171,24 +170,12 @@ def _result(name: str, model: Model, found: xr.Dataset) -> dict[str, Any]:
     for words, key in (("with servos", "servo_stiffness"), ("drives locked", "locked_stiffness")):
         values = found[key].to_numpy()
         columns += [(f"{port}, {words}", values[..., i]) for i, port in enumerate(ports)]
-    extremes: dict[str, Any] = {}
-    for words, values in columns:
-        if not np.isfinite(values).any():
-            extremes[words] = None
-            continue
-        low, high = least(found, values), largest(found, values)
-        extremes[words] = {
-            "least": {"value": low.value, "at": low.task, "words": low.where},
-            "largest": {"value": high.value, "at": high.task, "words": high.where},
-        }
     return {
         "target": name,
         "model": model.title,
-        "poses": int(found.attrs["poses"]),
-        "poses_kept": int(found.attrs["poses_kept"]),
-        "dropped_by_reason": json_text.loads(found.attrs["dropped_by_reason"]),
+        **kept_poses(found),
         "unstable": int(np.nansum(found["unstable"].to_numpy())),
-        "extremes": extremes,
+        "extremes": {words: extremes(found, values) for words, values in columns},
     }
 
 

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json as json_text
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from strutwork.errors import ModelError
@@ -19,7 +17,7 @@ from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.survey_output import print_kept, written
 from strutwork.reports.covering_band import covering_band
 from strutwork.reports.grid_words import grid_of_words
-from strutwork.reports.survey_words import grid_text, largest, least
+from strutwork.reports.survey_words import extremes, grid_text, kept_poses
 from strutwork.studies.answers import Answer, Stiffness, Vibration
 from strutwork.studies.dynamic import ONE_PERCENT
 from strutwork.studies.model_damping import model_damping
@@ -70,36 +68,23 @@ def _vibration(model: Model) -> Vibration:
 def _result(target: str, model: Model, found: xr.Dataset, *, vibration: bool) -> dict[str, Any]:
     entries: dict[str, Any] = {}
     if vibration:
-        entries["natural_frequency_1"] = _extremes(found, found["natural_frequency"].sel(mode=1))
+        entries["natural_frequency_1"] = extremes(
+            found, found["natural_frequency"].sel(mode=1).to_numpy()
+        )
         for axis in "xyz":
             values = found["least_dynamic_stiffness"].sel(axis=axis)
-            entries[f"least_dynamic_stiffness_{axis}"] = _extremes(found, values)
+            entries[f"least_dynamic_stiffness_{axis}"] = extremes(found, values.to_numpy())
     else:
         for meaning in ("free", "blocked"):
             for axis in DIRECTIONS:
                 values = found[f"stiffness_{meaning}"].sel(direction=axis)
-                entries[f"stiffness_{meaning}_{axis}"] = _extremes(found, values)
+                entries[f"stiffness_{meaning}_{axis}"] = extremes(found, values.to_numpy())
     return {
         "target": target,
         "model": model.title,
-        "poses": int(found.attrs["poses"]),
-        "poses_kept": int(found.attrs["poses_kept"]),
-        "dropped_by_reason": json_text.loads(found.attrs["dropped_by_reason"]),
+        **kept_poses(found),
         "extremes": entries,
         "data": [],
-    }
-
-
-def _extremes(found: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:
-    """Least and largest with their poses; None where all are infinite."""
-    values = variable.to_numpy()
-    values = np.where(np.isfinite(values), values, np.nan)
-    if not np.isfinite(values).any():
-        return None
-    low, high = least(found, values), largest(found, values)
-    return {
-        "least": {"value": low.value, "at": low.task, "words": low.where},
-        "largest": {"value": high.value, "at": high.task, "words": high.where},
     }
 
 

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -8,116 +7,19 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import root
 
-from strutwork.errors import ContactError, ModelError, UnitError
+from strutwork.errors import ContactError
 from strutwork.fea import modes
 from strutwork.kinematics.joint import State
-from strutwork.machines.bearing_catalogue import (
-    borne_stiffness,
-    package_catalogue,
-    read_catalogue,
-)
 from strutwork.machines.bearing_equilibrium import equilibrium
-from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
-from strutwork.machines.model_schema import JointTable
 from strutwork.msa import tool_compliance
 from strutwork.msa.assembly import system_of
 from strutwork.msa.program_builder import compile_program
 from strutwork.reports.model_solution import solve_model
 from strutwork.studies.error_inputs import DriveError, with_servos
+from tests.bearings import ROLLERS, SHAFT, shaft
 
 Array = NDArray[Any]
-
-BALLS = """
-[bearings.front]
-type = "angular_contact"
-source = "made up"
-balls = 15
-ball_diameter = "6.35 mm"
-pitch_diameter = "36 mm"
-contact_angle = "25 deg"
-inner_groove = 0.52
-outer_groove = 0.53
-arrangement = "back_to_back"
-spacing = "12 mm"
-preload = "150 N"
-"""
-
-ROLLERS = """
-[bearings.rear]
-type = "cylindrical_rollers"
-source = "made up"
-rollers = 16
-length = "6 mm"
-clearance = "-6 um"
-"""
-
-#: A rigid shaft in both, and a mass.
-SHAFT = """
-title = "Shaft"
-preload = "cut"
-
-[nodes]
-seat = [0, 0, 0]
-front = [0, 0, 0]
-back = [0, 0, "-120 mm"]
-rear = [0, 0, "-120 mm"]
-nose = [0, 0, "60 mm"]
-
-[[supports]]
-node = "seat"
-fixed = "all"
-
-[[supports]]
-node = "back"
-fixed = "all"
-
-[[bodies]]
-name = "shaft"
-nodes = ["front", "rear", "nose"]
-mass = "3 kg"
-center_of_mass = [0, 0, "-30 mm"]
-inertia = [[0.01, 0, 0], [0, 0.01, 0], [0, 0, 0.001]]
-
-[[joints]]
-name = "balls"
-type = "revolute"
-between = ["seat", "front"]
-bearing = "front"
-driven = ["rz"]
-
-[[joints]]
-name = "rollers"
-type = "cylindrical"
-between = ["back", "rear"]
-bearing = "rear"
-
-[[loads]]
-case = "cut"
-node = "nose"
-force = ["90 N", "20 N", "-100 N"]
-
-[[loads]]
-case = "push"
-node = "nose"
-force = [0, 0, "-300 N"]
-
-[[loads]]
-case = "too much"
-node = "nose"
-force = [0, 0, "-600 N"]
-
-[tool]
-tcp = "nose"
-"""
-
-
-def shaft(*edits: tuple[str, str], folder: Path | None = None) -> Model:
-    text = SHAFT + BALLS + ROLLERS
-    for old, new in edits:
-        assert old in text
-        text = text.replace(old, new, 1)
-    return parse_model(text, folder=folder)
 
 
 def test_a_joint_has_the_stiffness_of_its_bearing_at_preload() -> None:
@@ -325,77 +227,3 @@ tcp = "table"
     assert soft[2, 2] == pytest.approx(37.5e6)
     assert soft[1, 1] == contacts.tangent()[1, 1]
     assert contacts.loads(found.states[0].displacement)[1] == pytest.approx(-300.0, rel=1e-8)
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "words"),
-    [
-        (
-            'source = "made up"\nballs',
-            'source = " "\nballs',
-            r"bearings\.front\.source: is missing",
-        ),
-        ('source = "made up"\nballs', "balls", r"source = \"data sheet"),
-        (
-            'type = "angular_contact"',
-            'type = "angular"',
-            r"bearings\.front\.type: .angular. is not known",
-        ),
-        ('type = "angular_contact"\n', "", r"bearings\.front\.type: is missing"),
-        (
-            'ball_diameter = "6.35 mm"',
-            'ball_diameter = "6.35 N"',
-            r"bearings\.front\.ball_diameter",
-        ),
-        ("inner_groove = 0.52", "inner_groove = 0.4", r"inner_groove: 0\.4 is out of range"),
-        ('bearing = "rear"', 'bearing = "reer"', r"names the unknown bearing .reer"),
-        ('type = "cylindrical"', 'type = "planar"', "fits joints of the type fixed or revolute"),
-        ('type = "revolute"', 'type = "spherical"', "free in rx, ry"),
-        ('driven = ["rz"]', 'driven = ["z"]', "drives z, where its bearing front resists"),
-        ('driven = ["rz"]', "stiffness = { x = 1e8 }", "has a stiffness in x beside"),
-        (
-            'clearance = "-6 um"',
-            'clearance = "6 um"',
-            "no contact without load.*\n.*negative clearance",
-        ),
-        ('arrangement = "back_to_back"', 'arrangement = "single"', "bearing front: is single"),
-        ('preload = "150 N"', "", "bearing front: has no contact without load"),
-        ('spacing = "12 mm"', "space = 1", r"bearings\.front\.space: is not a known key"),
-    ],
-)
-def test_wrong_entries(old: str, new: str, words: str) -> None:
-    with pytest.raises(ModelError, match=words):
-        shaft((old, new))
-
-
-def test_a_joint_has_a_bearing_or_a_flexure() -> None:
-    keys = {"name": "hinge", "type": "bushing", "between": ("a", "b"), "flexure": "leaf"}
-    with pytest.raises(ModelError, match="joint hinge: has a bearing and a flexure"):
-        borne_stiffness(JointTable.model_validate(keys), package_catalogue()["rail-25"])
-
-
-def test_a_unit_of_another_dimension_is_a_unit_error() -> None:
-    with pytest.raises(UnitError, match=r"bearings\.front\.preload"):
-        shaft(('preload = "150 N"', 'preload = "150 mm"'))
-
-
-def test_a_catalogue_beside_the_model(tmp_path: Path) -> None:
-    (tmp_path / "own.toml").write_text(BALLS + ROLLERS)
-    model = parse_model('catalogue = "own.toml"\n' + SHAFT, folder=tmp_path)
-    assert model.bearings["balls"].origin == "own.toml"
-    # the model's own entry goes first
-    other = BALLS.replace('"150 N"', '"300 N"')
-    model = parse_model('catalogue = "own.toml"\n' + SHAFT + other, folder=tmp_path)
-    assert model.bearings["balls"].origin == "the model file"
-    assert model.bearings["balls"].preload == "300 N"
-    with pytest.raises(ModelError, match="leads out of the folder"):
-        parse_model('catalogue = "../own.toml"\n' + SHAFT, folder=tmp_path)
-    (tmp_path / "own.toml").write_text(BALLS.replace('source = "made up"\n', ""))
-    with pytest.raises(ModelError, match=r"bearings\.front\.source: is missing"):
-        read_catalogue(tmp_path / "own.toml")
-
-
-def test_every_entry_of_the_package_has_a_source_and_a_stiffness() -> None:
-    for name, entry in package_catalogue().items():
-        assert len(entry.source) > 20, name
-        assert all(entry.stiffness[i, i] > 0 for i, d in enumerate("xyz") if d in entry.held)
