@@ -50,7 +50,9 @@ def _print(found: TargetModes) -> None:
     for m, frequency in enumerate(modes.frequencies.tolist()):
         moved = modes.effective_mass[m] / np.where(modes.total_mass > 0, modes.total_mass, 1.0)
         shares = modes.energy_shares[m]
-        bends = f"{modes.energy_parts[int(shares.argmax())]} {100 * float(shares.max()):.0f} %"
+        # parts alike store the same but for rounding: the first of the file is named
+        most = int(np.argmax(shares >= (1.0 - 1e-6) * shares.max()))
+        bends = f"{modes.energy_parts[most]} {100 * float(shares[most]):.0f} %"
         rows.append(
             (
                 m + 1,

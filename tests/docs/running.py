@@ -12,8 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-#: The program beside the interpreter that runs the tests.
-COMMAND = Path(sys.executable).with_name("strutwork")
+from tests.warm import run_warm
 
 
 def matches(wanted: str, got: str) -> bool:
@@ -30,10 +29,13 @@ def steps(console: str) -> list[tuple[str, str]]:
 def run_line(line: str, folder: Path) -> subprocess.CompletedProcess[str]:
     """Run one command line of a page, as a reader with a terminal of 100 characters does."""
     program, *arguments = shlex.split(line)
+    environment = {**os.environ, "COLUMNS": "100", "NO_COLOR": "1"}
+    if program == "strutwork":
+        return run_warm(arguments, folder, environment, timeout=600)
     return subprocess.run(
-        [{"strutwork": COMMAND, "python": sys.executable}[program], *arguments],
+        [{"python": sys.executable}[program], *arguments],
         cwd=folder,
-        env={**os.environ, "COLUMNS": "100", "NO_COLOR": "1"},
+        env=environment,
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,

@@ -85,7 +85,9 @@ def test_dashpots_couple_modes_and_stay_in_the_equations():
     lines = FREQUENCIES[FREQUENCIES < 400.0]
     expected = frequency_response(model.vibrating, at, at, lines, damping).receptance
     found = state_space(model.vibrating, at, at, damping).response(lines)
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9 * np.abs(expected).max())
+    # both divide by squares that reach from the lines to the highest mode, some 1e8 times: what
+    # rounding leaves differs from processor to processor, up to 3e-9 seen
+    np.testing.assert_allclose(found, expected, rtol=0, atol=3e-8 * np.abs(expected).max())
 
 
 def test_a_loss_factor_becomes_viscous_damping_with_its_loss_at_resonance(gantry):
