@@ -14,6 +14,8 @@ import tempfile
 from multiprocessing.context import ForkServerContext
 from pathlib import Path
 
+from strutwork.reports.cli import main
+
 #: What commands read late; the program itself comes with them.
 LIBRARIES = [
     "tests.warm",
@@ -48,8 +50,6 @@ def _command(
     os.environ.update(environment)
     os.chdir(folder)
     sys.argv = ["strutwork", *arguments]
-    from strutwork.reports.cli import main
-
     main()
 
 
