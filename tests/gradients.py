@@ -147,13 +147,19 @@ def answers(
 ) -> Array:
     """Quantities by the solvers that know nothing of gradients, all at one placement."""
     at = placed(model, task)
-    return np.array([_answer(model, at, one, vibrating) for one in asked])
+    stiff = {"stiffness": axis_stiffness_free, "blocked_stiffness": axis_stiffness_blocked}
+    compliance = tool_compliance(at) if any(one.kind in stiff for one in asked) else None
+    return np.array(
+        [
+            stiff[one.kind](compliance)[one.direction]
+            if one.kind in stiff
+            else _answer(model, at, one, vibrating)
+            for one in asked
+        ]
+    )
 
 
 def _answer(model: Model, at: PlacedStructure, asked: Asked, vibrating: Vibrating) -> float:
-    if asked.kind in ("stiffness", "blocked_stiffness"):
-        stiffness = axis_stiffness_free if asked.kind == "stiffness" else axis_stiffness_blocked
-        return float(stiffness(tool_compliance(at))[asked.direction])
     if asked.kind == "frequency":
         return float(modes(at, asked.direction + 1).frequencies[asked.direction])
     if asked.kind == "least_dynamic_stiffness":
