@@ -72,7 +72,7 @@ class ErrorCauses:
             before, geometry = tuple(geometry), self._after(geometry, self.inputs.calibrated)
         rows = [*geometry, *drives, *self.known.rows(), *self._periodic()]
         vibration = self.vibration
-        notes: list[str] = []
+        notes = [s.note for t in self.inputs.temperatures for s in t.solids if s.note]
         if vibration is not None:
             notes += [vibration.note] if vibration.note else []
             rows += self._ground(vibration)

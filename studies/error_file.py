@@ -25,6 +25,7 @@ from strutwork.studies.error_schema import (
     GeometryCalibrationTable,
     TemperatureTable,
 )
+from strutwork.studies.error_solid_heat import HeatFlow, SolidField
 from strutwork.studies.error_temperatures import parts_of, temperature_of
 
 #: Where the file is described.
@@ -163,11 +164,27 @@ def _temperature(
         parts,
         table.expansion,
         tables.expansion,
+        _field(table, tables),
         name=name,
         change=table.change,
         spread=table.spread,
         gradient=(table.gradient_y, table.gradient_z),
         time_constant=table.time_constant,
+    )
+
+
+def _field(table: TemperatureTable, tables: ErrorsTable) -> SolidField | None:
+    """Of solids; None where the temperature is one number."""
+    profile = table.profile
+    if not (any(table.gradient) or table.at or profile or table.surfaces):
+        return None
+    return SolidField(
+        table.change,
+        table.gradient,
+        table.at,
+        *((profile.axis, profile.places, profile.changes) if profile else ()),
+        flows=tuple(HeatFlow(**dict(surface)) for surface in table.surfaces),
+        conductivities=tables.conductivity,
     )
 
 

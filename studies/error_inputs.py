@@ -14,6 +14,7 @@ from strutwork.fea.ground_vibration import GroundSpectrum
 from strutwork.kinematics import DIRECTIONS, Joint
 from strutwork.machines.model import Model
 from strutwork.msa.structure import Structure
+from strutwork.msa.thermal_loads import Expansion
 from strutwork.names import choices
 from strutwork.overconstraint.tolerance import Tolerance
 from strutwork.studies.error_calibration import (
@@ -22,6 +23,7 @@ from strutwork.studies.error_calibration import (
     calibrated_geometry,
 )
 from strutwork.studies.error_milling import MillingCut
+from strutwork.studies.error_solid_heat import SolidHeat
 
 Array = NDArray[Any]
 
@@ -35,7 +37,7 @@ class Temperature:
     name : str
         Of the entry: a material, or the parts.
     parts : tuple of (part, expansion)
-        Coefficient of expansion of every part, 1/K.
+        Coefficient of expansion of every part, 1/K; of a solid of several materials the first.
     change : float
         Uniform, after a long time, K.
     spread : float
@@ -44,6 +46,8 @@ class Temperature:
         Along local y and z of beams, K/m.
     time_constant : float or None
         s; None where the change is there at once.
+    solids : tuple of SolidHeat
+        Loads of those of the parts that are solids.
 
     Raises
     ------
@@ -57,6 +61,7 @@ class Temperature:
     spread: float = 0.0
     gradient: tuple[float, float] = (0.0, 0.0)
     time_constant: float | None = None
+    solids: tuple[SolidHeat, ...] = ()
 
     def __post_init__(self) -> None:
         part = f"temperature of {self.name}"
@@ -78,6 +83,26 @@ class Temperature:
         if time is None or self.time_constant is None:
             return 1.0
         return 1.0 - exp(-time / self.time_constant)
+
+    def expansions(self) -> list[Expansion]:
+        """Of every part, after a long time."""
+        heated = {s.part: s.load for s in self.solids}
+        return [
+            Expansion(part, load=heated[part])
+            if part in heated
+            else Expansion(part, a * self.change, (a * self.gradient[0], a * self.gradient[1]))
+            for part, a in self.parts
+        ]
+
+    def spreads(self) -> list[Expansion]:
+        """Of every part by the spread alone."""
+        heated = {s.part: s.per_kelvin for s in self.solids}
+        return [
+            Expansion(part, load=self.spread * heated[part])
+            if part in heated
+            else Expansion(part, a * self.spread)
+            for part, a in self.parts
+        ]
 
 
 @dataclass(frozen=True)

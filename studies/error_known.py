@@ -16,7 +16,7 @@ from strutwork.msa.assembly import System, system_of
 from strutwork.msa.loads import LoadCase
 from strutwork.msa.nodal_response import nodal_displacements, relative_motion
 from strutwork.msa.structure import PlacedStructure
-from strutwork.msa.thermal_loads import Expansion, thermal_loads
+from strutwork.msa.thermal_loads import thermal_loads
 from strutwork.msa.weights import part_weights
 from strutwork.overconstraint.unit_sets import Interval
 from strutwork.studies.error_inputs import ErrorInputs, with_servos
@@ -107,11 +107,7 @@ class KnownCauses:
                 add("cutting", [force.name], self.at_tool(force.wrench))
         if self.milling is not None:
             add("cutting", ["milling, mean"], self.at_tool((*self.milling.mean, 0.0, 0.0, 0.0)))
-        known = [
-            Expansion(part, alpha * t.change, (alpha * t.gradient[0], alpha * t.gradient[1]))
-            for t in self.inputs.temperatures
-            for part, alpha in t.parts
-        ]
+        known = [e for t in self.inputs.temperatures for e in t.expansions()]
         if known:
             found = thermal_loads(system, known)
             names.extend(("thermal", e.part) for e in known)
@@ -167,8 +163,7 @@ class KnownCauses:
         for t in self.inputs.temperatures:
             if not t.spread:
                 continue
-            parts = [Expansion(part, alpha * t.spread) for part, alpha in t.parts]
-            found = thermal_loads(self.system, parts)
+            found = thermal_loads(self.system, t.spreads())
             u = nodal_displacements(self.system.placed, found.loads, found.gaps) + found.moved
             gain = np.einsum("oni,nim->o", self.wanted, u[0])[:, None]
             rows.append(

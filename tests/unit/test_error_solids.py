@@ -1,0 +1,113 @@
+"""Temperatures in solids of a machine, against closed forms."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from strutwork.errors import ModelError
+from strutwork.machines.model import Model
+from strutwork.machines.model_file import parse_model
+from strutwork.studies.error_causes import error_sheet
+from strutwork.studies.error_file import parse_errors
+
+E, ALPHA = 200e9, 12e-6
+LENGTH, WIDTH, DEPTH = 0.4, 0.04, 0.06
+
+#: A block along x, held at one end and free at the other.
+BLOCK = f"""
+[materials.steel]
+youngs_modulus = {E}
+poissons_ratio = 0.3
+density = 7800
+[nodes]
+A = [0, 0, 0]
+B = [{LENGTH}, 0, 0]
+[[solids]]
+name = "bar"
+shape = "block"
+size = [{LENGTH}, {WIDTH}, {DEPTH}]
+position = [0, {-WIDTH / 2}, {-DEPTH / 2}]
+material = "steel"
+cell = "30 mm"
+modes = 6
+[[solids.interfaces]]
+node = "A"
+patch = "-x"
+[[solids.interfaces]]
+node = "B"
+patch = "+x"
+[[supports]]
+node = "A"
+fixed = "all"
+[tool]
+tcp = "B"
+"""
+RIGID = BLOCK.replace('"-x"', '"-x"\nkind = "rigid"').replace('"+x"', '"+x"\nkind = "rigid"')
+STEEL = f"expansion = {{ steel = {ALPHA} }}\n"
+
+
+def moved(model: Model, text: str) -> np.ndarray:
+    return error_sheet(model, parse_errors(STEEL + text, "test", model)).mean
+
+
+@pytest.mark.parametrize("text", [BLOCK, RIGID], ids=["average", "rigid"])
+def test_a_free_block_grows_without_bending(text: str) -> None:
+    """Pure expansion α ΔT L, uniform and by a profile that is constant."""
+    model = parse_model(text)
+    expected = [ALPHA * 10 * LENGTH, 0, 0, 0, 0, 0]
+    for entry in (
+        'change = "10 K"',
+        'profile = { axis = [1, 0, 0], places = [0, 0.3], changes = ["10 K", "10 K"] }',
+    ):
+        found = moved(model, f'[[temperatures]]\npart = "bar"\n{entry}')
+        np.testing.assert_allclose(found, expected, atol=1e-12)
+
+
+@pytest.mark.parametrize("text", [BLOCK, RIGID], ids=["average", "rigid"])
+def test_a_gradient_across_a_block_bends_it(text: str) -> None:
+    """κ = α g: the hot top bends the block down by κ L² / 2, its end turns by κ L."""
+    model = parse_model(text)
+    curvature = ALPHA * 50.0
+    expected = [0, 0, -curvature * LENGTH**2 / 2, 0, curvature * LENGTH, 0]
+    # the mean of the field that is exact, and the same as a profile, which the mesh carries
+    for entry in (
+        "gradient = [0, 0, 50]",
+        'profile = { axis = [0, 0, 2], places = [-0.05, 0.05], changes = ["-2.5 K", "2.5 K"] }',
+    ):
+        found = moved(model, f'[[temperatures]]\npart = "bar"\n{entry}')
+        np.testing.assert_allclose(found, expected, atol=1e-11)
+
+
+def test_a_gradient_along_a_block_stretches_it_by_its_mean() -> None:
+    """The mean of α (T₀ + g (x − x₀)) over the length."""
+    model = parse_model(BLOCK)
+    entry = '[[temperatures]]\npart = "bar"\nchange = "3 K"\ngradient = [10, 0, 0]\nat = [0, 0, 0]'
+    np.testing.assert_allclose(
+        moved(model, entry)[0], ALPHA * (3 + 10 * LENGTH / 2) * LENGTH, rtol=1e-8
+    )
+
+
+def test_a_solid_that_stands_askew_grows_along_its_own_axis() -> None:
+    """The same block along the global y axis, the gradient given in global axes."""
+    text = BLOCK.replace(f"B = [{LENGTH}, 0, 0]", f"B = [0, {LENGTH}, 0]")
+    text = text.replace(
+        f"position = [0, {-WIDTH / 2}, {-DEPTH / 2}]",
+        f"position = [{WIDTH / 2}, 0, {-DEPTH / 2}]\naxis = [0, 0, 1]\nsecond_axis = [0, 1, 0]",
+    )
+    entry = '[[temperatures]]\npart = "bar"\nchange = "10 K"\ngradient = [0, 0, 50]'
+    curvature = ALPHA * 50.0
+    down = -curvature * LENGTH**2 / 2
+    expected = [0, ALPHA * 10 * LENGTH, down, -curvature * LENGTH, 0, 0]
+    np.testing.assert_allclose(moved(parse_model(text), entry), expected, atol=1e-11)
+
+
+def test_a_clamped_bar_pushes_by_its_stiffness() -> None:
+    """E A α ΔT, less the share E A / (k L) by which a stiff spring yields."""
+    own = E * WIDTH * DEPTH / LENGTH
+    stiff = 1e4 * own
+    text = BLOCK + f'[[springs]]\nname = "wall"\nnode = "B"\nstiffness = {{ x = {stiff} }}\n'
+    found = moved(parse_model(text), '[[temperatures]]\npart = "bar"\nchange = "10 K"')
+    force = E * WIDTH * DEPTH * ALPHA * 10
+    np.testing.assert_allclose(stiff * found[0], force / (1 + own / stiff), rtol=1e-6)
+    np.testing.assert_allclose(found[1:], 0.0, atol=1e-12)
