@@ -5,11 +5,12 @@ import pickle
 import numpy as np
 import pytest
 
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, StrutworkError
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
 from strutwork.studies.error_causes import error_sheet
 from strutwork.studies.error_file import parse_errors
+from strutwork.studies.error_solid_heat import HeatFlow, SolidField, solid_heat
 
 E, ALPHA = 200e9, 12e-6
 LENGTH, WIDTH, DEPTH = 0.4, 0.04, 0.06
@@ -111,3 +112,69 @@ def test_a_clamped_bar_pushes_by_its_stiffness() -> None:
     force = E * WIDTH * DEPTH * ALPHA * 10
     np.testing.assert_allclose(stiff * found[0], force / (1 + own / stiff), rtol=1e-6)
     np.testing.assert_allclose(found[1:], 0.0, atol=1e-12)
+
+
+def test_a_solid_between_two_surfaces_bends_by_what_it_conducts() -> None:
+    """Faces at 3 K and −3 K: κ = α ΔT / h; the sheet says how warm it is."""
+    model = parse_model(BLOCK)
+    text = f"""{STEEL}
+conductivity = {{ steel = "50 W/m/K" }}
+[[temperatures]]
+part = "bar"
+surfaces = [
+  {{ patch = "+z", change = "3 K" }},
+  {{ box = [[0, 0, 0], [{LENGTH}, {WIDTH}, 0]], change = "-3 K" }},
+]
+"""
+    sheet = error_sheet(model, parse_errors(text, "test", model))
+    np.testing.assert_allclose(sheet.mean[4], ALPHA * 6 / DEPTH * LENGTH, rtol=1e-7)
+    assert sheet.notes == ("The temperature of bar changes by steady conduction by -3 K to 3 K.",)
+
+
+def test_a_spread_of_a_solid_is_an_interval() -> None:
+    model = parse_model(BLOCK)
+    text = STEEL + '[[temperatures]]\npart = "bar"\ngradient = [0, 0, 50]\nspread = "2 K"'
+    sheet = error_sheet(model, parse_errors(text, "test", model))
+    np.testing.assert_allclose(sheet.half_range[0], ALPHA * 2 * LENGTH, rtol=1e-8)
+    np.testing.assert_allclose(sheet.mean[0], 0.0, atol=1e-12)
+
+
+def test_a_solid_twice_as_large_has_its_source_with_it() -> None:
+    """What is kept of the mesh survives pickling, which workers need, and scaling."""
+    element = pickle.loads(pickle.dumps(parse_model(BLOCK).solids[0].scaled(2.0)))  # noqa: S301
+    found = solid_heat(element, SolidField(0.0, (0.0, 0.0, 50.0)), {"steel": ALPHA})
+    free = np.linalg.solve(element.reduced.local_stiffness[6:, 6:], found.load[6:])
+    np.testing.assert_allclose(free[4], ALPHA * 50 * 2 * LENGTH, rtol=1e-8)
+    flows = (HeatFlow(node="A", change=1.0), HeatFlow(patch="+x", film=5.0))
+    conducted = solid_heat(
+        element, SolidField(flows=flows, conductivities={"steel": 50.0}), {"steel": ALPHA}
+    )
+    # q = 1 K / (L / k + 1 / h) leaves the end at q / h
+    end = 1 / (2 * LENGTH / 50 + 1 / 5) / 5
+    np.testing.assert_allclose([conducted.lowest, conducted.highest], [end, 1.0], rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("entry", "problem"),
+    [
+        ('surfaces = [{ patch = "+x", change = "1 K" }]', "steel has no conductivity"),
+        ('surfaces = [{ patch = "+w", change = "1 K" }]', r'unknown patch "\+w"'),
+        ('surfaces = [{ node = "C", change = "1 K" }]', '"C", which the solid does not have'),
+        ("surfaces = [{ change = 1 }]", "names no place, or several"),
+        ('change = "1 K"\nsurfaces = [{ node = "A", change = 1 }]', "beside surfaces"),
+        ("profile = { axis = [0, 0, 1], places = [1, 0], changes = [1, 2] }", "do not rise"),
+        ("profile = { axis = [0, 0, 0], places = [0, 1], changes = [1, 2] }", "no length"),
+        ('gradient_y = "3 K/m"', "it is a solid"),
+        ('gradient = [0, 0, 3]\nexpansion = "1e-6 m/K"', "not a coefficient of expansion"),
+    ],
+)
+def test_what_does_not_fit_a_solid_is_named(entry: str, problem: str) -> None:
+    model = parse_model(BLOCK)
+    with pytest.raises(StrutworkError, match=problem):
+        parse_errors(f'{STEEL}[[temperatures]]\npart = "bar"\n{entry}', "test", model)
+
+
+def test_a_solid_without_a_coefficient_is_named() -> None:
+    model = parse_model(BLOCK)
+    with pytest.raises(ModelError, match="its material steel has no coefficient of expansion"):
+        parse_errors('[[temperatures]]\npart = "bar"\nchange = "1 K"', "test", model)
