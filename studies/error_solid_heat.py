@@ -141,11 +141,10 @@ class SolidHeat:
         """Range of the temperature, where it is not one number."""
         if self.highest == self.lowest:
             return ""
-        how = " by steady conduction" if self.conducted else ""
-        return (
-            f"The temperature of {self.part} changes{how} by {self.lowest:.3g} K to "
-            f"{self.highest:.3g} K."
-        )
+        by = f"by {self.lowest:.3g} to {self.highest:.3g} K"
+        if self.conducted:
+            return f"Steady conduction changes the temperature of {self.part} {by}."
+        return f"The temperature of {self.part} changes {by}."
 
 
 def solid_heat(

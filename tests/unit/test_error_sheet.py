@@ -227,7 +227,7 @@ def test_an_axis_and_a_workspace_have_the_sheets_of_their_poses() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('[[temperatures]]\npart = "ram"\nchange = "2 K"', "no one coefficient of expansion"),
+        ('[[temperatures]]\npart = "ram"\nchange = "2 K"', "steel has no coefficient of expansion"),
         ('[[temperatures]]\npart = "rom"\nchange = 2\nexpansion = 1e-5', 'unknown part "rom"'),
         ('[[temperatures]]\nmaterial = "steal"\nchange = 2', "of which no part is made"),
         ('[[temperatures]]\npart = "ram"\nchange = "2 mm"', "is not a difference of temperature"),

@@ -128,7 +128,7 @@ surfaces = [
 """
     sheet = error_sheet(model, parse_errors(text, "test", model))
     np.testing.assert_allclose(sheet.mean[4], ALPHA * 6 / DEPTH * LENGTH, rtol=1e-7)
-    assert sheet.notes == ("The temperature of bar changes by steady conduction by -3 K to 3 K.",)
+    assert sheet.notes == ("Steady conduction changes the temperature of bar by -3 to 3 K.",)
 
 
 def test_a_spread_of_a_solid_is_an_interval() -> None:
