@@ -50,6 +50,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
     "CountedTable": {
         "tolerances": "whether the tolerances of the model file count; true by default",
         "gravity": "whether gravity counts; true by default",
+        "servos": "whether the servos of the model file count; true by default",
     },
     "ToolTable": {"against": "node of the workpiece"},
     "TemperatureTable": {
@@ -100,6 +101,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "angular_backlash": "play of a rotary drive, from stop to stop",
         "servo_stiffness": "stiffness of a linear drive's control, in series with the drive",
         "angular_servo_stiffness": "stiffness of a rotary drive's control, in series",
+        "servo": "whether the drive has the static stiffness of its servo in the model file",
     },
     "GroundTable": {
         "direction": "direction along which all mounts move alike",

@@ -25,6 +25,7 @@ from strutwork.studies.error_schema import (
     GeometryCalibrationTable,
     TemperatureTable,
 )
+from strutwork.studies.error_servos import with_loop
 from strutwork.studies.error_solid_heat import HeatFlow, SolidField
 from strutwork.studies.error_temperatures import parts_of, temperature_of
 
@@ -100,6 +101,7 @@ def parse_errors(text: str, source: str, model: Model) -> ErrorInputs:
         _milling(tables, model),
         None if tables.calibration is None else _plan(tables.calibration),
         source=tables.source,
+        servos=tables.model.servos,
     )
 
 
@@ -204,8 +206,12 @@ def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
                 f"Write {right}.",
             )
         values[key] = getattr(table, right)
-    if all(v is None for v in values.values()):
-        raise ModelError(part, "states no error.", "Give resolution, backlash or servo_stiffness.")
+    if table.servo is None and all(v is None for v in values.values()):
+        raise ModelError(
+            part, "states no error.", "Give resolution, backlash, servo_stiffness or servo."
+        )
+    if table.servo is not None and values["servo_stiffness"] is not None:
+        raise ModelError(part, "gives servo_stiffness and servo.", "Give one of the two.")
     drives = model.structure.linkage.driven
     joints = (table.joint,) if table.joint is not None else table.joints or ()
     for joint in joints:
@@ -216,4 +222,20 @@ def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
                 f'names the unknown drive "{name}".',
                 choices("Drives", name, [f"{j}:{d}" for j, d in drives]),
             )
-    return [DriveError(joint, table.direction, **values) for joint in joints]
+    found = [
+        DriveError(joint, table.direction, **values, servo=table.servo is not False)
+        for joint in joints
+    ]
+    return [_with_servo(d, model, part) for d in found] if table.servo else found
+
+
+def _with_servo(drive: DriveError, model: Model, part: str) -> DriveError:
+    """With the servo that the model has for it, which is asked for by name."""
+    for servo in model.servos:
+        if (servo.joint, servo.direction) == (drive.joint, drive.direction):
+            return with_loop(drive, servo)
+    raise ModelError(
+        f"{part}.servo",
+        f"asks for the servo of {drive.joint}:{drive.direction}, which the model does not have.",
+        "Add it to [[servos]] of the model file, or give servo_stiffness.",
+    )

@@ -165,6 +165,7 @@ class DriveTable(Table):
     angular_backlash: Turn | None = None
     servo_stiffness: Stiff | None = None
     angular_servo_stiffness: StiffTurn | None = None
+    servo: StrictBool | None = None
 
 
 class GroundTable(Table):
@@ -186,6 +187,7 @@ class CountedTable(Table):
 
     tolerances: StrictBool = True
     gravity: StrictBool = True
+    servos: StrictBool = True
 
 
 class MillingTable(Table):

@@ -18,7 +18,8 @@ from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.error_answer import ErrorSheets, axis_errors
 from strutwork.studies.error_causes import error_sheet
 from strutwork.studies.error_file import parse_errors, read_errors
-from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs, with_servos
+from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs
+from strutwork.studies.error_servos import with_servos
 from strutwork.studies.error_sheet import ErrorRow, ErrorSheet
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
