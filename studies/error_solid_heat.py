@@ -125,6 +125,8 @@ class SolidHeat:
         Of one kelvin everywhere, N/K and N·m/K.
     lowest, highest : float
         Change of the temperature over the solid, K.
+    surface : (p,)
+        Change of the temperature at the `points` of the solid's surface, K.
     conducted : bool
         Whether it follows from steady conduction.
     """
@@ -134,6 +136,7 @@ class SolidHeat:
     per_kelvin: Array
     lowest: float
     highest: float
+    surface: Array
     conducted: bool = False
 
     @property
@@ -191,16 +194,19 @@ def solid_heat(
                 solid, interfaces, element.reduced, alpha * change, alpha * slope, about
             )
 
-        changes = heat.change + (solid.mesh.points - about) @ gradient
+        changes = heat.change + (element.points - centre) @ np.asarray(heat.gradient)
+        surface = changes
         load, unit = exact(heat.change, gradient), exact(1.0, np.zeros(3))
     else:
         load, unit, changes = _meshed(element, source, solid, heat, alphas, about, gradient)
+        surface = changes[element.surface]
     return SolidHeat(
         element.name,
         _turned(load, element.rotation),
         _turned(unit, element.rotation),
         float(changes.min()),
         float(changes.max()),
+        surface,
         bool(heat.flows),
     )
 

@@ -12,6 +12,7 @@ from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.process_file import is_known
 from strutwork.reports.chapters.error_calibration import calibration_blocks
+from strutwork.reports.chapters.error_heat import heat_blocks
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from strutwork.reports.error_tables import axis_heads, axis_rows, sheet_heads, sheet_rows
@@ -68,9 +69,9 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     if sheet.calibrated is not None:
         what = "the calibration: poses, combinations that it determines and that it does not"
         files.append(json_file(CALIBRATION, what, sheet.calibrated.to_dict()))
-    curves_, more = _curves(sheet, causes)
-    blocks += curves_
-    files += more
+    for some, more in (_curves(sheet, causes), heat_blocks(subject.model, inputs)):
+        blocks += some
+        files += more
     if not subject.unmoved:
         lines, area = subject, subject
         if is_known(subject.errors):
