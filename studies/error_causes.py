@@ -57,8 +57,13 @@ class ErrorCauses:
         """Gravity, temperatures, steady forces, and what servos yield to them."""
         return KnownCauses(self.model, self.inputs, self.placed)
 
-    def sheet(self) -> ErrorSheet:
+    def sheet(self, *, forces: bool = True) -> ErrorSheet:
         """All rows, notes, what the drives carry, and the drift.
+
+        Parameters
+        ----------
+        forces : bool
+            Whether what the drives carry is wanted, which is a solution of its own.
 
         Raises
         ------
@@ -88,7 +93,7 @@ class ErrorCauses:
         return ErrorSheet(
             tuple(rows),
             tuple(notes),
-            self._drive_forces(),
+            self._drive_forces() if forces else (),
             self.known.drift(self.inputs.moments),
             self.inputs.calibrated,
             before,

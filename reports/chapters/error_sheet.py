@@ -39,6 +39,9 @@ MAP, CALIBRATION = "error-sheet-survey", "error-calibration.json"
 #: Moments at which the drift is drawn.
 MOMENTS = 121
 
+#: Positions along an axis for causes that are assumed: fewer tell enough.
+FEW = 5
+
 #: Pairs of points that a spectrum is drawn with at most.
 DRAWN = 400
 
@@ -75,7 +78,6 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     if not subject.unmoved:
         lines, area = subject, subject
         if is_known(subject.errors):
-            # of what is assumed fewer poses tell enough
             axes = {d: _few(v) for d, v in subject.grid.axes.items()}
             lines = _over(subject, axes)
             area = _over(subject, dict(list(axes.items())[:2]))
@@ -86,8 +88,9 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
 
 
 def _few(values: Array) -> Array:
-    """The first, the middle and the last of the positions along an axis."""
-    return np.asarray(values)[sorted({0, len(values) // 2, len(values) - 1})]
+    """At most `FEW` of the positions along an axis, evenly, with both ends."""
+    last = len(values) - 1
+    return np.asarray(values)[np.unique(np.linspace(0, last, FEW).round().astype(int))]
 
 
 def _over(subject: Subject, axes: dict[str, Array]) -> Subject:
