@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -180,14 +181,16 @@ def _field(table: TemperatureTable, tables: ErrorsTable) -> SolidField | None:
     profile = table.profile
     if not (any(table.gradient) or table.at or profile or table.surfaces):
         return None
-    return SolidField(
+    field = SolidField(
         table.change,
         table.gradient,
         table.at,
-        *((profile.axis, profile.places, profile.changes) if profile else ()),
         flows=tuple(HeatFlow(**dict(surface)) for surface in table.surfaces),
         conductivities=tables.conductivity,
     )
+    if profile is None:
+        return field
+    return replace(field, axis=profile.axis, places=profile.places, changes=profile.changes)
 
 
 def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
@@ -222,11 +225,11 @@ def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
                 f'names the unknown drive "{name}".',
                 choices("Drives", name, [f"{j}:{d}" for j, d in drives]),
             )
-    found = [
+    errors = [
         DriveError(joint, table.direction, **values, servo=table.servo is not False)
         for joint in joints
     ]
-    return [_with_servo(d, model, part) for d in found] if table.servo else found
+    return [_with_servo(d, model, part) for d in errors] if table.servo else errors
 
 
 def _with_servo(drive: DriveError, model: Model, part: str) -> DriveError:

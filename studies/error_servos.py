@@ -67,7 +67,8 @@ def servo_notes(inputs: ErrorInputs, structure: Structure) -> list[str]:
         As `with_loops` gives them.
     structure : Structure
     """
-    stiff, held = [], []
+    stiff: list[str] = []
+    held: list[str] = []
     for drive in inputs.drives:
         if drive.servo_stiffness is not None and isinf(drive.servo_stiffness):
             elastic = drive.at_load and isinstance(_own(structure, drive), float)

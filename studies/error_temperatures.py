@@ -77,7 +77,7 @@ def temperature_of(
     """
     known = expandable(system_of(model.placed))
     solids = {s.name: s for s in model.solids}
-    made: dict[str, tuple[str, ...]] = {b.name: (b.material.name,) for b in model.structure.beams}
+    made = {b.name: b.material.name for b in model.structure.beams}
     found, heated = [], []
     for part in parts:
         if part not in known:
@@ -105,7 +105,7 @@ def temperature_of(
                     "Give gradient, profile and surfaces to solids; a beam has gradient_y and "
                     "gradient_z.",
                 )
-            alpha = _coefficient(part, *made.get(part, (None,)), expansion, coefficients)
+            alpha = _coefficient(part, made.get(part), expansion, coefficients)
         found.append((part, alpha))
     return Temperature(parts=tuple(found), solids=tuple(heated), **given)
 

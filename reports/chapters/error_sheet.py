@@ -90,7 +90,8 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
 def _few(values: Array) -> Array:
     """At most `FEW` of the positions along an axis, evenly, with both ends."""
     last = len(values) - 1
-    return np.asarray(values)[np.unique(np.linspace(0, last, FEW).round().astype(int))]
+    picked = np.unique(np.linspace(0, last, FEW).round().astype(int))
+    return np.asarray(np.asarray(values)[picked])
 
 
 def _over(subject: Subject, axes: dict[str, Array]) -> Subject:
