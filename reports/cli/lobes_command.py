@@ -25,7 +25,7 @@ def lobes(
         typer.Option(
             callback=typed,
             metavar="FILE",
-            help="A file of the cut; its keys are those of a model's [process], which is used "
+            help="A file of the cut; its keys are those of a model's \\[process], which is used "
             "where nothing else is said. Other options change it.",
         ),
     ] = None,

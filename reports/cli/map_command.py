@@ -23,7 +23,7 @@ def map_command(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
             help="Poses of the tool, as in --over x=-100mm..100mm:5,rz=0deg..20deg:3; those of "
-            "the file's [workspace] by default.",
+            "the file's \\[workspace] by default.",
         ),
     ] = None,
     out: Annotated[

@@ -17,7 +17,7 @@ def servo(
         typer.Option(
             callback=typed,
             metavar="FILE",
-            help="Controllers of the drives, tables [[servos]], in place of the model's.",
+            help="Controllers of the drives, tables \\[\\[servos]], in place of the model's.",
         ),
     ] = None,
     port: Annotated[
