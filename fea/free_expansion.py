@@ -58,8 +58,12 @@ def free_motion(
     patches : sequence of k TiedPatch
     points : (n, 3)
         Of the mesh of the patches, m.
-    strain, gradient, about
-        As `free_displacements`.
+    strain : float
+        α ΔT at `about`, no unit.
+    gradient : (3,)
+        Of α ΔT, 1/m.
+    about : (3,)
+        The point that neither moves nor turns, m.
     """
     g = np.asarray(gradient, dtype=float)
     found = np.zeros((len(patches), 6))
