@@ -111,6 +111,10 @@ class HeatedSolid:
         return self.mesh.points
 
     @cached_property
+    def _stiffness(self) -> sp.csc_array:
+        return self._assembler.stiffness()
+
+    @cached_property
     def _patches(self) -> tuple[TiedPatch, ...]:
         mesh = self.mesh
         return tuple(
@@ -187,7 +191,7 @@ class HeatedSolid:
         loads = self._assembler.expansion(changes, coefficients)
         given = self._patch_expansion(changes, coefficients)
         if np.any(given):
-            loads = loads - self._assembler.stiffness() @ given
+            loads = loads - self._stiffness @ given
         return np.asarray(reduced.shapes.T @ loads)
 
     def _patch_expansion(self, changes: Array, coefficients: Mapping[str, float]) -> Array:

@@ -12,10 +12,11 @@ from numpy.typing import NDArray
 from strutwork.errors import ModelError
 from strutwork.machines.model_solid_element import SolidElement
 from strutwork.names import choices
+from strutwork.stages import stage
 
 if TYPE_CHECKING:
     from strutwork.fea.solid import Solid
-    from strutwork.fea.solid_heat import HeatedSurface
+    from strutwork.fea.solid_heat import HeatedSolid, HeatedSurface
     from strutwork.fea.solid_source import SolidSource
 
 Array = NDArray[Any]
@@ -155,8 +156,8 @@ def solid_heat(
 ) -> SolidHeat:
     """The load of a temperature on a solid of a model file.
 
-    Exact where the solid has one coefficient of expansion and the temperature is linear; else
-    that of its mesh.
+    Exact where the solid has one coefficient of expansion and the temperature is linear. The mesh
+    carries what is not linear, and all of a solid of several coefficients.
 
     Parameters
     ----------
@@ -186,20 +187,29 @@ def solid_heat(
     centre = element.weighed[1] if heat.at is None else np.asarray(heat.at, dtype=float)
     about = (centre - element.translation) @ element.rotation
     gradient = np.asarray(heat.gradient, dtype=float) @ element.rotation
-    if heat.is_linear and len(set(alphas.values())) == 1:
-        alpha = next(iter(alphas.values()))
+    of_one = len(set(alphas.values())) == 1
+    alpha = next(iter(alphas.values()))
 
-        def exact(change: float, slope: Array) -> Array:
-            return linear_load(
-                solid, interfaces, element.reduced, alpha * change, alpha * slope, about
-            )
+    def exact(change: float, slope: Array) -> Array:
+        return linear_load(solid, interfaces, element.reduced, alpha * change, alpha * slope, about)
 
-        changes = heat.change + (element.points - centre) @ np.asarray(heat.gradient)
-        surface = changes
+    if heat.is_linear and of_one:
+        surface = changes = heat.change + (element.points - centre) @ np.asarray(heat.gradient)
         load, unit = exact(heat.change, gradient), exact(1.0, np.zeros(3))
     else:
-        load, unit, changes = _meshed(element, source, solid, heat, alphas, about, gradient)
-        surface = changes[element.surface]
+        with stage(f"heats solid {element.name}"):
+            heated, changes = _meshed(element, source, heat, about, gradient)
+            surface = changes[element.surface]
+            if of_one:
+                # the mesh carries only what is not linear
+                arms = heated.points - about
+                terms = np.concatenate([np.ones((len(arms), 1)), arms], axis=1)
+                fit = np.linalg.lstsq(terms, changes, rcond=None)[0]
+                rest = heated.load(element.reduced, changes - terms @ fit, alphas)
+                load, unit = rest + exact(float(fit[0]), fit[1:]), exact(1.0, np.zeros(3))
+            else:
+                load = heated.load(element.reduced, changes, alphas)
+                unit = heated.load(element.reduced, np.ones(len(changes)), alphas)
     return SolidHeat(
         element.name,
         _turned(load, element.rotation),
@@ -216,18 +226,12 @@ def _turned(load: Array, rotation: Array) -> Array:
 
 
 def _meshed(
-    element: SolidElement,
-    source: SolidSource,
-    solid: Solid,
-    heat: SolidField,
-    alphas: dict[str, float],
-    about: Array,
-    gradient: Array,
-) -> tuple[Array, Array, Array]:
-    """Loads of the field and of one kelvin, mesh's frame, and the changes at the nodes."""
+    element: SolidElement, source: SolidSource, heat: SolidField, about: Array, gradient: Array
+) -> tuple[HeatedSolid, Array]:
+    """The solid assembled, and the changes of temperature at its nodes."""
     from strutwork.fea.solid_heat import HeatedSolid  # noqa: PLC0415
 
-    solid, surfaces = _surfaces(element, source, solid, heat)
+    solid, surfaces = _surfaces(element, source, source.solid(), heat)
     heated = HeatedSolid(solid, source.interfaces)
     points = heated.points
     if surfaces:
@@ -243,11 +247,7 @@ def _meshed(
             along = along / np.linalg.norm(along)
             at = (points @ element.rotation.T + element.translation) @ along
             changes = changes + np.interp(at, heat.places, heat.changes)
-    return (
-        heated.load(element.reduced, changes, alphas),
-        heated.load(element.reduced, np.ones(len(points)), alphas),
-        changes,
-    )
+    return heated, changes
 
 
 def _conductivity(part: str, material: str, known: Mapping[str, float]) -> float:

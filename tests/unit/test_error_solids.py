@@ -114,6 +114,14 @@ def test_a_clamped_bar_pushes_by_its_stiffness() -> None:
     np.testing.assert_allclose(found[1:], 0.0, atol=1e-12)
 
 
+def test_linear_cells_bend_as_far() -> None:
+    """The linear part of a conducted temperature does not depend on the mesh."""
+    model = parse_model(BLOCK.replace('cell = "30 mm"', 'cell = "30 mm"\norder = 1'))
+    text = 'conductivity = { steel = 50 }\n[[temperatures]]\npart = "bar"\nsurfaces = ['
+    text += '{ patch = "+z", change = 3 }, { patch = "-z", change = -3 }]'
+    np.testing.assert_allclose(moved(model, text)[4], ALPHA * 6 / DEPTH * LENGTH, rtol=1e-7)
+
+
 def test_a_solid_between_two_surfaces_bends_by_what_it_conducts() -> None:
     """Faces at 3 K and −3 K: κ = α ΔT / h; the sheet says how warm it is."""
     model = parse_model(BLOCK)
