@@ -1,6 +1,7 @@
 """Temperatures in solids of a machine, against closed forms."""
 
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +9,8 @@ import pytest
 from strutwork.errors import ModelError, StrutworkError
 from strutwork.machines.model import Model
 from strutwork.machines.model_file import parse_model
+from strutwork.meshes import block, joined, write_mesh
+from strutwork.meshes import moved as shifted
 from strutwork.studies.error_causes import error_sheet
 from strutwork.studies.error_file import parse_errors
 from strutwork.studies.error_solid_heat import HeatFlow, SolidField, solid_heat
@@ -186,3 +189,30 @@ def test_a_solid_without_a_coefficient_is_named() -> None:
     model = parse_model(BLOCK)
     with pytest.raises(ModelError, match="its material steel has no coefficient of expansion"):
         parse_errors('[[temperatures]]\npart = "bar"\nchange = "1 K"', "test", model)
+
+
+def test_a_solid_of_two_materials_grows_by_both(tmp_path: Path) -> None:
+    """Two halves in line: the growths add, and each needs its own coefficient."""
+    half = (LENGTH / 2, WIDTH, DEPTH)
+    ends = [
+        block(half, (6, 2, 2), region="stone"),
+        shifted(block(half, (6, 2, 2), region="cap"), None, (LENGTH / 2, 0, 0)),
+    ]
+    write_mesh(joined(*ends), tmp_path / "part.msh")
+    text = BLOCK.replace('material = "steel"', 'materials = { stone = "soft", cap = "steel" }')
+    text = text.replace('shape = "block"', 'mesh = "part.msh"').replace('cell = "30 mm"', "")
+    text = text.replace(f"size = [{LENGTH}, {WIDTH}, {DEPTH}]", "")
+    text = text.replace('patch = "-x"', f"box = [[0, 0, 0], [0, {WIDTH}, {DEPTH}]]")
+    text = text.replace('patch = "+x"', f"box = [[{LENGTH}, 0, 0], [{LENGTH}, {WIDTH}, {DEPTH}]]")
+    text += "[materials.soft]\nyoungs_modulus = 50e9\npoissons_ratio = 0\ndensity = 2000\n"
+    # without Poisson's ratios nothing is strained across the bar
+    text = text.replace("poissons_ratio = 0.3", "poissons_ratio = 0")
+    model = parse_model(text, folder=tmp_path)
+    entry = '[[temperatures]]\npart = "bar"\nchange = "10 K"'
+    inputs = parse_errors(f"expansion = {{ steel = {ALPHA}, soft = 2e-6 }}\n{entry}", "t", model)
+    grown = error_sheet(model, inputs).mean
+    np.testing.assert_allclose(grown[0], 10 * (ALPHA + 2e-6) * LENGTH / 2, rtol=1e-8)
+    with pytest.raises(ModelError, match="its material soft has no coefficient of expansion"):
+        moved(model, entry)
+    with pytest.raises(ModelError, match="steel, of which bar is made only in part"):
+        moved(model, '[[temperatures]]\nmaterial = "steel"\nchange = "10 K"')
