@@ -26,6 +26,17 @@ def beside(path: Path) -> Path:
     return path.with_name(f"{path.name}.parts")
 
 
+def any_finished(parts: Path) -> bool:
+    """Whether there are finished parts: folders alone are none.
+
+    Parameters
+    ----------
+    parts : Path
+        Their folder.
+    """
+    return any(p.is_file() for p in parts.rglob("*"))
+
+
 def require_resumed(parts: Path, what: str, *, resume: bool) -> None:
     """Refuse to compute again what an interrupted run has finished, unless it is gone on from.
 
@@ -43,7 +54,7 @@ def require_resumed(parts: Path, what: str, *, resume: bool) -> None:
     ModelError
         There are some, and `resume` is not given.
     """
-    if not resume and parts.is_dir() and any(parts.iterdir()):
+    if not resume and any_finished(parts):
         raise ModelError(
             str(parts),
             f"holds {what}, which was interrupted.",
@@ -79,6 +90,8 @@ def result_there(path: Path, read: Callable[[Path], xr.Dataset]) -> xr.Dataset |
     """
     if not path.exists():
         return None
+    if path.is_dir() and path.suffix != ".zarr":
+        raise ModelError(str(path), "is a folder.", "Name a file.")
     try:
         return read(path)
     except ModelError as error:
