@@ -160,7 +160,7 @@ class Machine(Model, Outward, Varying):
 
     def compare(
         self,
-        other: Machine,
+        other: Machine | Path | str,
         pose: Mapping[str, float | str] | None = None,
         *,
         around: Mapping[str, ArrayLike] | None = None,
@@ -170,7 +170,7 @@ class Machine(Model, Outward, Varying):
 
         Parameters
         ----------
-        other : Machine
+        other : Machine, or str or Path as of `strutwork.load`
         pose : mapping of direction to float or str, optional
             Where both stand, m and rad as for `at`; each at home else.
         around : mapping of direction to (n,), optional
@@ -183,9 +183,11 @@ class Machine(Model, Outward, Varying):
         ModelError, UnreachableError
             The same machine twice; a pose that one of them cannot take.
         """
+        from strutwork.machines.load import load
         from strutwork.reports.designs.comparison import compare_standing
 
-        a, b = ((m.source or m.title or "machine", m) for m in (self, other))
+        second = other if isinstance(other, Machine) else Machine.of(load(other), str(other))
+        a, b = ((m.source or m.title or "machine", m) for m in (self, second))
         task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
         grid = None if around is None else _grid(around)
         return compare_standing(a, b, task, {}, around=grid, **options)

@@ -97,11 +97,13 @@ class Varying:
         StrutworkError
             The machine was changed or moved since it was loaded; else as `Study`.
         """
+        from strutwork.studies.finished_parts import require_file
         from strutwork.studies.study import Study
         from strutwork.studies.study_store import run_to_file
 
-        running = ("workers", "progress", "folder", "executor", "resume")
+        running = ("workers", "progress", "folder", "executor")
         how = {k: options.pop(k) for k in running if k in options}
-        out = options.pop("out", None)
+        out, resume = options.pop("out", None), options.pop("resume", False)
+        require_file(out, resume=resume)
         study = Study.of(self, parameters, *answers, **options)
-        return study.run(**how) if out is None else run_to_file(study, out, **how)
+        return study.run(**how) if out is None else run_to_file(study, out, resume=resume, **how)

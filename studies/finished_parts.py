@@ -11,6 +11,7 @@ import xarray as xr
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
+from strutwork.studies.executor import place
 
 #: What to do about a file that cannot be written over.
 OTHER_FILE = "Name another file, or remove this one."
@@ -35,6 +36,24 @@ def any_finished(parts: Path) -> bool:
         Their folder.
     """
     return any(p.is_file() for p in parts.rglob("*"))
+
+
+def require_file(out: str | Path | None, *, resume: bool) -> None:
+    """Refuse to go on from the finished parts of a result that is written nowhere.
+
+    Parameters
+    ----------
+    out : str, Path or None
+        File of the result.
+    resume : bool
+
+    Raises
+    ------
+    ModelError
+        There is no file, nor a folder of `strutwork.studies.executor.computed_on`.
+    """
+    if resume and out is None and place().folder is None:
+        raise ModelError("resume", "goes on from nothing.", "Give the file of the result: out=...")
 
 
 def require_resumed(parts: Path, what: str, *, resume: bool) -> None:

@@ -8,9 +8,11 @@ from typing import Any
 
 import xarray as xr
 
+from strutwork.errors import ModelError
 from strutwork.studies.design import Design
 from strutwork.studies.design_store import run_design
 from strutwork.studies.design_terms import Constraint, Objective
+from strutwork.studies.finished_parts import require_file
 from strutwork.studies.parameter import Parameter, Value
 from strutwork.studies.progress import Progress
 
@@ -60,9 +62,18 @@ def design_machine(  # noqa: PLR0913 - the tables of a file
     ModelError, UnitError, OutputError
         As `Design.of`, `Constraint.of` and `strutwork.studies.design_store.run_design`.
     """
-    low, high = dict(at_least or {}), dict(at_most or {})
+    low, high = _limits("at_least", at_least), _limits("at_most", at_most)
     limits = [Constraint.of(n, low.get(n), high.get(n)) for n in dict.fromkeys([*low, *high])]
     design = Design.of(
         machine, parameters, *objectives, constraints=[*limits, *constraints], **options
     )
+    require_file(out, resume=resume)
     return run_design(design, out, resume=resume, workers=workers, progress=progress)
+
+
+def _limits(name: str, given: Mapping[str, Value] | None) -> Mapping[str, Value]:
+    if given is not None and not isinstance(given, Mapping):
+        raise ModelError(
+            name, f"is a {type(given).__name__}.", 'Give limits by quantity: {"mass": "80 kg"}.'
+        )
+    return given or {}

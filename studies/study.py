@@ -315,6 +315,12 @@ class Study:
 
 def _grid(workspace: Mapping[str, Any]) -> TaskGrid | None:
     """Poses of values along directions, SI or texts with units; None where there are none."""
+    if not isinstance(workspace, Mapping):
+        raise ModelError(
+            "workspace",
+            f"is a {type(workspace).__name__}.",
+            'Give values along directions, as {"x": ["-50 mm", "50 mm"]}; {} for home alone.',
+        )
     axes = {}
     for direction, values in workspace.items():
         kind = ANGLE if direction.startswith("r") else LENGTH

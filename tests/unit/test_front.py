@@ -6,6 +6,7 @@ import json
 import pickle
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -164,6 +165,31 @@ def test_a_design_of_a_machine(tmp_path: Path) -> None:
         machine.design(ranges, "mass", at_least={"stifness_z": 1.0})
     with pytest.raises(ModelError, match="was changed or moved since it was read"):
         best.design(ranges, "mass")
+
+
+def test_wrong_arguments_are_explained(machine: Machine) -> None:
+    ram = "sections.ram.diameter"
+    wrong: list[tuple[Callable[[], object], str]] = [
+        (lambda: machine.study({ram: [0.04]}, workspace="all"), "workspace: is a str"),
+        (lambda: machine.study({ram: [0.04]}, resume=True), "resume: goes on from nothing"),
+        (lambda: machine.study({ram: (0.04, 0.05)}, count=2, seed=-1), "sample.seed: is -1"),
+        (lambda: machine.design({ram: (0.04, 0.05)}, "mass", at_least=["mass"]), "at_least: is a"),
+        (lambda: machine.design({ram: (0.04, 0.05)}, "mass", resume=True), "goes on from nothing"),
+        (lambda: machine.design({ram: (0.04, 0.05)}, "mass", band=(5, 1)), "from 5 to 1 Hz"),
+        (lambda: machine.calibrate(ram), "Give a list of paths"),
+        (lambda: machine.calibrate({ram: 0.05}), "has no pair as its range"),
+        (lambda: machine.calibrate([ram], priors={"ram": 0.1}), "names no parameter of the"),
+        (lambda: machine.calibrate([ram]), "has no measurement"),
+    ]
+    for make, message in wrong:
+        with pytest.raises(ModelError, match=message):
+            make()
+
+
+def test_a_machine_is_compared_with_one_by_its_name() -> None:
+    bar, frame = (ROOT / "examples" / f"{n}.toml" for n in ("01_cantilever", "04_four_bar"))
+    named = sw.load(bar).compare(frame)
+    assert (named.a.name, named.b.name) == (str(bar), str(frame))
 
 
 def test_without_damping_there_is_no_response(machine: Machine) -> None:
