@@ -17,10 +17,9 @@ from strutwork.machines.model_fields import (
     PoissonsRatio,
     Quantity,
     Size,
-    Stiff,
-    StiffTurn,
     Table,
 )
+from strutwork.machines.model_schema import StiffnessTable
 
 #: Elements of a row, and slices of a roller, at most.
 MAX_ELEMENTS, MAX_SLICES = 1000, 200
@@ -97,17 +96,6 @@ class BallRailTable(ContactTable):
     preload: Preload = 0.0
 
 
-class HeldStiffness(Table):
-    """Stiffness by direction."""
-
-    x: Stiff | None = None
-    y: Stiff | None = None
-    z: Stiff | None = None
-    rx: StiffTurn | None = None
-    ry: StiffTurn | None = None
-    rz: StiffTurn | None = None
-
-
 class OpeningLoads(Table):
     """Forces and moments by direction."""
 
@@ -124,7 +112,7 @@ class GivenStiffnessTable(Table):
 
     type: Literal["stiffness"]
     source: Source = Field(default="", validate_default=True)
-    stiffness: HeldStiffness
+    stiffness: StiffnessTable
     opens_at: OpeningLoads = OpeningLoads.model_construct()
 
 

@@ -35,7 +35,6 @@ from strutwork.machines.model_parts import (
     springs_of,
 )
 from strutwork.machines.model_schema import ModelTable
-from strutwork.machines.model_servos import servos_of
 from strutwork.msa import Beam, Structure
 from strutwork.msa.unjoined import in_words, unjoined_nodes
 
@@ -43,6 +42,7 @@ if TYPE_CHECKING:
     from strutwork.kinematics.mesh_shapes import MeshShape
     from strutwork.machines.bearing_entry import BearingEntry
     from strutwork.machines.model_solid_element import SolidElement
+    from strutwork.machines.servos import Servo
     from strutwork.overconstraint.tolerance import Tolerance
 
 
@@ -142,7 +142,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         task=task,
         workspace=workspace_of(tables, task),
         drives=drives_of(tables, {j.name: j for j in joints}),
-        servos=servos_of(tables.servos, {j.name: j for j in joints}),
+        servos=_servos(tables, joints),
         shapes=_shapes(tables, folder, linkage, positions),
         flexures=flexures,
         bearings=bearings,
@@ -193,6 +193,15 @@ def _tolerances(
 
     made = model_tolerances(tables, joints, supports)
     return made.tolerances, made.costs, made.limits
+
+
+def _servos(tables: ModelTable, joints: Sequence[Joint]) -> tuple[Servo, ...]:
+    if not tables.servos:
+        return ()
+    # few files have controllers
+    from strutwork.machines.model_servos import servos_of  # noqa: PLC0415
+
+    return servos_of(tables.servos, {j.name: j for j in joints})
 
 
 def _solids(tables: ModelTable, folder: Path) -> tuple[SolidElement, ...]:

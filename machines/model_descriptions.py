@@ -385,7 +385,6 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
     "DampingByDirection": _BY_DIRECTION,
     "Displacement": _BY_DIRECTION,
     "LimitsTable": _BY_DIRECTION,
-    "HeldStiffness": _BY_DIRECTION,
     "OpeningLoads": _BY_DIRECTION,
     "WorkspaceTable": _BY_DIRECTION,
 }

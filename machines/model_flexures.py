@@ -9,16 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 from strutwork.errors import ModelError
 from strutwork.machines.model import ModelWarning
-from strutwork.machines.model_flexure_schema import (
-    CircularNotchTable,
-    CrossSpringTable,
-    EllipticNotchTable,
-    LeafTable,
-)
 from strutwork.machines.model_parts import material_of, unknown
 
 if TYPE_CHECKING:
     from strutwork.flexures import Flexure
+    from strutwork.machines.model_flexure_schema import AnyFlexureTable
     from strutwork.machines.model_schema import JointTable, ModelTable
     from strutwork.msa import Material
 
@@ -107,17 +102,18 @@ def stiffness_rows(table: JointTable, flexures: Mapping[str, Flexure]) -> Rows |
     return tuple(tuple(row) for row in flexures[table.name].stiffness.tolist())
 
 
-def _flexure(
-    name: str,
-    table: CircularNotchTable | EllipticNotchTable | LeafTable | CrossSpringTable,
-    material: Material,
-) -> Flexure:
+def _flexure(name: str, table: AnyFlexureTable, material: Material) -> Flexure:
     # only files with flexures wait for what computes them
     from strutwork.flexures import (  # noqa: PLC0415
         CircularNotch,
         CrossSpring,
         EllipticNotch,
         Leaf,
+    )
+    from strutwork.machines.model_flexure_schema import (  # noqa: PLC0415
+        CircularNotchTable,
+        EllipticNotchTable,
+        LeafTable,
     )
 
     first = (name, material, table.thickness, table.width)

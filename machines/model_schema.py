@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, StrictBool
 
 from strutwork import units
 from strutwork.kinematics import DIRECTIONS
-from strutwork.machines.model_bearing_schema import BearingTable
 from strutwork.machines.model_fields import (
     Acceleration,
     Angle,
@@ -43,7 +42,6 @@ from strutwork.machines.model_fields import (
     Table,
     Vector,
 )
-from strutwork.machines.model_flexure_schema import AnyFlexureTable
 from strutwork.machines.model_motion_schema import (
     CouplingTable,
     DriveTable,
@@ -51,9 +49,19 @@ from strutwork.machines.model_motion_schema import (
     TaskTable,
     WorkspaceTable,
 )
-from strutwork.machines.model_process_schema import ProcessTable
-from strutwork.machines.model_servo_schema import ServoTable
-from strutwork.machines.model_solid_schema import ShapeTable, SolidTable
+
+if TYPE_CHECKING:
+    from strutwork.machines.model_bearing_schema import BearingTable
+    from strutwork.machines.model_flexure_schema import AnyFlexureTable
+    from strutwork.machines.model_process_schema import ProcessTable
+    from strutwork.machines.model_servo_schema import ServoTable
+    from strutwork.machines.model_solid_schema import ShapeTable, SolidTable
+else:
+    # read for the files that have them only: machines/model_complete_schema.py
+    AnyFlexureTable = BearingTable = ProcessTable = ServoTable = ShapeTable = SolidTable = Any
+
+#: Tables that few files have.
+RARE = frozenset({"bearings", "flexures", "process", "servos", "shapes", "solids"})
 
 #: A beam may be divided into this many elements at most.
 MAX_ELEMENTS = 1000
@@ -342,7 +350,7 @@ class DampingTable(Table):
 
 
 class ModelTable(Table):
-    """The whole file."""
+    """The whole file; one with a table of `RARE` is read by a class that describes it."""
 
     title: str = ""
     gravity: tuple[Acceleration, Acceleration, Acceleration] | None = None

@@ -15,8 +15,8 @@ from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema
 
 from strutwork.files import write_text
+from strutwork.machines.model_complete_schema import ModelTable
 from strutwork.machines.model_descriptions import DESCRIPTIONS
-from strutwork.machines.model_schema import ModelTable
 from strutwork.units import NUMBER
 
 #: The name under which it lies beside a model file.

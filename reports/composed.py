@@ -191,7 +191,7 @@ def chapters_beside(own: tuple[Chapter, ...], subject: Subject) -> tuple[Chapter
     written, _ = chapters_of(subject, offered)
     kept = [c for c in written if not files & {file.name for file in c.files}]
     known = keys | {chapter.key for chapter in kept}
-    blocks, beside = cover_blocks(subject)
+    blocks, beside = cover_blocks(subject, [said for chapter in own for said in chapter.cover])
     answers = Chapter(COVER, "What it does", (*_known(blocks, known), Text(COVER_TEXT)), beside)
     *before, closing = own
     more = [*beside, *(file for chapter in kept for file in chapter.files)]

@@ -312,6 +312,8 @@ class Chapter:
         What stands beside the report because of this chapter.
     answer : str
         What stands beside the title while the chapter is folded.
+    cover : tuple of Answer
+        Sentences for the first screen of a page whose chapters are a document's.
     """
 
     key: str
@@ -319,6 +321,7 @@ class Chapter:
     blocks: tuple[Block, ...]
     files: tuple[DataFile, ...] = ()
     answer: str = ""
+    cover: tuple[Answer, ...] = ()
 
 
 @dataclass(frozen=True)

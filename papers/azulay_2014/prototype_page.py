@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 from strutwork.machines import Prototype3PPPRS, get
 from strutwork.papers.azulay_2014.chapters.machine import DRAWING, drawing_file, machine_figure
@@ -12,6 +13,7 @@ from strutwork.papers.azulay_2014.regions import OWN_RANGES
 from strutwork.papers.tables import assumed
 from strutwork.reports.chapters.budget import budget_file, by_kind
 from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.cover import vibration_answers
 from strutwork.reports.chapters.stiffness import (
     AXES,
     VIEW,
@@ -103,23 +105,7 @@ def prototype_chapters(
             ),
             (budget_file(budget, "budget.csv", "prototype"),),
         ),
-        vibration_chapter(
-            vibration,
-            (
-                Text(
-                    "The machine at home, curvilinear stages locked, linear stages held by their "
-                    "motors' stiffness, with the masses of stages, platform and spindle."
-                ),
-            ),
-            assumptions=(
-                "Damping: 1 % of critical in every mode, viscous, assumed.",
-                (
-                    "Roots of the links clamped in the radial tables except for their hinges; "
-                    "locked guides rigid, linear drives 3 N/µm each along their motion."
-                ),
-                "Platform and stages are rigid; spherical and revolute joints rotate freely.",
-            ),
-        ),
+        _vibration(vibration),
         measurement_chapter(machine),
         _assumptions(machine),
     ]
@@ -146,6 +132,27 @@ def prototype_chapters(
         f"{entry.topology} · {entry.paper.citation}",
         tuple(chapters),
     )
+
+
+def _vibration(study: VibrationStudy) -> Chapter:
+    chapter = vibration_chapter(
+        study,
+        (
+            Text(
+                "The machine at home, curvilinear stages locked, linear stages held by their "
+                "motors' stiffness, with the masses of stages, platform and spindle."
+            ),
+        ),
+        assumptions=(
+            "Damping: 1 % of critical in every mode, viscous, assumed.",
+            (
+                "Roots of the links clamped in the radial tables except for their hinges; "
+                "locked guides rigid, linear drives 3 N/µm each along their motion."
+            ),
+            "Platform and stages are rigid; spherical and revolute joints rotate freely.",
+        ),
+    )
+    return replace(chapter, cover=vibration_answers(study, given="With assumed masses"))
 
 
 def _summary(

@@ -34,6 +34,7 @@ from strutwork.papers.son_2002.figures.assembly_scene import machine_misfit_view
 from strutwork.papers.son_2002.mit_ss1_study import NAME, OBJECTIVES, MitSS1Study, study_mit_ss1
 from strutwork.papers.son_2002.tolerances import STATIC_RATING
 from strutwork.reports.chapters.closing import closing_chapter
+from strutwork.reports.chapters.cover import locked_answer
 from strutwork.reports.chapters.overconstraint import (
     governing,
     headline,
@@ -143,7 +144,9 @@ def machine_chapter(study: MitSS1Study) -> Chapter:
             f"every bearing within the assumed static rating of {RATING} at every pose",
         ),
     )
-    return Chapter("overconstraint", "Assembly forces of the machine", *gathered)
+    key = "overconstraint"
+    cover = (locked_answer(own, key),)
+    return Chapter(key, "Assembly forces of the machine", *gathered, cover=cover)
 
 
 def _misfit(study: MitSS1Study) -> tuple[list[Block], list[DataFile]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,6 +30,8 @@ from strutwork.reports.numbers import count, share, significant
 from strutwork.reports.part_groups import PartGroup, part_groups
 from strutwork.reports.subject import Subject
 from strutwork.reports.survey_words import Extreme, largest, least
+from strutwork.reports.vibration_study import VibrationStudy
+from strutwork.studies.tolerance_result import ToleranceStudy
 
 Array = NDArray[Any]
 
@@ -66,13 +69,23 @@ class Softest:
         return self.groups[0]
 
 
-def cover_blocks(subject: Subject) -> tuple[tuple[Block, ...], tuple[DataFile, ...]]:
-    """Sentences, the machine where it is softest, and the file beside it."""
+def cover_blocks(
+    subject: Subject, more: Sequence[Answer] = ()
+) -> tuple[tuple[Block, ...], tuple[DataFile, ...]]:
+    """Sentences, the machine where it is softest, and the file beside it.
+
+    Parameters
+    ----------
+    subject : Subject
+    more : sequence of Answer
+        Sentences of chapters that the subject does not write.
+    """
     worst = _worst(subject)
     found = softest(subject, worst)
     sentences = [
         *_stiffness(subject, worst, found),
         *_vibration(subject),
+        *more,
         *_assembly(subject),
         *_reach(subject),
     ]
@@ -198,34 +211,50 @@ def _stiffness(
 def _vibration(subject: Subject) -> tuple[Answer, ...]:
     if not subject.vibrates:
         return ()
-    study, said = subject.vibration, []
+    lowest = least_stiff = "."
+    if not workspace_vibration.missing(subject):
+        found = subject.vibration_survey
+        low = least(found, found["natural_frequency"].to_numpy()[..., 0])
+        lowest = f"; in the workspace it falls to {significant(low.value)} Hz, at {low.where}."
+        values = found["least_dynamic_stiffness"].to_numpy() / 1e6
+        worst = [least(found, values[..., k]) for k in range(3)]
+        k = int(np.argmin([w.value for w in worst]))
+        least_stiff = (
+            f"; in the workspace it falls to {significant(worst[k].value)} N/µm along "
+            f"{'xyz'[k]}, at {worst[k].where}."
+        )
+    return vibration_answers(subject.vibration, lowest, least_stiff)
+
+
+def vibration_answers(
+    study: VibrationStudy,
+    lowest: str = ".",
+    least_stiff: str = ".",
+    given: str = "",
+    link: str = "vibration",
+) -> tuple[Answer, ...]:
+    """Lowest frequency and least dynamic stiffness at home.
+
+    Parameters
+    ----------
+    study : VibrationStudy
+    lowest, least_stiff : str
+        How the two sentences end.
+    given : str
+        What they hold for, as in "With calibrated masses".
+    link : str
+        Key of the chapter that says more.
+    """
+    its, said = f"{given}, its" if given else "Its", []
     if len(study.modes.frequencies):
-        lowest = significant(float(study.modes.frequencies[0]))
-        after = "."
-        if not workspace_vibration.missing(subject):
-            found = subject.vibration_survey
-            values = found["natural_frequency"].to_numpy()[..., 0]
-            low = least(found, values)
-            after = f"; in the workspace it falls to {significant(low.value)} Hz, at {low.where}."
-        text = "Its lowest natural frequency at home is "
-        said.append(Answer(text, f"{lowest} Hz", after, "vibration"))
+        number = f"{significant(float(study.modes.frequencies[0]))} Hz"
+        said.append(Answer(f"{its} lowest natural frequency at home is ", number, lowest, link))
     known = [(dip.value, axis, dip) for axis, dip in zip("xyz", study.least, strict=False)]
     if known:
         value, axis, dip = min(known, key=lambda item: item[0])
-        after = f" along {axis}, at {significant(dip.frequency)} Hz"
-        if not workspace_vibration.missing(subject):
-            found = subject.vibration_survey
-            values = found["least_dynamic_stiffness"].to_numpy() / 1e6
-            worst = [least(found, values[..., k]) for k in range(3)]
-            k = int(np.argmin([w.value for w in worst]))
-            after += (
-                f"; in the workspace it falls to {significant(worst[k].value)} N/µm along "
-                f"{'xyz'[k]}, at {worst[k].where}"
-            )
         number = f"{significant(1e-6 * value)} N/µm"
-        said.append(
-            Answer("Its least dynamic stiffness at home is ", number, f"{after}.", "vibration")
-        )
+        after = f" along {axis}, at {significant(dip.frequency)} Hz{least_stiff}"
+        said.append(Answer(f"{its} least dynamic stiffness at home is ", number, after, link))
     return tuple(said)
 
 
@@ -240,7 +269,6 @@ def _assembly(subject: Subject) -> tuple[Answer, ...]:
 
 
 def _locked(subject: Subject) -> Answer:
-    study = subject.tolerances.study
     if not subject.check.mobility.redundant:
         return Answer(
             "Manufacturing errors lock in ",
@@ -248,12 +276,25 @@ def _locked(subject: Subject) -> Answer:
             ": no constraint is redundant, so they only move the tool.",
             "tolerances",
         )
+    return locked_answer(subject.tolerances.study)
+
+
+def locked_answer(study: ToleranceStudy, link: str = "tolerances") -> Answer:
+    """The force that manufacturing errors lock in: nearest to its limit, else the largest.
+
+    Parameters
+    ----------
+    study : ToleranceStudy
+        Of a machine that is constrained more than once.
+    link : str
+        Key of the chapter that says more.
+    """
     used = study.utilisation
     top = int(np.argmax(used))
     if used[top] <= 0:
         forces = [i for i, q in enumerate(study.quantities) if q.unit == "N"]
         if not forces:
-            return Answer("Manufacturing errors lock in ", "moments only", ".", "tolerances")
+            return Answer("Manufacturing errors lock in ", "moments only", ".", link)
         top = max(forces, key=lambda i: float(study.largest[i]))
     quantity = study.quantities[top]
     after = f": {quantity.name} in the worst case; no limit is given."
@@ -262,9 +303,7 @@ def _locked(subject: Subject) -> Answer:
         beyond = "more than" if used[top] > 1 else f"{share(float(used[top]))} of"
         after = f": {quantity.name} in the worst case, {beyond} its limit of {limit}."
     number = f"{significant(float(study.largest[top]))} {quantity.unit}"
-    return Answer(
-        "Manufacturing errors lock in up to ", number, after, "tolerances", bool(used[top] > 1)
-    )
+    return Answer("Manufacturing errors lock in up to ", number, after, link, bool(used[top] > 1))
 
 
 def _displaced(subject: Subject) -> Answer | None:

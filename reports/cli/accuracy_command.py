@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from strutwork.reports.cli.choices import JointAt, Json, Pose, Target
+from strutwork.reports.cli.choices import JointAt, Json, Pose, Target, Workers
 from strutwork.reports.cli.usage import typed
 
 
@@ -64,9 +64,7 @@ def accuracy(
             "--out", "-o", metavar="DIR", help="Write the result to this folder: CSV, NetCDF."
         ),
     ] = None,
-    workers: Annotated[
-        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
-    ] = None,
+    workers: Workers = None,
     json: Json = False,
 ) -> None:
     """Find how far tolerances, drive errors, play and other causes can displace the tool."""

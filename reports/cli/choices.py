@@ -108,3 +108,18 @@ Preload = Annotated[
         help="Load case under which it vibrates, instead of the file's preload.",
     ),
 ]
+
+Over = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--over",
+        callback=typed,
+        metavar="DIR=LOW..HIGH:N,...",
+        help="Also over poses of the tool, as in --over x=-100mm..100mm:5, or --over "
+        "workspace for those of the file.",
+    ),
+]
+Workers = Annotated[
+    int | None,
+    typer.Option("--workers", min=1, help="Number of threads; one per processor by default."),
+]

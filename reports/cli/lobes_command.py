@@ -7,7 +7,17 @@ from typing import Annotated
 
 import typer
 
-from strutwork.reports.cli.choices import JointAt, Json, Loss, Pose, Preload, Ratio, Target
+from strutwork.reports.cli.choices import (
+    JointAt,
+    Json,
+    Loss,
+    Over,
+    Pose,
+    Preload,
+    Ratio,
+    Target,
+    Workers,
+)
 from strutwork.reports.cli.usage import typed
 
 
@@ -25,7 +35,7 @@ def lobes(
         typer.Option(
             callback=typed,
             metavar="FILE",
-            help="A file of the cut; its keys are those of a model's [process], which is used "
+            help="A file of the cut; its keys are those of a model's \\[process], which is used "
             "where nothing else is said. Other options change it.",
         ),
     ] = None,
@@ -70,7 +80,8 @@ def lobes(
         typer.Option(
             callback=typed,
             metavar="DIR",
-            help="Axis of the tool, from its tip to its holder; z by default.",
+            help="Axis of the tool, from its tip to its holder; z by default. At poses, axis and "
+            "feed turn with the tool.",
         ),
     ] = None,
     feed: Annotated[
@@ -90,18 +101,8 @@ def lobes(
     rose: Annotated[
         bool, typer.Option("--rose", help="Also the depths by direction of the feed.")
     ] = False,
-    over: Annotated[
-        list[str] | None,
-        typer.Option(
-            callback=typed,
-            metavar="DIR=LOW..HIGH:N,...",
-            help="Also over poses of the tool, as in --over x=-100mm..100mm:5, or --over "
-            "workspace for those of the file. Axis and feed turn with the tool.",
-        ),
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
-    ] = None,
+    over: Over = None,
+    workers: Workers = None,
     pose: Pose = None,
     joint: JointAt = None,
     out: Annotated[

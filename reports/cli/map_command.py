@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from strutwork.reports.cli.choices import Json, Ranges
+from strutwork.reports.cli.choices import Json, Ranges, Workers
 from strutwork.reports.cli.usage import typed
 
 
@@ -23,7 +23,7 @@ def map_command(
             callback=typed,
             metavar="DIR=LOW..HIGH:N,...",
             help="Poses of the tool, as in --over x=-100mm..100mm:5,rz=0deg..20deg:3; those of "
-            "the file's [workspace] by default.",
+            "the file's \\[workspace] by default.",
         ),
     ] = None,
     out: Annotated[
@@ -45,9 +45,7 @@ def map_command(
         int,
         typer.Option(min=1, max=720, help="Number of rolls about the normal tried at each point."),
     ] = 24,
-    workers: Annotated[
-        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
-    ] = None,
+    workers: Workers = None,
     vibration: Annotated[
         bool,
         typer.Option(

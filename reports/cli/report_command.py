@@ -58,7 +58,8 @@ def report(
         typer.Option(
             callback=typed,
             metavar="FILE",
-            help="A file of the cut whose stability is reported, instead of the model's [process].",
+            help="A file of the cut whose stability is reported, "
+            "instead of the model's \\[process].",
         ),
     ] = None,
     json: Json = False,

@@ -6,7 +6,17 @@ from typing import Annotated
 
 import typer
 
-from strutwork.reports.cli.choices import JointAt, Json, Loss, Pose, Preload, Ratio, Target
+from strutwork.reports.cli.choices import (
+    JointAt,
+    Json,
+    Loss,
+    Over,
+    Pose,
+    Preload,
+    Ratio,
+    Target,
+    Workers,
+)
 from strutwork.reports.cli.usage import typed
 
 
@@ -17,7 +27,7 @@ def servo(
         typer.Option(
             callback=typed,
             metavar="FILE",
-            help="Controllers of the drives, tables [[servos]], in place of the model's.",
+            help="Controllers of the drives, tables \\[\\[servos]], in place of the model's.",
         ),
     ] = None,
     port: Annotated[
@@ -42,18 +52,8 @@ def servo(
             "to 2000 Hz. The others count statically.",
         ),
     ] = None,
-    over: Annotated[
-        list[str] | None,
-        typer.Option(
-            callback=typed,
-            metavar="DIR=LOW..HIGH:N,...",
-            help="Also over poses of the tool, as in --over x=-100mm..100mm:5, or --over "
-            "workspace for those of the file.",
-        ),
-    ] = None,
-    workers: Annotated[
-        int | None, typer.Option(min=1, help="Number of threads; one per processor by default.")
-    ] = None,
+    over: Over = None,
+    workers: Workers = None,
     pose: Pose = None,
     joint: JointAt = None,
     out: Annotated[

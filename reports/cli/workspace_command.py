@@ -28,7 +28,7 @@ def workspace(
             metavar="DIR=LOW..HIGH:N,...",
             help="One to three directions of the tool, as in --over x=-100mm..100mm:41; N odd. "
             "A direction with one value is where the tool is placed first. By default the "
-            "machine's own or the file's [workspace].",
+            "machine's own or the file's \\[workspace].",
         ),
     ] = None,
     tilt: Annotated[

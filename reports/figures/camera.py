@@ -16,7 +16,7 @@ WAY = np.array([1.24, -1.47, 1.1])
 TANGENT = float(np.tan(np.pi / 8))
 
 #: Shares of half the view that the box may take: the axes' names stand below and beside it.
-TOP, BOTTOM, SIDES = 0.95, 0.8, 0.84
+TOP, BOTTOM, SIDES = 0.95, 0.8, 0.76
 
 #: Width over height of the narrowest view that is not moved farther away, as in report.js.
 ASPECT = 1.15

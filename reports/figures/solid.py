@@ -204,7 +204,8 @@ def scene(traces: Sequence[dict[str, Any]]) -> dict[str, Any]:
             "showbackground": True,
             "zerolinecolor": LINE,
             "tickfont": {"size": 11},
-            "nticks": 6,
+            # labels of a short side would stand on one another
+            "nticks": 6 if ratio[axis] > 0.4 * ratio.max() else 3,
         }
 
     view = {

@@ -1,8 +1,10 @@
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import pytest
+from rich.text import Text
 
 from strutwork import __version__
 from strutwork.machines.catalogue import CATALOGUE
@@ -37,6 +39,24 @@ def test_help_of_a_command(command: str, strutwork: Program) -> None:
     run = strutwork(command, "--help")
     assert (run.status, run.err) == (0, "")
     assert "--json" in run.out
+
+
+def test_help_shows_names_of_tables() -> None:
+    """A name in brackets is an instruction to the library that prints help, unless escaped."""
+    folder = Path(__file__).parents[2] / "reports" / "cli"
+    helps = [
+        keyword.value.value
+        for path in sorted(folder.glob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call)
+        for keyword in node.keywords
+        if keyword.arg == "help" and isinstance(keyword.value, ast.Constant)
+    ]
+    assert len(helps) > 100
+    escaped = [text for text in helps if r"\[" in text]
+    assert len(escaped) >= 5
+    lost = [t for t in helps if Text.from_markup(t).plain != t.replace(r"\[", "[")]
+    assert lost == []
 
 
 def test_version(strutwork: Program) -> None:

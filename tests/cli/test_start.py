@@ -34,6 +34,12 @@ NEEDLESS = {
     "strutwork.fea",
     "strutwork.kinematics.jacobians",
     "strutwork.machines.catalogue",
+    # tables that neither has
+    "strutwork.machines.model_bearing_schema",
+    "strutwork.machines.model_flexure_schema",
+    "strutwork.machines.model_process_schema",
+    "strutwork.machines.model_servo_schema",
+    "strutwork.machines.model_solid_schema",
     "strutwork.msa.solve",
     "strutwork.overconstraint.responses",
     "strutwork.reports.cli.workspace_command",

@@ -55,6 +55,20 @@ CHAPTERS = (
 ENERGY = ("share_beam", "share_joint", "share_element")
 
 
+def test_the_first_screen_answers_from_the_chapters_of_the_document(
+    planar_report: WrittenReport,
+) -> None:
+    text = re.sub("<[^>]+>", "", text_of(planar_report.report))
+    folder = planar_report.report.parent
+    minima = rows_of(folder / "whole-machine-minima.csv")
+    least = min(float(row["least_N/m"]) for row in minima)
+    assert f"its least dynamic stiffness at home is {least / 1e6:.3g} N/µm" in text
+    modes = [row for row in rows_of(folder / "modes.csv") if row["machine"] == "numerical"]
+    first = min(float(row["frequency_Hz"]) for row in modes)
+    assert f"its lowest natural frequency at home is {first:.3g} Hz; the lowest of" in text
+    assert "Manufacturing errors lock in up to " in text
+
+
 def test_page_has_all_chapters_and_stays_small(planar_report: WrittenReport) -> None:
     text = text_of(planar_report.report)
     assert tuple(re.findall(r'<section id="([^"]+)"', text)) == CHAPTERS

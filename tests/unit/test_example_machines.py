@@ -18,8 +18,8 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import Poses
 from strutwork.kinematics.turns import rotation_matrix
 from strutwork.machines.model_builder import build_model
+from strutwork.machines.model_file import checked_tables
 from strutwork.machines.model_poses import at_pose, moved
-from strutwork.machines.model_schema import ModelTable
 from strutwork.machines.model_templates import template, template_names
 from strutwork.msa import tool_compliance
 from strutwork.reports.model_check import check_model
@@ -150,7 +150,7 @@ def test_its_stiffness_is_that_of_files_written_at_every_pose() -> None:
     _, placement = moved(model, task)
     every = tool_compliance(model.structure.at(placement))
     for k, place in enumerate(np.stack([task[d] for d in "xyz"], axis=-1)):
-        anew = build_model(ModelTable.model_validate(delta_at(place)), FOLDER)
+        anew = build_model(checked_tables(delta_at(place)), FOLDER)
         one = tool_compliance(anew.placed)
         np.testing.assert_allclose(every[k], one, rtol=0, atol=1e-8 * np.abs(one).max())
 

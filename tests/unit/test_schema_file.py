@@ -18,6 +18,7 @@ from strutwork.machines import (
     model_motion_schema,
     model_process_schema,
     model_schema,
+    model_servo_schema,
     model_solid_schema,
 )
 from strutwork.machines.model_descriptions import DESCRIPTIONS
@@ -131,6 +132,7 @@ def test_every_key_has_a_description_and_every_description_a_key() -> None:
             *(model_schema, model_bearing_schema, model_flexure_schema),
             model_motion_schema,
             model_process_schema,
+            model_servo_schema,
             model_solid_schema,
         )
         for value in vars(module).values()

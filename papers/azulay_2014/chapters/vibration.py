@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,6 +23,7 @@ from strutwork.papers.azulay_2014.dynamic import (
 from strutwork.papers.azulay_2014.published import TABLE_5
 from strutwork.papers.published_rows import file_name
 from strutwork.papers.tables import difference, numbers, ours, rows_file, texts
+from strutwork.reports.chapters.cover import vibration_answers
 from strutwork.reports.chapters.vibration import (
     GRID_TEXT,
     SWING_TEXT,
@@ -47,6 +49,9 @@ INTRODUCTION = (
     "decide the results, so two sets of the missing numbers are shown side by side. All figures "
     "here are of the calibrated set."
 )
+
+#: What the sentences of the cover hold for.
+GIVEN = "With a model calibrated to Table 5"
 
 ASSUMPTIONS = (
     (
@@ -75,9 +80,10 @@ def machine_vibration(name: str) -> Chapter:
         after += blocks
         files += some
     blocks, some = sensitivity_blocks((name,))
-    return vibration_chapter(
+    chapter = vibration_chapter(
         study, (Text(INTRODUCTION),), (*after, *blocks), (*files, *some), ASSUMPTIONS
     )
+    return replace(chapter, cover=vibration_answers(study, given=GIVEN))
 
 
 def comparison_vibration(names: Sequence[str]) -> Chapter:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from strutwork.papers.son_2002.modes import TILT
 from strutwork.papers.son_2002.whole_study import BAND, WholeStudy
+from strutwork.reports.chapters.cover import vibration_answers
 from strutwork.reports.chapters.vibration import minima_table, response_figure, response_files
 from strutwork.reports.content import Block, Chapter, Note, Text
 from strutwork.reports.numbers import significant
+
+#: What the sentences of the cover hold for: the mechanism alone has other bearings and no mounts.
+GIVEN = "On its granite and mounts, with bearings calibrated to the thesis's finite element model"
 
 
 def response_chapter(study: WholeStudy) -> Chapter:
@@ -34,10 +39,21 @@ def response_chapter(study: WholeStudy) -> Chapter:
             "of the continuous curve, not of drawn points."
         ),
     ]
+    key = "dynamic-stiffness"
+    tilt = study.named["numerical"].frequencies[TILT]
+    cover = vibration_answers(
+        some,
+        f"; the lowest of the mechanism is {significant(tilt)} Hz, the housing's tilt.",
+        f"; beyond the mounts' modes it is {significant(softest.value / 1e6)} N/µm along "
+        f"{softest.output.direction}, at {significant(softest.frequency)} Hz.",
+        GIVEN,
+        key,
+    )
     return Chapter(
-        "dynamic-stiffness",
+        key,
         "Dynamic stiffness at the tool",
         tuple(blocks),
         # the second band's curves are part of the first's
         (*response_files(some), response_files(elastic)[-1]),
+        cover=cover,
     )
