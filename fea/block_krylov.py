@@ -13,31 +13,20 @@ second-order systems, IEEE CDC.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, NumericalError
-from strutwork.fea.block_krylov_basis import EnergyBasis
+from strutwork.fea.block_krylov_basis import Array, EnergyBasis
 from strutwork.fea.block_krylov_damping import MatrixDamping
-from strutwork.fea.block_krylov_model import KrylovModel, SmallModel
+from strutwork.fea.block_krylov_reduced import KrylovModel
+from strutwork.fea.block_krylov_search import Search
 from strutwork.fea.factorize import Factor, factorize
-
-Array = NDArray[Any]
-Solve = Callable[[Array], Array]
 
 #: Share of the band's end at which a floating structure is expanded, on the negative side of ω².
 FLOATING = 0.1
-
-#: Lines on which successive bases are compared.
-COMPARED = 200
-
-#: Lines whose residual is taken.
-CHECKED = 2
 
 #: Least quotient of the first mode's ω² and the band's for a structure to be held.
 HELD = 1e-8
@@ -50,7 +39,8 @@ class KrylovOptions:
     Parameters
     ----------
     tolerance : float
-        Largest error of a line's receptance, Frobenius norm over Frobenius norm.
+        Largest error of a line's receptance, Frobenius norm over Frobenius norm: kept at every
+        line where damping has a share of K or M, otherwise estimated (`KrylovModel.errors`).
     expansions : tuple of float
         Frequencies about which moments match, Hz. The first is zero; each further one costs a
         factorisation.
@@ -98,9 +88,10 @@ def krylov_reduction(
 ) -> KrylovModel:
     """Reduce a model to the motions that loads at its ports bring about in a band.
 
-    Blocks are added until the error is small enough: successive bases are compared over the
-    band, then the residual R of the worst lines is taken, and with it the error Rᵀ Z⁻¹ R of
-    the receptance, in which the expansion's factors stand for Z.
+    Blocks are added until the error is small enough at every line of the band. With the residual
+    R of the full system, the receptance is wrong by Rᵀ Z⁻¹ R; the next block gives the norm of R
+    at all lines (`strutwork.fea.block_krylov_residual`), and damping bounds Z⁻¹. Lines are added
+    where the error is largest between them, and at the worst ones the residual is formed in full.
 
     Parameters
     ----------
@@ -144,7 +135,7 @@ def krylov_reduction(
         factor = factorize(sp.csc_array(stiffness + shift * mass), options.solver)
     basis = EnergyBasis(stiffness, mass, shift, options.most)
     loads = ports if damping.ports is None else np.concatenate([ports, damping.ports], axis=1)
-    search = _Search(basis, ports, damping, factor, (low, high), options.tolerance)
+    search = Search(basis, ports, damping, factor, (low, high), options.tolerance)
     seeds = [factor.solve]
     for frequency in options.expansions[1:]:
         moved = sp.csc_array(stiffness - (2.0 * np.pi * frequency) ** 2 * mass)
@@ -152,15 +143,16 @@ def krylov_reduction(
     starts = [basis.grow(loads, solve(loads)) for solve in seeds]
     if not options.floating:
         _require_held(basis, starts[0], high)
-    error, worst = search.extend(seeds, starts)
+    found = search.extend(seeds, starts)
     return KrylovModel(
         basis.vectors.copy(),
-        search.small(),
+        found.small,
+        found.residual,
         options.expansions,
         shift,
         (low, high),
-        error,
-        worst,
+        found.error,
+        found.worst,
         options.tolerance,
         factor.name,
         str(damping),
@@ -176,119 +168,3 @@ def _require_held(basis: EnergyBasis, block: slice, high: float) -> None:
             "was given a structure that floats.",
             "Hold it, or state it: KrylovOptions(floating=True).",
         )
-
-
-@dataclass
-class _Search:
-    """Adds blocks until the error is small."""
-
-    basis: EnergyBasis
-    ports: Array
-    damping: MatrixDamping
-    factor: Factor
-    band: tuple[float, float]
-    tolerance: float
-    _damped: tuple[Array, Array] = field(init=False)
-
-    def small(self) -> SmallModel:
-        """The projected matrices."""
-        b = self.basis
-        v = b.vectors
-        viscous, structural = self.damping.apply(b.force, b.push, v)
-        self._damped = (viscous, structural)
-        k, m, c, d = (
-            (x + x.T) / 2.0 for x in (v.T @ y for y in (b.force, b.push, viscous, structural))
-        )
-        factors = (
-            self.damping.loss_factor,
-            self.damping.mass_rate,
-            self.damping.stiffness_time,
-        )
-        return SmallModel(k, m, c, d, v.T @ self.ports, self.damping.proportional, factors)
-
-    def extend(self, solves: Sequence[Solve], blocks: list[slice]) -> tuple[float, float]:
-        """Error and frequency of the worst line, once it is below the tolerance."""
-        before = self.small()
-        enrich = self.damping.viscous is not None or self.damping.structural is not None
-        lines = np.linspace(*self.band, COMPARED)
-        error, worst, last = np.inf, lines[0], np.inf
-        while True:
-            full = self.basis.size == self.basis.most
-            added = False
-            for i, solve in enumerate(solves):
-                if blocks[i].stop > blocks[i].start and not full:
-                    push = self.basis.push[:, blocks[i]]
-                    blocks[i] = self.basis.grow(push, solve(push))
-                    added |= blocks[i].stop > blocks[i].start
-            now = self.small()
-            change, order = self._change(before, now, lines)
-            before = now
-            if change > 100.0 * self.tolerance and added and not (enrich and change > last / 3.0):
-                last = change
-                continue
-            last = change
-            checked = np.union1d(order[:CHECKED], self.band[1])
-            errors, rest, missing = self._errors(now, checked)
-            error, worst = float(errors.max()), float(checked[errors.argmax()])
-            if error <= self.tolerance:
-                return error, worst
-            if enrich and not full:
-                new = self.basis.grow(_apart(rest), _apart(missing))
-                added |= new.stop > new.start
-            if not added:
-                break
-        raise NumericalError(
-            "Krylov reduction",
-            f"reached an error of {error:.2g} at {worst:.4g} Hz with {self.basis.size} vectors, "
-            f"for a tolerance of {self.tolerance:g}.",
-            "Add expansions in the band, allow more vectors, or ask for a larger tolerance.",
-        )
-
-    def _change(self, before: SmallModel, now: SmallModel, lines: Array) -> tuple[float, Array]:
-        """Largest change of a line, and lines by falling change."""
-        if str(self.damping) != "none":
-            own = np.sqrt(np.maximum(now.undamped[0], 0.0)) / (2.0 * np.pi)
-            lines = np.union1d(lines, own[(own > self.band[0]) & (own < self.band[1])])
-        new = now.receptance(lines)
-        norm = np.linalg.norm(new, axis=(1, 2))
-        change = np.linalg.norm(new - before.receptance(lines), axis=(1, 2)) / norm
-        order = np.argsort(change)[::-1]
-        return float(change[order[0]]), lines[order]
-
-    def _errors(self, small: SmallModel, lines: Array) -> tuple[Array, Array, Array]:
-        """Estimated relative error of every line, residual and missing motion (n, f m)."""
-        states = small.coordinates(lines)
-        b, (viscous, structural) = self.basis, self._damped
-        count = self.ports.shape[1]
-        omegas = np.repeat(2.0 * np.pi * lines, count)
-        flat = np.concatenate(list(states), axis=1)
-        rest = np.tile(self.ports, len(lines)) - (
-            _parts(b.force, flat)
-            + 1j * (_parts(structural, flat) + _parts(viscous, omegas * flat))
-            - _parts(b.push, omegas**2 * flat)
-        )
-        missing = self.factor.solve(rest)
-        push, force = _parts(b.mass, missing), _parts(b.stiffness, missing)
-        c, d = self.damping.apply(force, push, missing)
-        # what S⁻¹ leaves out of Z⁻¹ at first order
-        beyond = (b.shift + omegas**2) * push - 1j * (d + omegas * c)
-        errors = []
-        for line, state in enumerate(states):
-            own = slice(line * count, (line + 1) * count)
-            size = float(np.linalg.norm(rest[:, own].T @ missing[:, own]))
-            more = float(np.linalg.norm(missing[:, own].T @ beyond[:, own]))
-            share = min(more / size, 0.9) if size > 0 else 0.0
-            answer = float(np.linalg.norm(small.ports.T @ state))
-            errors.append(size / (1.0 - share) / answer)
-        return np.array(errors), rest, missing
-
-
-def _parts(matrix: Any, vectors: Array) -> Array:
-    """A real matrix times complex vectors, without making it complex."""
-    both = matrix @ _apart(vectors)
-    half = vectors.shape[1]
-    return np.asarray(both[:, :half] + 1j * both[:, half:])
-
-
-def _apart(vectors: Array) -> Array:
-    return np.concatenate([vectors.real, vectors.imag], axis=1)

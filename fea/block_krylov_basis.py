@@ -38,6 +38,8 @@ class EnergyBasis:
         n = stiffness.shape[0]
         self.stiffness, self.mass = sp.csc_array(stiffness), sp.csc_array(mass)
         self.shift, self.most, self.size = shift, min(most, n), 0
+        #: Whether vectors had no place: answers may then lie beyond the basis.
+        self.truncated = False
         self._room = [np.empty((n, self.most), order="F") for _ in range(3)]
 
     @property
@@ -96,6 +98,7 @@ class EnergyBasis:
         else:
             force, push = self.stiffness @ block, self.mass @ block
         stop = min(start + block.shape[1], self.most)
+        self.truncated |= stop < start + block.shape[1] and stop < len(block)
         for room, part in zip(self._room, (block, force, push), strict=True):
             room[:, start:stop] = part[:, : stop - start]
         self.size = stop

@@ -86,6 +86,12 @@ class MatrixDamping:
         """Whether the undamped modes stay uncoupled."""
         return self.ports is None and self.viscous is None and self.structural is None
 
+    @property
+    def takes_power(self) -> bool:
+        """Whether no single damper feeds power in."""
+        given = (x for x in (self.dashpots, self.losses) if x is not None)
+        return all(bool(np.all(np.asarray(x) >= 0)) for x in given)
+
     def apply(self, stiffness: Array, mass: Array, at: Array) -> tuple[Array, Array]:
         """C x and D x, (n, k) each.
 

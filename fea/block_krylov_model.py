@@ -1,8 +1,9 @@
-"""A large model on a small basis, with its frequency response."""
+"""Matrices of a small basis, with their frequency response."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -118,71 +119,8 @@ class SmallModel:
                 states[start : start + LINES] = np.nan
         return np.asarray(turn @ states)
 
-    @property
+    @cached_property
     def undamped(self) -> tuple[Array, Array]:
         """ω² of the undamped model, (k,), rad²/s², rising, and mass-normalised vectors, (k, k)."""
         square, vectors = eigh(self.stiffness, self.mass)
         return square, vectors
-
-
-@dataclass(frozen=True)
-class KrylovModel:
-    """A large model reduced by moment matching.
-
-    Parameters
-    ----------
-    basis : (n, k)
-        Orthonormal in the energy of the first expansion.
-    small : SmallModel
-    expansions : tuple of float
-        Frequencies about which moments match, Hz.
-    shift : float
-        (rad/s)²; the energy is that of K + shift M.
-    band : (float, float)
-        Hz, in which the error was estimated.
-    error : float
-        Estimated largest error of a line's receptance, Frobenius norm over Frobenius norm.
-    worst : float
-        Hz, where.
-    tolerance : float
-        What was asked for, as a share.
-    solver : str
-        Which factorisation ran.
-    damping : str
-        What damps, in words.
-    """
-
-    basis: Array
-    small: SmallModel
-    expansions: tuple[float, ...]
-    shift: float
-    band: tuple[float, float]
-    error: float
-    worst: float
-    tolerance: float
-    solver: str
-    damping: str
-
-    def __repr__(self) -> str:
-        return (
-            f"<KrylovModel: {self.basis.shape[0]} dofs on {self.basis.shape[1]} vectors, "
-            f"error {self.error:.1e} estimated at {self.worst:.4g} Hz, {self.solver}>"
-        )
-
-    def receptance(self, frequencies: ArrayLike) -> Array:
-        """Displacement at every port per load at every port, (f, m, m), complex, m/N.
-
-        Errors as `SmallModel.receptance`.
-
-        Parameters
-        ----------
-        frequencies : (f,)
-            Hz.
-        """
-        return self.small.receptance(frequencies)
-
-    @property
-    def natural_frequencies(self) -> Array:
-        """Undamped frequencies of the reduced model, Hz, (k,); zero where it floats."""
-        square, _ = self.small.undamped
-        return np.asarray(np.sqrt(np.maximum(square, 0.0)) / (2.0 * np.pi))
