@@ -96,8 +96,13 @@ class SmallModel:
         w = 2.0 * np.pi * lines[:, None]
         eta, rate, time = self.factors
         dynamic = square * (1.0 + 1j * eta + 1j * w * time) + 1j * w * rate - w**2
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(vectors @ ((vectors.T @ self.ports) / dynamic[..., None]))
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            states = vectors @ ((vectors.T @ self.ports) / dynamic[..., None])
+            # modes are exact beside the highest ω² only: once more with what they leave
+            force, push = self.stiffness @ states, self.mass @ states
+            w = w[..., None]
+            left = self.ports - (1.0 + 1j * (eta + w * time)) * force - (1j * rate - w) * w * push
+            return np.asarray(states + vectors @ ((vectors.T @ left) / dynamic[..., None]))
 
     def _coupled(self, lines: Array) -> Array:
         # in the undamped modes the matrices are of one size, which pivoting wants

@@ -82,7 +82,9 @@ class Residual:
         across, level = self.shift + w**2, eta + w * time
         slope = w * rate - level * self.shift
         most = 1.0 / self.shift if self.shift > 0 else np.inf
-        where = np.clip((across - level * slope) / (across**2 + slope**2), 0.0, most)
+        steep = across**2 + slope**2
+        nearest = np.divide(across - level * slope, steep, out=np.zeros_like(w), where=steep > 0)
+        where = np.clip(nearest, 0.0, most)
         with np.errstate(divide="ignore"):
             return np.asarray(1.0 / np.hypot(1.0 - across * where, level + slope * where))
 
@@ -117,7 +119,9 @@ def beyond(basis: EnergyBasis, answers: Array) -> Array:
         size = gram.diagonal()
         kept = size > least
         root = np.sqrt(size[kept])
-        values, turn = np.linalg.eigh((gram + gram.T)[np.ix_(kept, kept)] / 2.0 / root[:, None] / root)
+        values, turn = np.linalg.eigh(
+            (gram + gram.T)[np.ix_(kept, kept)] / 2.0 / root[:, None] / root
+        )
         fresh = values > COLLINEAR
         answers = (answers[:, kept] / root) @ (turn[:, fresh] / np.sqrt(values[fresh]))
     return np.asarray(answers)

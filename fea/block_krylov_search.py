@@ -82,15 +82,16 @@ class Search:
         """The model once its error is below the tolerance."""
         error, worst = np.inf, self.band[1]
         before: SmallModel | None = None
-        last = np.inf
+        last, added = np.inf, True
         while not self.basis.truncated:
             small = self.small()
             change = self._change(before, small) if self.enriches and before else np.inf
             push = self.basis.push[:, blocks[0]]
             ahead = self.factor.solve(push) if push.shape[1] else push
-            added = False
             # matrices cost a solution for every vector: not before the bases agree
-            if not self.enriches or change <= NEAR * self.tolerance or change > last / 3.0:
+            settled = change <= NEAR * self.tolerance or change > last / 3.0
+            checked, added = settled or not self.enriches or not added, False
+            if checked:
                 directions = self._directions(ahead)
                 rest = residual(self.basis, self.damping, small, directions)
                 errors, lines = self._errors(small, rest)
@@ -106,12 +107,9 @@ class Search:
                     push = self.basis.push[:, blocks[i]]
                     blocks[i] = self.basis.grow(push, ahead if i == 0 else solve(push))
                     added |= blocks[i].stop > blocks[i].start
-            if not added:
+            if checked and not added:
                 break
-        raise self._failed(error, worst)
-
-    def _failed(self, error: float, worst: float) -> NumericalError:
-        return NumericalError(
+        raise NumericalError(
             "Krylov reduction",
             f"reached an error of {error:.2g} at {worst:.4g} Hz with {self.basis.size} vectors, "
             f"for a tolerance of {self.tolerance:g}.",
@@ -198,7 +196,12 @@ class Search:
         errors = self._formed(small, rest, checked)
         error, worst = float(errors.max()), float(checked[errors.argmax()])
         if not error <= self.tolerance:
-            raise self._failed(error, worst)
+            raise NumericalError(
+                "Krylov reduction",
+                f"leaves an error of {error:.2g} at {worst:.4g} Hz by rounding, for a tolerance "
+                f"of {self.tolerance:g}.",
+                "Ask for a larger tolerance, or check the scale of stiffnesses and masses.",
+            )
         return Found(small, rest, *max((found.error, found.worst), (error, worst)))
 
     def _formed(self, small: SmallModel, rest: Residual, lines: Array) -> Array:

@@ -101,3 +101,31 @@ def frame(length: int, thickness: int, depth: int, size: float = 0.02) -> Bricks
     full[:, :, :thickness] = True
     full[-thickness:, :, :] = True
     return bricks(full, size)
+
+
+def tip_loads(n: int) -> Array:
+    """Loads in x, y, z, spread over the last ten nodes, (n, 3)."""
+    loads = np.zeros((n, 3))
+    for i in range(3):
+        loads[n - 30 + i :: 3, i] = 0.1
+    return loads
+
+
+def resonator(
+    solid: Bricks, share: float, frequency: float
+) -> tuple[sp.csc_array, sp.csc_array, Array]:
+    """Stiffness, mass and `tip_loads` of a held solid with a small mass on a spring.
+
+    The mass is a share of the solid's, acts at a dof in the middle, and is the last dof.
+    """
+    stiffness, mass, _ = solid.held()
+    n = stiffness.shape[0]
+    light = share * mass.sum() / 3.0
+    spring = sp.csc_array(np.array([[1.0, -1.0], [-1.0, 1.0]]) * light)
+    spread = sp.csc_array(([1.0, 1.0], ([n // 2, n], [0, 1])), shape=(n + 1, 2))
+    stiffness, mass = (
+        sp.csc_array(sp.block_diag([x, sp.csc_array([[extra]])]))
+        for x, extra in ((stiffness, 0.0), (mass, light))
+    )
+    stiffness = stiffness + (2.0 * np.pi * frequency) ** 2 * (spread @ spring @ spread.T)
+    return sp.csc_array(stiffness), mass, np.concatenate([tip_loads(n), np.zeros((1, 3))])

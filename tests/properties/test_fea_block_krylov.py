@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from strutwork.fea.block_krylov import KrylovOptions, krylov_reduction
 from strutwork.fea.block_krylov_damping import MatrixDamping
+from strutwork.fea.factorize import factorize
 from strutwork.fea.large_modes import lowest_modes
+from tests.solids import frame, resonator
 
 N = 60
 
@@ -60,6 +62,59 @@ def test_a_reduced_response_is_symmetric_passive_and_right(
             dense = dense + 1j * w * (at * rates) @ at.T
         exact = loads.T @ np.linalg.solve(dense, loads)
         assert np.linalg.norm(answer - exact) <= 1e-6 * np.linalg.norm(exact)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    size=st.tuples(st.integers(4, 9), st.integers(1, 3), st.integers(1, 3)),
+    share=st.floats(-9, -2),
+    frequency=st.floats(50, 1450),
+    loss=st.floats(-4, -1),
+    part=st.booleans(),
+    dashpot=st.booleans(),
+    tolerance=st.floats(-7, -1.5),
+)
+def test_no_line_is_wrong_by_more_than_reported(
+    size: tuple[int, int, int],
+    share: float,
+    frequency: float,
+    loss: float,
+    part: bool,
+    dashpot: bool,
+    tolerance: float,
+) -> None:
+    """Frames of many sizes with a light resonator, which the ports hardly excite."""
+    stiffness, mass, loads = resonator(frame(*size), 10.0**share, frequency)
+    n, eta = stiffness.shape[0], 10.0**loss
+    structural = None
+    if part:
+        half = sp.diags_array(np.arange(n) < n // 2, dtype=float)
+        structural = sp.csc_array(eta * half @ stiffness @ half)
+    ports = np.roll(loads[:, :1], n // 2, axis=0) if dashpot else None
+    rates = np.full(1, 300.0) if dashpot else None
+    damping = MatrixDamping(loss_factor=eta, ports=ports, dashpots=rates, structural=structural)
+    band, limit = (5.0, 1500.0), 10.0**tolerance
+    model = krylov_reduction(stiffness, mass, loads, band, damping, KrylovOptions(tolerance=limit))
+    assert model.residual.proven
+    assert model.error <= limit
+    own = model.natural_frequencies
+    own = own[(own > band[0]) & (own < band[1])]
+    lines = np.unique(np.r_[band, model.worst, frequency, frequency * (1 + eta / 2), own[:8]])
+    bounds = model.errors(lines)
+    for line, answer, bound in zip(lines, model.receptance(lines), bounds, strict=True):
+        w = 2 * np.pi * line
+        dynamic = (1 + 1j * eta) * stiffness - w**2 * mass
+        if structural is not None:
+            dynamic = dynamic + 1j * structural
+        if ports is not None:
+            dynamic = dynamic + 300j * w * sp.csc_array(ports @ ports.T)
+        solved = factorize(sp.csc_array(dynamic), "superlu").solve(loads.astype(complex))
+        exact = loads.T @ solved
+        error = np.linalg.norm(answer - exact) / np.linalg.norm(exact)
+        # at a resonance rounding moves the direct line, by more the less it is damped
+        assert error <= bound + 1e-11 / eta
+        # lines between those of the search have what it left of the tolerance
+        assert bound <= min(1.25 * model.error, limit)
 
 
 @settings(max_examples=20, deadline=None)

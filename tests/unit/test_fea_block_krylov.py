@@ -81,24 +81,30 @@ def test_the_error_of_every_line_is_below_the_tolerance(name: str, tolerance: fl
     assert model.error <= tolerance
     assert model.basis.shape[1] < 120
     assert model.damping == str(damping)
-    for frequency in (BAND[0], 311.0, model.natural_frequencies[2], model.worst, BAND[1]):
+    assert model.residual.proven
+    own = model.natural_frequencies
+    for frequency in (BAND[0], 311.0, own[own < BAND[1]][-1], model.worst, BAND[1]):
         exact = direct(damping, frequency)
         found = model.receptance([frequency])[0]
         error = np.linalg.norm(found - exact) / np.linalg.norm(exact)
-        # estimated where it was worst; at a resonance rounding of K moves either solution by
-        # its condition, 1e6, times 1e-16, over the loss factor
-        assert error <= max(3.0 * model.error, 2e-9)
+        # at a resonance rounding of K moves the direct solution by its condition, 1e6, times
+        # 1e-16, over the loss factor
+        assert error <= max(model.errors([frequency])[0], 1e-10)
+        assert model.errors([frequency])[0] <= 1.01 * model.error
         np.testing.assert_allclose(found, found.T, atol=1e-9 * np.abs(found).max())
 
 
-def test_the_estimate_is_the_error() -> None:
+def test_the_bound_is_the_error_over_the_loss_factor() -> None:
+    """Only at a resonance that the basis lacks would the error be as large."""
     stiffness, mass, loads, _ = held_frame()
     damping = MatrixDamping(loss_factor=0.01)
-    model = krylov_reduction(stiffness, mass, loads, BAND, damping, KrylovOptions(tolerance=1e-4))
+    model = krylov_reduction(stiffness, mass, loads, BAND, damping, KrylovOptions(tolerance=1e-3))
     exact = direct(damping, model.worst)
     error = np.linalg.norm(model.receptance([model.worst])[0] - exact) / np.linalg.norm(exact)
     assert 1e-11 < error < 1e-4
-    assert model.error == pytest.approx(error, rel=0.2)
+    assert 0.01 * model.error <= error * 1.05
+    assert error <= model.error
+    assert "at most" in repr(model)
 
 
 @pytest.mark.parametrize("expansion", [0.0, 700.0])
