@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from strutwork.errors import NumericalError
 from strutwork.fea.block_krylov_basis import Array, EnergyBasis
@@ -99,8 +100,8 @@ class Search:
                 if error <= USED * self.tolerance:
                     return self._verified(Found(small, rest, error, worst), lines)
                 if self.enriches:
-                    order = lines[np.argsort(errors)[::-1][:CHECKED]]
-                    added = self._enrich(small, rest, directions, np.union1d(order, self.band[1]))
+                    peaks = lines[_peaks(errors)[:CHECKED]]
+                    added = self._enrich(small, rest, directions, peaks)
             before, last = small, change
             for i, solve in enumerate(solves):
                 if blocks[i].stop > blocks[i].start:
@@ -141,9 +142,7 @@ class Search:
         lines = self._lines(small)
         errors = at(lines)
         for _ in range(TIMES if str(self.damping) != "none" else 0):
-            inner = np.r_[errors[0], errors, errors[-1]]
-            peaks = np.flatnonzero((inner[1:-1] >= inner[:-2]) & (inner[1:-1] >= inner[2:]))
-            peaks = peaks[np.argsort(errors[peaks])[::-1][:PEAKS]]
+            peaks = _peaks(errors)[:PEAKS]
             ends = [(lines[max(p - 1, 0)], lines[min(p + 1, len(lines) - 1)]) for p in peaks]
             more = np.setdiff1d([np.linspace(*e, BETWEEN + 2) for e in ends], lines)
             order = np.argsort(np.r_[lines, more])
@@ -223,6 +222,13 @@ class Search:
             rounding = np.linalg.norm(state.T @ within[:, own])
             errors.append((beyond_basis + rounding) / np.linalg.norm(small.ports.T @ state))
         return np.array(errors)
+
+
+def _peaks(errors: Array) -> NDArray[np.intp]:
+    """Local maxima, the largest first."""
+    inner = np.r_[errors[0], errors, errors[-1]]
+    peaks = np.flatnonzero((inner[1:-1] >= inner[:-2]) & (inner[1:-1] >= inner[2:]))
+    return np.asarray(peaks[np.argsort(errors[peaks])[::-1]])
 
 
 def _parts(matrix: Any, vectors: Array) -> Array:
