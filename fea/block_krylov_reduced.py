@@ -97,8 +97,8 @@ class KrylovModel:
 
         It follows from the residual of the full system, rounding apart. With damping that has a
         share of K or M and takes power everywhere, it is a bound, whatever modes the basis
-        lacks. Otherwise the modes in the basis stand for all: an estimate, which may miss a
-        resonance without damping that the ports hardly excite.
+        lacks. Otherwise it is estimated from the modes of the basis, and may miss a resonance
+        without damping that the ports hardly excite.
 
         Parameters
         ----------

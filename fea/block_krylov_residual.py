@@ -41,9 +41,9 @@ class Residual:
     shift : float
         (rad/s)²; S = K + shift M.
     mass : (p, k)
-        Of S⁻¹ M V, where V is the basis.
+        Of S⁻¹ M V, where V is the basis, s².
     viscous, structural : (p, k)
-        Of S⁻¹ C V and S⁻¹ D V, without the shares of K and M.
+        Of S⁻¹ C V, s, and S⁻¹ D V, no unit, both without the shares of K and M.
     proven : bool
         Whether damping bounds what a residual causes: it has a share of K or M, and all of it
         takes power.
@@ -56,7 +56,16 @@ class Residual:
     proven: bool
 
     def coordinates(self, small: SmallModel, lines: Array, states: Array) -> Array:
-        """Of S⁻¹ R, (f, p, m), for generalised coordinates (f, k, m) at lines (f,), Hz."""
+        """Of S⁻¹ R, (f, p, m), complex, the square root of J per unit of load.
+
+        Parameters
+        ----------
+        small : SmallModel
+        lines : (f,)
+            Hz.
+        states : (f, k, m)
+            Generalised coordinates, as `SmallModel.coordinates` returns them, of the same unit.
+        """
         eta, rate, time = small.factors
         w = 2.0 * np.pi * lines[:, None, None]
         own = self.shift * (1.0 + 1j * (eta + w * time)) + w**2 - 1j * w * rate
@@ -68,12 +77,30 @@ class Residual:
         return np.asarray(rest)
 
     def errors(self, small: SmallModel, lines: Array, states: Array, answers: Array) -> Array:
-        """Largest error of each line's receptance, Frobenius norm over Frobenius norm, (f,)."""
+        """Largest error of each line's receptance, Frobenius norm over Frobenius norm, (f,).
+
+        Parameters
+        ----------
+        small : SmallModel
+        lines : (f,)
+            Hz.
+        states : (f, k, m)
+            Generalised coordinates, the square root of J per unit of load.
+        answers : (f, m, m)
+            Receptances, m/N and the like.
+        """
         squared = np.sum(np.abs(self.coordinates(small, lines, states)) ** 2, axis=(1, 2))
         return np.asarray(self.gain(small, lines) * squared / np.linalg.norm(answers, axis=(1, 2)))
 
     def gain(self, small: SmallModel, lines: Array) -> Array:
-        """Norm of S^½ Z⁻¹ S^½, (f,), no unit: a bound, or that of the modes in the basis."""
+        """Norm of S^½ Z⁻¹ S^½, (f,), no unit: a bound, or that of the modes in the basis.
+
+        Parameters
+        ----------
+        small : SmallModel
+        lines : (f,)
+            Hz.
+        """
         w = 2.0 * np.pi * lines
         eta, rate, time = small.factors
         if not self.proven:
@@ -105,7 +132,7 @@ def beyond(basis: EnergyBasis, answers: Array) -> Array:
     ----------
     basis : EnergyBasis
     answers : (n, q)
-        Overwritten.
+        Of one size or not, m and rad.
     """
     force, push = basis.stiffness @ answers, basis.mass @ answers
     size = np.einsum("ij,ij->j", answers, force + basis.shift * push)
@@ -139,7 +166,7 @@ def residual(
     small : SmallModel
         Projected on the basis.
     directions : (n, p)
-        As `beyond` returns them.
+        As `beyond` returns them, m and rad per square root of J.
     """
     none = np.zeros((directions.shape[1], basis.size))
     viscous, structural = (

@@ -36,7 +36,18 @@ NEAR = 100.0
 
 @dataclass(frozen=True)
 class Found:
-    """A small model, what it leaves out, and its largest error (a share) with its line, Hz."""
+    """A small model whose error is below the tolerance.
+
+    Parameters
+    ----------
+    small : SmallModel
+    residual : Residual
+        What it leaves out.
+    error : float
+        Largest of a line's receptance, Frobenius norm over Frobenius norm.
+    worst : float
+        Hz, where.
+    """
 
     small: SmallModel
     residual: Residual
@@ -46,7 +57,22 @@ class Found:
 
 @dataclass
 class Search:
-    """Adds blocks until the error is small."""
+    """Adds blocks until the error is small.
+
+    Parameters
+    ----------
+    basis : EnergyBasis
+        It holds the answers S⁻¹ to all loads: those at the ports and at single dampers.
+    ports : (n, m)
+        Load on each dof per unit at each port, no unit.
+    damping : MatrixDamping
+    factor : Factor
+        Of S = K + shift M.
+    band : (float, float)
+        Hz.
+    tolerance : float
+        Largest error of a line's receptance, as a share.
+    """
 
     basis: EnergyBasis
     ports: Array
@@ -80,7 +106,20 @@ class Search:
         return self.damping.viscous is not None or self.damping.structural is not None
 
     def extend(self, solves: Sequence[Solve], blocks: list[slice]) -> Found:
-        """The model once its error is below the tolerance."""
+        """The model once its error is below the tolerance.
+
+        Parameters
+        ----------
+        solves : sequence of callable
+            Solutions at each expansion, that of S first.
+        blocks : list of slice
+            Where the first block of each stands in the basis; changed.
+
+        Raises
+        ------
+        NumericalError
+            A tolerance that is not reached, or that is below rounding.
+        """
         error, worst = np.inf, self.band[1]
         before: SmallModel | None = None
         last, added = np.inf, True
