@@ -128,6 +128,12 @@ def krylov_reduction(
             f"ports of shape {ports.shape} for {stiffness.shape[0]} dofs, or a port without load.",
             "Give one column for each port, none of them zero.",
         )
+    if options.floating and low == 0:
+        raise ModelError(
+            "Krylov reduction",
+            f"of a floating structure in the band {band}: it has no receptance at zero.",
+            "Give low above zero, Hz.",
+        )
     if factor is not None and options.floating:
         raise ModelError("Krylov reduction", "floats, with a factor given.", "Give no factor.")
     shift = (2.0 * np.pi * FLOATING * high) ** 2 if options.floating else 0.0

@@ -208,6 +208,7 @@ def test_an_undamped_resonance_is_an_error() -> None:
     [
         ({"band": (5.0, 1.0)}, "band"),
         ({"band": (0.0, np.inf)}, "band"),
+        ({"band": (0.0, 9.0), "options": KrylovOptions(floating=True)}, "no receptance at zero"),
         ({"ports": np.zeros((3, 1))}, "ports"),
         ({"options": KrylovOptions(floating=True), "factor": "given"}, "factor"),
     ],
