@@ -10,7 +10,6 @@ eigenvalues are the characteristic multipliers, and the cut is stable where all 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -20,36 +19,17 @@ from scipy.linalg import lapack
 from strutwork.cutting.directional import Directional
 from strutwork.cutting.elements import gauss, response_weights
 from strutwork.cutting.process import Process
+from strutwork.cutting.spans import Span, spans_of
 from strutwork.cutting.tip_modes import TipModes
 from strutwork.errors import ModelError, NumericalError
 
 Array = NDArray[Any]
-
-#: Nodes of an element at most; a longer one is cut.
-ORDER = 40
 
 #: Unknowns of a map at most.
 LARGEST = 1200
 
 #: Directions in which the tip moves less than this share of its largest motion do not count.
 STILL = 1e-12
-
-
-@dataclass(frozen=True)
-class Span:
-    """One element of a period.
-
-    Parameters
-    ----------
-    start, length : float
-        s, from the entry of a tooth.
-    order : int
-        Nodes.
-    """
-
-    start: float
-    length: float
-    order: int
 
 
 @dataclass(frozen=True)
@@ -223,7 +203,7 @@ def period_map(
         A speed so low that the map would be beyond its largest size.
     """
     chip, flank = process.directional, process.flank(speed)
-    spans = _spans(chip, modes.poles, speed, depth, margin)
+    spans = spans_of(chip, float(np.abs(modes.poles).max()), speed, depth, margin)
     basis = chip_directions(modes, chip)
     nodes = sum(span.order for span in spans)
     if nodes * basis.shape[1] > LARGEST:
@@ -287,23 +267,6 @@ def chip_directions(modes: TipModes, chip: Directional) -> Array:
             "Give a mode across the cut, or check the axes of the process.",
         )
     return np.asarray(seen @ kept)
-
-
-def _spans(chip: Directional, poles: Array, speed: float, depth: float, margin: int) -> list[Span]:
-    """Elements of the cuts of a period."""
-    turning = 2.0 * np.pi * speed
-    fastest = float(np.abs(poles).max())
-    found = []
-    breaks = chip.breaks(depth)
-    for start, stop in pairwise(breaks):
-        if not chip.cuts(0.5 * (start + stop), depth):
-            continue
-        length = (stop - start) / turning
-        pieces = int(np.ceil((0.5 * fastest * length + 1e-9) / (ORDER - 12)))
-        for piece in range(pieces):
-            order = int(np.ceil(0.5 * fastest * length / pieces)) + margin
-            found.append(Span(start / turning + piece * length / pieces, length / pieces, order))
-    return found
 
 
 def _integrals(poles: Array, spans: list[Span], times: Array, period: float) -> tuple[Array, Array]:
