@@ -51,7 +51,7 @@ def lagrange(order: int, at: Array) -> Array:
     return np.asarray(np.where(hit.any(axis=-1, keepdims=True), hit.astype(float), found))
 
 
-@lru_cache(maxsize=128)
+@lru_cache(maxsize=256)
 def _tables(order: int, points: int) -> tuple[Array, Array]:
     """Time left (p + 1, q) and weighted polynomials (p + 1, q, p) of integrals to each node."""
     ends = np.append(gauss(order)[0], 1.0)
@@ -77,8 +77,8 @@ def response_weights(poles: Array, order: int, length: float) -> Array:
         s.
     """
     swing = float(np.abs(poles).max()) * length
-    # rounded up, so that few tables are made
-    points = int(np.ceil((0.5 * order + 0.35 * swing + 12.0) / 8.0)) * 8
+    # as many as integrate polynomial and exponential to rounding, rounded up to have few tables
+    points = int(np.ceil((0.5 * order + 0.35 * swing + min(12.0, 8.0 + 0.1 * swing)) / 4.0)) * 4
     left, weighted = _tables(order, points)
     scaled = 0.5 * length * poles
     growth = np.exp(scaled[:, None, None] * left)

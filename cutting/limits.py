@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from strutwork.cutting.assembly import Assembly, assembly
 from strutwork.cutting.numbers import positive, positive_list
-from strutwork.cutting.period_map import PeriodMap, period_map
+from strutwork.cutting.period_map import PeriodMap
 from strutwork.cutting.process import Process
 from strutwork.cutting.tip_modes import TipModes
 from strutwork.errors import NumericalError
@@ -171,12 +172,13 @@ def stability_chart(
     deep = positive_list("depths of cut", depths, "m")
     order = np.argsort(deep)
     checked = np.unique(order[[0, len(deep) // 2, -1]])
+    cut = assembly(modes, process)
     found = np.empty((len(rpm), len(deep)), dtype=complex)
     worst = 0.0
     for row, speed in enumerate(rpm / 60.0):
-        margin, change = _margin(modes, process, speed, deep[checked], tolerance)
+        margin, change = _margin(cut, speed, deep[checked], tolerance)
         worst = max(worst, change)
-        at = _Maps(modes, process, speed, margin)
+        at = _Maps(cut, speed, margin)
         found[row] = [at(depth).largest(depth) for depth in deep]
     return StabilityChart(rpm, deep, found, worst)
 
@@ -232,8 +234,9 @@ def depth_limits(
     kinds: list[Kind] = ["stable"] * len(rpm)
     leading = np.full(len(rpm), -1)
     frequencies = np.full(len(rpm), np.nan)
+    cut = assembly(modes, process)
     for row, speed in enumerate(rpm / 60.0):
-        limit, maps = _limit(modes, process, speed, trials, tolerance)
+        limit, maps = _limit(cut, speed, trials, tolerance)
         if not np.isfinite(limit):
             continue
         multiplier, mode = _leading(maps(limit), limit, modes)
@@ -246,15 +249,13 @@ def depth_limits(
 class _Maps:
     """Maps of one speed by depth: one map where teeth are straight."""
 
-    def __init__(self, modes: TipModes, process: Process, speed: float, margin: int) -> None:
-        self._given = (modes, process, speed, margin)
-        self._same = process.directional.lag == 0
+    def __init__(self, cut: Assembly, speed: float, margin: int) -> None:
+        self._cut, self._speed, self._margin = cut, speed, margin
         self._kept: PeriodMap | None = None
 
     def __call__(self, depth: float) -> PeriodMap:
-        if self._kept is None or not self._same:
-            modes, process, speed, margin = self._given
-            self._kept = period_map(modes, process, speed, depth, margin)
+        if self._kept is None or self._cut.chip.lag != 0:
+            self._kept = self._cut.at(self._speed, depth, self._margin)
         return self._kept
 
     def excess(self, depth: float) -> float:
@@ -262,14 +263,12 @@ class _Maps:
         return float(np.log(max(abs(self(depth).largest(depth)), 1e-300)))
 
 
-def _margin(
-    modes: TipModes, process: Process, speed: float, depths: Array, tolerance: float
-) -> tuple[int, float]:
+def _margin(cut: Assembly, speed: float, depths: Array, tolerance: float) -> tuple[int, float]:
     """The first margin whose magnitudes the next one leaves, and by how much they change."""
     before: Array | None = None
     change, at = np.inf, 0
     for number, margin in enumerate(MARGINS):
-        maps = _Maps(modes, process, speed, margin)
+        maps = _Maps(cut, speed, margin)
         now = np.array([abs(maps(depth).largest(depth)) for depth in depths])
         if before is not None:
             off = np.abs(now - before) / np.maximum(now, 1.0)
@@ -281,13 +280,11 @@ def _margin(
     raise _unsettled(speed, float(depths[at]), change)
 
 
-def _limit(
-    modes: TipModes, process: Process, speed: float, trials: Array, tolerance: float
-) -> tuple[float, _Maps]:
+def _limit(cut: Assembly, speed: float, trials: Array, tolerance: float) -> tuple[float, _Maps]:
     """The border at a speed, infinite for none, with the maps that gave it."""
     change, at = np.inf, 0.0
     for number, margin in enumerate(MARGINS[:-1]):
-        maps = _Maps(modes, process, speed, margin)
+        maps = _Maps(cut, speed, margin)
         limit = at = float(trials[-1])
         stable = True
         for below, above in pairwise(trials):
@@ -295,7 +292,7 @@ def _limit(
                 stable = False
                 limit = at = _first_crossing(maps, below, above)
                 break
-        finer = _Maps(modes, process, speed, MARGINS[number + 1])
+        finer = _Maps(cut, speed, MARGINS[number + 1])
         here, there = abs(maps(at).largest(at)), abs(finer(at).largest(at))
         change = abs(here - there) / max(here, 1.0)
         if change <= tolerance:

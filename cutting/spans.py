@@ -88,5 +88,5 @@ def _lightened(spans: list[Span], half: float) -> list[Span]:
         if length not in orders:
             left = np.abs(jv(np.arange(LEAST, span.order), half * length)) > allowed
             orders[length] = LEAST + int(np.max(np.flatnonzero(left) + 1, initial=0))
-        found.append(Span(span.start, span.length, orders[length]))
+        found.append(Span(span.start, length, orders[length]))
     return found
