@@ -39,7 +39,8 @@ def period_map(
     depth : float
         m; where teeth are straight the map holds for every depth.
     margin : int
-        Nodes of an element beyond half its length in radians of the fastest mode.
+        Nodes of the longest element beyond half its length in radians of the fastest mode; what
+        is shorter has as many as resolve it like that one.
 
     Returns
     -------
@@ -74,6 +75,11 @@ class Assembly:
     chip: Directional
     basis: Array
 
+    @property
+    def fastest(self) -> float:
+        """Largest magnitude of a pole, rad/s."""
+        return float(np.abs(self.modes.poles).max())
+
     def at(self, speed: float, depth: float, margin: int) -> PeriodMap:
         """The map at a spindle speed, as `period_map`.
 
@@ -91,7 +97,7 @@ class Assembly:
             A speed so low that the map would be beyond its largest size.
         """
         chip, basis, poles, loads = self.chip, self.basis, self.modes.poles, self.modes.loads
-        spans = spans_of(chip, float(np.abs(poles).max()), speed, depth, margin)
+        spans = spans_of(chip, self.fastest, speed, depth, margin)
         nodes = sum(span.order for span in spans)
         unknowns = nodes * basis.shape[1]
         if unknowns > LARGEST:

@@ -51,7 +51,7 @@ def lagrange(order: int, at: Array) -> Array:
     return np.asarray(np.where(hit.any(axis=-1, keepdims=True), hit.astype(float), found))
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=128)
 def _tables(order: int, points: int) -> tuple[Array, Array]:
     """Time left (p + 1, q) and weighted polynomials (p + 1, q, p) of integrals to each node."""
     ends = np.append(gauss(order)[0], 1.0)

@@ -14,16 +14,20 @@ from strutwork.cutting.assembly import Assembly, assembly
 from strutwork.cutting.numbers import positive, positive_list
 from strutwork.cutting.period_map import PeriodMap
 from strutwork.cutting.process import Process
+from strutwork.cutting.spans import first_margin
 from strutwork.cutting.tip_modes import TipModes
 from strutwork.errors import NumericalError
 
 Array = NDArray[Any]
 
-#: Nodes beyond the least that resolves the fastest mode, tried in turn.
-MARGINS = (6, 9, 12, 16, 20, 26, 32)
+#: Nodes beyond the first margin, tried in turn.
+MORE = (0, 3, 6, 10, 14, 18, 23, 28)
 
 #: Largest change of the magnitude of a multiplier by more nodes that is let pass.
 TOLERANCE = 1e-6
+
+#: Share of it at the depths of a chart that are checked: between them magnitudes change more.
+BETWEEN = 0.5
 
 #: Ratio of one trial depth to the one before.
 STRIDE = 1.12
@@ -144,7 +148,7 @@ def stability_chart(
     """Largest multipliers at every speed and depth.
 
     Nodes are added at each speed until the magnitudes at its smallest, middle and largest depth
-    change by no more than the tolerance.
+    change by no more than half the tolerance, which leaves the rest to the depths between.
 
     Parameters
     ----------
@@ -267,15 +271,18 @@ def _margin(cut: Assembly, speed: float, depths: Array, tolerance: float) -> tup
     """The first margin whose magnitudes the next one leaves, and by how much they change."""
     before: Array | None = None
     change, at = np.inf, 0
-    for number, margin in enumerate(MARGINS):
+    first = first_margin(cut.chip, cut.fastest, speed, float(depths.max()), tolerance)
+    for number, more in enumerate(MORE):
+        margin = first + more
         maps = _Maps(cut, speed, margin)
         now = np.array([abs(maps(depth).largest(depth)) for depth in depths])
         if before is not None:
             off = np.abs(now - before) / np.maximum(now, 1.0)
             at = int(off.argmax())
-            change = float(off[at])
-            if change <= tolerance:
-                return MARGINS[number - 1], change
+            # two magnitudes that agree to rounding say no more than that
+            change = max(float(off[at]), np.finfo(float).eps)
+            if change <= BETWEEN * tolerance:
+                return first + MORE[number - 1], change
         before = now
     raise _unsettled(speed, float(depths[at]), change)
 
@@ -283,8 +290,9 @@ def _margin(cut: Assembly, speed: float, depths: Array, tolerance: float) -> tup
 def _limit(cut: Assembly, speed: float, trials: Array, tolerance: float) -> tuple[float, _Maps]:
     """The border at a speed, infinite for none, with the maps that gave it."""
     change, at = np.inf, 0.0
-    for number, margin in enumerate(MARGINS[:-1]):
-        maps = _Maps(cut, speed, margin)
+    first = first_margin(cut.chip, cut.fastest, speed, float(trials[-1]), tolerance)
+    for more, further in pairwise(MORE):
+        maps = _Maps(cut, speed, first + more)
         limit = at = float(trials[-1])
         stable = True
         for below, above in pairwise(trials):
@@ -292,9 +300,9 @@ def _limit(cut: Assembly, speed: float, trials: Array, tolerance: float) -> tupl
                 stable = False
                 limit = at = _first_crossing(maps, below, above)
                 break
-        finer = _Maps(cut, speed, MARGINS[number + 1])
+        finer = _Maps(cut, speed, first + further)
         here, there = abs(maps(at).largest(at)), abs(finer(at).largest(at))
-        change = abs(here - there) / max(here, 1.0)
+        change = max(abs(here - there) / max(here, 1.0), np.finfo(float).eps)
         if change <= tolerance:
             return (np.inf if stable else limit), maps
     raise _unsettled(speed, at, change)

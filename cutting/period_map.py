@@ -173,4 +173,4 @@ def diagonal(square: Array) -> Array:
     ----------
     square : (n, n)
     """
-    return np.einsum("ii->i", square)
+    return np.asarray(np.einsum("ii->i", square))

@@ -20,6 +20,9 @@ ORDER = 40
 #: Nodes of an element at least: the load on it is a line.
 LEAST = 2
 
+#: Margin of the longest element at least.
+LEAST_MARGIN = 6
+
 
 @dataclass(frozen=True)
 class Span:
@@ -68,6 +71,36 @@ def spans_of(
     return _lightened(found, 0.5 * fastest + turning)
 
 
+def first_margin(
+    chip: Directional, fastest: float, speed: float, depth: float, tolerance: float
+) -> int:
+    """The least margin that may bring multipliers within a tolerance.
+
+    Gauss nodes integrate twice the degree of the polynomial that they carry, so that a multiplier
+    errs by about the square of what is left of the motion.
+
+    Parameters
+    ----------
+    chip : Directional
+    fastest : float
+        Largest magnitude of a pole, rad/s.
+    speed : float
+        Turns per second, Hz.
+    depth : float
+        m.
+    tolerance : float
+        Relative.
+    """
+    spans = spans_of(chip, fastest, speed, depth, 0)
+    length = max(span.length for span in spans)
+    least = int(np.ceil(0.5 * fastest * length))
+    radians = (0.5 * fastest + 2.0 * np.pi * speed) * length
+    margin = LEAST_MARGIN
+    while abs(jv(least + margin, radians)) > 0.3 * np.sqrt(tolerance) and margin < ORDER:
+        margin += 1
+    return margin
+
+
 def _lightened(spans: list[Span], half: float) -> list[Span]:
     """Short elements with as few nodes as resolve them like the longest one.
 
@@ -79,14 +112,15 @@ def _lightened(spans: list[Span], half: float) -> list[Span]:
     longest = max(spans, key=lambda span: span.length)
     if all(span.length > 0.99 * longest.length for span in spans):
         return spans
-    allowed = abs(jv(longest.order, half * longest.length))
-    orders: dict[float, int] = {}
+    allowed = abs(float(jv(longest.order, half * longest.length)))
     found = []
     for span in spans:
         # both ramps have one length but for rounding, and one table then serves them
         length = round(span.length / longest.length, 12) * longest.length
-        if length not in orders:
-            left = np.abs(jv(np.arange(LEAST, span.order), half * length)) > allowed
-            orders[length] = LEAST + int(np.max(np.flatnonzero(left) + 1, initial=0))
-        found.append(Span(span.start, length, orders[length]))
+        order, left = 0, 1.0
+        # (x/2)^p / p! is not below J_p(x)
+        while order < LEAST or (left > allowed and order < span.order):
+            order += 1
+            left *= 0.5 * half * length / order
+        found.append(Span(span.start, length, min(order, span.order)))
     return found
