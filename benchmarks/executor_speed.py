@@ -16,6 +16,8 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from threading import Event, Thread
 
@@ -42,6 +44,8 @@ from strutwork.studies.streaming import stream_stiffness_map
 
 DOCUMENT = DOCUMENTS / "performance-studies.md"
 
+#: Threads of the study that is killed.
+WORKERS = 2
 #: Load of other work, of a processor, below which the overhead is held to its bound.
 QUIET = 0.3
 #: Candidates at each point, and points of a lattice of fineness one.
@@ -126,6 +130,40 @@ def _late(task: Callable[[], object], length: float) -> list[bool]:
     return late
 
 
+@dataclass(frozen=True)
+class Noted:
+    """A chunk that waits, and leaves a file in a folder when it begins."""
+
+    folder: Path
+    seconds: float
+
+    def __call__(self, chunk: Chunk) -> Arrays:
+        """Its pose numbers."""
+        (self.folder / f"{chunk.number} {time.time_ns()}").touch()
+        time.sleep(self.seconds)
+        return {"pose": np.arange(chunk.start, chunk.stop)}
+
+
+def kept_run(folder: Path, chunks: int, seconds: float, workers: int) -> None:
+    """Chunks that wait, on threads; finished ones are kept."""
+    begun = folder / "begun"
+    begun.mkdir(exist_ok=True)
+    run = Run(workers, folder=folder / "kept")
+    list(run.chunks(Noted(begun, seconds), 10 * chunks, 10, lambda: "k" * 64))
+
+
+def computed_again(folder: Path, chunks: int, seconds: float, workers: int) -> int:
+    """Chunks that a study computes twice whose process is killed at half of its way."""
+    killed = get_context("spawn").Process(target=kept_run, args=(folder, chunks, seconds, workers))
+    killed.start()
+    while killed.is_alive() and len(list((folder / "begun").glob("*"))) < chunks // 2:
+        time.sleep(seconds / 10)
+    killed.kill()
+    killed.join()
+    kept_run(folder, chunks, seconds, workers)
+    return len(list((folder / "begun").iterdir())) - chunks
+
+
 def stream(poses: int, folder: Path) -> tuple[int, float, float]:
     """Poses, seconds, and bytes on disk of a streamed map."""
     machine = Proposed3PPRS()
@@ -175,6 +213,7 @@ def table(poses: int, *, smallest: bool) -> str:
         dask = map_seconds(lattice, one) / map_seconds(lattice, two)
         kept = store_rate(folder / "chunks")
         held = lock_share(lattice)
+        again = computed_again(folder, 4 * chunks, seconds / 5, WORKERS)
     finally:
         one.close()
         two.close()
@@ -186,7 +225,9 @@ def table(poses: int, *, smallest: bool) -> str:
         if load < QUIET:
             require(thread_cost < 0.05 and dask_cost < 0.05, "an executor costs 5 % or more")
         require(memory < 1.0, f"a streamed map takes {memory:.2f} GB")
+    require(again <= WORKERS, f"{again} chunks are computed again by {WORKERS} workers")
     costs = f"overhead at chunks of {seconds:g} s"
+    lost = f"chunks that {WORKERS} workers compute again after their process is killed"
     return joined(
         [
             "# Studies: what executors cost",
@@ -202,6 +243,7 @@ def table(poses: int, *, smallest: bool) -> str:
             f"| two local Dask workers beside one | {dask:.2f} | 1.8 |",
             f"| keeping a chunk of 2048 compliances, and reading it | {1e3 * kept:.1f} ms | |",
             f"| share of a chunk that holds Python's global lock, at most | {100 * held:.0f} % | |",
+            f"| {lost} | {again} | {WORKERS}, one a worker |",
             f"| streamed stiffness map | {said} | < 1 GB |",
             "",
             f"The ratios are of a stiffness map of {len(points) * ROLLS:,} poses, by the clock.",

@@ -1,4 +1,4 @@
-"""Stiffness and mass of isoparametric quadratic cells, whose edges and faces may be curved.
+"""Matrices of isoparametric quadratic cells, whose edges and faces may be curved.
 
 SfePy maps cells by their corners alone. Here the shape functions of all nodes map the cell, so
 that displacements and geometry are of one order: linear fields are exact on any cell (Irons
@@ -9,7 +9,7 @@ Source: Zienkiewicz, Taylor, Zhu (2013), The Finite Element Method, 7th ed., cha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from strutwork.errors import NumericalError
-from strutwork.fea.elasticity import elasticity
+from strutwork.fea.elasticity import elasticity, thermal_stress
 from strutwork.fea.solid import Solid
 from strutwork.meshes.cells import CellType
 from strutwork.meshes.mesh import Mesh
@@ -60,18 +60,16 @@ class CurvedAssembler:
             Factor on each region's share, no unit; one where it is not named.
         """
         type_ = self._type
-        at, quadrature = type_.quadrature(type_.field_degree)
-        gradient = type_.gradient(at)
+        points = len(type_.quadrature(type_.field_degree)[1])
 
         def blocks(region: str, cells: Ints) -> Array:
             law = elasticity(self.solid.materials[region]) * (weights or {}).get(region, 1.0)
             # C[a, c, b, d]: ∂u_a / ∂x_c works on the stress of ∂u_b / ∂x_d
             full = law[PAIRS[:, :, None, None], PAIRS]
             by_slopes = full.transpose(1, 3, 0, 2).reshape(9, 9)
-            jacobians, volumes = self._mapped(cells, gradient, quadrature)
-            slopes = np.linalg.solve(jacobians, gradient.transpose(0, 2, 1)[None])
+            slopes, volumes = self._slopes(cells)
             scaled = np.sqrt(volumes)[..., None, None] * slopes.transpose(0, 1, 3, 2)
-            flat = scaled.reshape(len(cells), len(at), -1)
+            flat = scaled.reshape(len(cells), points, -1)
             # Σ w det J ∂N_i/∂x_c ∂N_j/∂x_d, the same for every law
             products = (flat.transpose(0, 2, 1) @ flat).reshape(-1, type_.size, 3, type_.size, 3)
             return np.asarray(products.transpose(0, 1, 3, 2, 4).reshape(-1, 9) @ by_slopes)
@@ -92,6 +90,52 @@ class CurvedAssembler:
 
         one = self._assembled(blocks, 1)
         return sp.csc_array(sp.kron(one, sp.eye_array(3)))
+
+    def conduction(self, conductivities: Mapping[str, float]) -> sp.csc_array:
+        """Conduction of heat, W/K, (n, n).
+
+        Parameters
+        ----------
+        conductivities : mapping of region to float
+            W/(m K).
+        """
+
+        def blocks(region: str, cells: Ints) -> Array:
+            slopes, volumes = self._slopes(cells)
+            scaled = np.sqrt(conductivities[region] * volumes)[..., None, None] * slopes
+            flat = scaled.reshape(len(cells), -1, self._type.size)
+            return np.asarray((flat.transpose(0, 2, 1) @ flat).reshape(-1, 1))
+
+        return self._assembled(blocks, 1)
+
+    def expansion(self, changes: Array, coefficients: Mapping[str, float]) -> Array:
+        """Loads of the thermal strain, ∫ Bᵀ D α T 1 dV, N, (3n,).
+
+        Parameters
+        ----------
+        changes : (n,)
+            Change of temperature at the nodes of the field, K.
+        coefficients : mapping of region to float
+            Of expansion, 1/K.
+        """
+        at, _ = self._type.quadrature(self._type.field_degree)
+        shape = self._type.shape(at)
+        loads = np.zeros((len(self.solid.mesh.points), 3))
+        for region, cells in self._chunks():
+            nodes = self.solid.cells[cells]
+            slopes, volumes = self._slopes(cells)
+            # of an isotropic material the stress is a pressure
+            stress = thermal_stress(self.solid.materials[region], coefficients[region])[0]
+            weights = stress * volumes * (np.asarray(changes)[nodes] @ shape.T)
+            np.add.at(loads, nodes, np.einsum("eq,eqdn->end", weights, slopes))
+        return loads.ravel()
+
+    def _slopes(self, cells: Ints) -> tuple[Array, Array]:
+        """Derivatives of the shape functions (e, q, 3, n), and weights times det J (e, q)."""
+        at, quadrature = self._type.quadrature(self._type.field_degree)
+        gradient = self._type.gradient(at)
+        jacobians, volumes = self._mapped(cells, gradient, quadrature)
+        return np.linalg.solve(jacobians, gradient.transpose(0, 2, 1)[None]), volumes
 
     @property
     def _type(self) -> CellType:

@@ -1,11 +1,11 @@
-"""Stiffness and mass of straight cells by SfePy, with its output kept off the standard output."""
+"""Matrices of straight cells by SfePy, with its output kept off the standard output."""
 
 from __future__ import annotations
 
 import contextlib
 import io
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any, Protocol
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from strutwork.errors import NumericalError
 from strutwork.fea.curved_terms import CurvedAssembler
-from strutwork.fea.elasticity import elasticity
+from strutwork.fea.elasticity import elasticity, thermal_stress
 from strutwork.fea.sfepy_home import import_sfepy
 from strutwork.fea.solid import Solid
 from strutwork.meshes.mesh import Mesh
@@ -94,6 +94,26 @@ class Assembler(Protocol):
     def mass(self) -> sp.csc_array:
         """Consistent mass, kg, (3n, 3n)."""
 
+    def conduction(self, conductivities: Mapping[str, float]) -> sp.csc_array:
+        """Conduction of heat, W/K, (n, n).
+
+        Parameters
+        ----------
+        conductivities : mapping of region to float
+            W/(m K).
+        """
+
+    def expansion(self, changes: Array, coefficients: Mapping[str, float]) -> Array:
+        """Loads of the thermal strain, ∫ Bᵀ D α T 1 dV, N, (3n,).
+
+        Parameters
+        ----------
+        changes : (n,)
+            Change of temperature at the nodes of the field, K.
+        coefficients : mapping of region to float
+            Of expansion, 1/K.
+        """
+
 
 @dataclass(frozen=True, repr=False)
 class StraightAssembler:
@@ -156,29 +176,78 @@ class StraightAssembler:
             one = self._assemble("dw_dot", values, "scalar")
         return sp.csc_array(sp.kron(one, sp.eye_array(3)))
 
-    def _assemble(self, term: str, values: dict[str, Any], shape: str) -> sp.csc_array:
-        lib = sfepy()
-        order = self.solid.order
-        field = lib.Field.from_args(
-            f"{shape} field", np.float64, shape, self.domain.regions["Omega"], approx_order=order
-        )
+    def conduction(self, conductivities: Mapping[str, float]) -> sp.csc_array:
+        """Conduction of heat, W/K, (n, n).
+
+        Parameters
+        ----------
+        conductivities : mapping of region to float
+            W/(m K).
+        """
+        with _quiet():
+            return self._assemble("dw_laplace", dict(conductivities), "scalar")
+
+    def expansion(self, changes: Array, coefficients: Mapping[str, float]) -> Array:
+        """Loads of the thermal strain, ∫ Bᵀ D α T 1 dV, N, (3n,).
+
+        Parameters
+        ----------
+        changes : (n,)
+            Change of temperature at the nodes of the field, K.
+        coefficients : mapping of region to float
+            Of expansion, 1/K.
+        """
+        values = {
+            region: thermal_stress(self.solid.materials[region], coefficients[region])[:, None]
+            for region in self.solid.used_regions
+        }
+        with _quiet():
+            v, _ = self._variables("vector")
+            field = self._field("scalar")
+            heat = sfepy().FieldVariable("p", "parameter", field, primary_var_name="(set-to-None)")
+            heat.set_data(np.asarray(changes, dtype=float))
+            equations, _ = self._equations("dw_biot", values, {"v": v, "p": heat})
+            loads = np.zeros(3 * len(self.points))
+            equations["e"].evaluate(mode="weak", dw_mode="vector", asm_obj=loads)
+        return loads
+
+    def _field(self, shape: str) -> Any:
+        return sfepy().Field.from_args(
+            f"{shape} field", np.float64, shape, self.domain.regions["Omega"],
+            approx_order=self.solid.order,
+        )  # fmt: skip
+
+    def _variables(self, shape: str) -> tuple[Any, Any]:
+        """Test and unknown of a field."""
+        lib, field = sfepy(), self._field(shape)
         u = lib.FieldVariable("u", "unknown", field)
-        v = lib.FieldVariable("v", "test", field, primary_var_name="u")
+        return lib.FieldVariable("v", "test", field, primary_var_name="u"), u
+
+    def _equations(
+        self, term: str, values: dict[str, Any], variables: dict[str, Any]
+    ) -> tuple[Any, Any]:
+        """The sum of a term over the groups of cells, and the pattern of its matrix."""
+        lib = sfepy()
         # twice the order: one less leaves quadratic hexahedra spurious motions without energy
-        integral = lib.Integral("i", order=2 * order)
+        integral = lib.Integral("i", order=2 * self.solid.order)
         sum_of_terms: Any = None
         for group, region in enumerate(self.groups):
             constants = lib.Coefficients(f"m{group}", c=values[region])
             part = lib.Term.new(
-                f"{term}(m{group}.c, v, u)", integral, self.domain.regions[f"group{group}"],
-                **{f"m{group}": constants}, v=v, u=u,
+                f"{term}(m{group}.c, {', '.join(variables)})", integral,
+                self.domain.regions[f"group{group}"], **{f"m{group}": constants}, **variables,
             )  # fmt: skip
             sum_of_terms = part if sum_of_terms is None else sum_of_terms + part
         equations = lib.Equations([lib.Equation("e", sum_of_terms)])
         problem = lib.Problem("p", equations=equations)
         problem.time_update()
         problem.update_materials()
-        found = equations["e"].evaluate(mode="weak", dw_mode="matrix", asm_obj=problem.mtx_a)
+        return equations, problem.mtx_a
+
+    def _assemble(self, term: str, values: dict[str, Any], shape: str) -> sp.csc_array:
+        v, u = self._variables(shape)
+        equations, pattern = self._equations(term, values, {"v": v, "u": u})
+        found = equations["e"].evaluate(mode="weak", dw_mode="matrix", asm_obj=pattern)
         if not np.isfinite(found.data).all():
             raise NumericalError(
                 f"solid {self.solid.name}",

@@ -24,3 +24,15 @@ def elasticity(material: Material) -> Array:
     law = np.diag([2.0 * shear] * 3 + [shear] * 3)
     law[:3, :3] += lame
     return law
+
+
+def thermal_stress(material: Material, coefficient: float) -> Array:
+    """Stresses per kelvin of a material that cannot expand, D α 1, Pa/K, (6,), order as above.
+
+    Parameters
+    ----------
+    material : Material
+    coefficient : float
+        Of expansion, 1/K.
+    """
+    return np.asarray(elasticity(material)[:, :3].sum(axis=1) * coefficient)

@@ -69,6 +69,8 @@ def _problem(
             problem, remedy = context["problem"], context["remedy"]
         case "missing":
             problem, remedy = "is missing.", "Add it."
+            if len(loc) == 1 and _is_array_of_tables(str(loc[0]), schema):
+                remedy = f"Add a table [[{loc[0]}]]."
         case "extra_forbidden":
             problem, remedy = "is not a known key.", _nearest(loc, schema, page)
         case "tuple_type" | "list_type":

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Joint, Linkage
 from strutwork.machines.described_process import process_of
 from strutwork.machines.limits import joint_limits
@@ -119,7 +121,8 @@ def rebuilt_model(
     if "process" in differ:
         new["process"] = process_of(after.process)
     made = replace(model, **new)
-    if "motion" in model.__dict__:
+    # without a motion it cannot be moved either, and says why when it is asked to
+    with suppress(ModelError):
         # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
         made.__dict__["motion"] = model.motion.with_joints_of(linkage)
     if "structure" in new:

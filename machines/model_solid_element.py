@@ -13,6 +13,7 @@ from strutwork.msa import Material, PlacedStructure
 from strutwork.msa.structure import rigid_map
 
 if TYPE_CHECKING:
+    from strutwork.fea.solid_source import SolidSource
     from strutwork.fea.superelement import Superelement
 
 Array = NDArray[Any]
@@ -50,6 +51,8 @@ class SolidElement:
         Of the mesh.
     order : int
         Of its shape functions, 1 or 2; 0 where nobody says.
+    source : SolidSource or None
+        What `reduced` was made of.
     """
 
     reduced: Superelement
@@ -64,6 +67,7 @@ class SolidElement:
     made_of: tuple[Material, ...] = ()
     cells: int = 0
     order: int = 0
+    source: SolidSource | None = None
 
     def __repr__(self) -> str:
         return f"<SolidElement {self.name}: {len(self.tied)} interfaces, {self.reduced!r}>"
@@ -126,6 +130,7 @@ class SolidElement:
             reduced=self.reduced.scaled(factor),
             translation=factor * self.translation,
             points=factor * self.points,
+            source=None if self.source is None else self.source.scaled(factor),
         )
 
     def stiffness(self, at: PlacedStructure) -> Array:

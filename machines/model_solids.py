@@ -15,6 +15,7 @@ from strutwork.errors import ModelError, NumericalError
 from strutwork.fea.interface import Interface
 from strutwork.fea.reduce_solid import reduce_solid
 from strutwork.fea.solid import Solid
+from strutwork.fea.solid_source import solid_source
 from strutwork.kinematics import axes_frame
 from strutwork.machines.model import ModelWarning
 from strutwork.machines.model_parts import material_of, unknown
@@ -152,6 +153,7 @@ def _solid(table: SolidTable, tables: ModelTable, folder: Path) -> SolidElement:
         tuple({m.name: m for m in materials.values()}.values()),
         mesh.cell_count,
         table.order,
+        solid_source(solid, tuple(interfaces)),
     )
 
 

@@ -115,6 +115,35 @@ def nodal_area_vectors(mesh: Mesh, patch: Patch) -> tuple[NDArray[np.int64], Arr
     return _scatter(mesh, patch, as_vectors=True)
 
 
+def nodal_area_products(mesh: Mesh, patch: Patch) -> tuple[NDArray[np.int64], Array]:
+    """∫ N Nᵀ dA over a patch: the flows of a heat transfer coefficient of one.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Whose points count.
+    patch : Patch
+        Of this mesh.
+
+    Returns
+    -------
+    pairs : (m, 2) int
+        Nodes of each entry; a pair may come several times, and its entries add.
+    areas : (m,)
+        m²; they add up to the area.
+    """
+    pairs, areas = [np.zeros((0, 2), np.int64)], [np.zeros(0)]
+    for faces in patch.faces:
+        at, weights = faces.type.quadrature(DEGREE)
+        sizes = np.linalg.norm(_area_vectors(mesh.points, faces, at), axis=-1) * weights
+        shape = faces.type.shape(at)
+        areas.append(np.einsum("fq,qi,qj->fij", sizes, shape, shape).ravel())
+        rows = np.broadcast_to(faces.nodes[:, :, None], (*faces.nodes.shape, faces.type.size))
+        columns = np.swapaxes(rows, 1, 2)
+        pairs.append(np.stack([rows.ravel(), columns.ravel()], axis=-1))
+    return np.concatenate(pairs), np.concatenate(areas)
+
+
 def _scatter(mesh: Mesh, patch: Patch, *, as_vectors: bool) -> tuple[NDArray[np.int64], Array]:
     nodes = patch.nodes
     total = np.zeros((len(nodes), 3 if as_vectors else 1))

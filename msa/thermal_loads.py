@@ -8,7 +8,7 @@ its nodes against one another, which is a known displacement of all that they ho
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import isfinite
 from typing import Any
 
@@ -34,6 +34,9 @@ class Expansion:
         α ΔT, no unit.
     curvature : (float, float)
         α times the gradients of the temperature along local y and z of a beam, 1/m.
+    load : (6 k,) or None
+        Of an element at its nodes, axes of its body where it is described, N and N·m; in place of
+        what its strain does.
 
     Raises
     ------
@@ -44,9 +47,11 @@ class Expansion:
     part: str
     strain: float = 0.0
     curvature: tuple[float, float] = (0.0, 0.0)
+    load: Array | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
-        if not all(isfinite(v) for v in (self.strain, *self.curvature)):
+        load = () if self.load is None else np.asarray(self.load).tolist()
+        if not all(isfinite(v) for v in (self.strain, *self.curvature, *load)):
             raise ModelError(
                 f"expansion of {self.part}", "is not finite.", "Give finite temperatures."
             )
@@ -102,9 +107,9 @@ def expandable(system: System) -> dict[str, str]:
 def thermal_loads(system: System, expansions: Sequence[Expansion]) -> ThermalLoads:
     """Loads, misfits and displacements of expanding parts, a column for each.
 
-    Exact for beams, whose free shape is an arc. An element expands from its first node, its
-    interfaces with it and their rotations unchanged, as of a homogeneous solid of one temperature
-    whose nodes stand at the centres of their patches.
+    Exact for beams, whose free shape is an arc. An element has the load that is given. Without
+    one it expands from its first node, its interfaces with it and their rotations unchanged, as
+    a homogeneous solid of one temperature whose nodes stand at the centres of their patches.
 
     Parameters
     ----------
@@ -115,7 +120,7 @@ def thermal_loads(system: System, expansions: Sequence[Expansion]) -> ThermalLoa
     Raises
     ------
     ModelError
-        An unknown part, or a curvature of what is no beam.
+        An unknown part, a curvature of what is no beam, or a load of what is no element.
     """
     structure = system.placed.structure
     known = expandable(system)
@@ -134,8 +139,14 @@ def thermal_loads(system: System, expansions: Sequence[Expansion]) -> ThermalLoa
         if kind != "beam" and any(expansion.curvature):
             raise ModelError(
                 f"expansion of {expansion.part}",
-                "has a gradient, and it is no beam.",
-                "Give gradients to beams, or mesh the part.",
+                "has a gradient across a beam, and it is no beam.",
+                "Give gradients to beams and solids, or mesh the part.",
+            )
+        if kind != "element" and expansion.load is not None:
+            raise ModelError(
+                f"expansion of {expansion.part}",
+                "has a load, and it is no element.",
+                "Give its strain.",
             )
         if kind == "beam":
             system.add_segment_loads(loads[..., m], _beam(system, expansion))
@@ -171,12 +182,17 @@ def _element(system: System, expansion: Expansion) -> Array:
     structure = system.placed.structure
     element = next(e for e in structure.elements if e.name == expansion.part)
     index = np.array([structure.mesh_index[n] for n in element.nodes])
+    loads = np.zeros((system.poses, len(structure.mesh_nodes), 6))
+    if expansion.load is not None:
+        at_home = np.asarray(expansion.load, dtype=float).reshape(-1, 2, 3)
+        turned = np.einsum("...ij,naj->...nai", system.placed.turn_of(element.nodes[0]), at_home)
+        loads[:, index] = turned.reshape(*turned.shape[:-2], 6)
+        return loads
     tied = np.array([n in getattr(element, "tied", element.nodes) for n in element.nodes])
     places = system.placed.positions[:, index]
     free = np.zeros((system.poses, len(index), 6))
     free[..., :3] = expansion.strain * (places - places[:, :1]) * tied[:, None]
     force = element.stiffness(system.placed) @ free.reshape(system.poses, -1, 1)
-    loads = np.zeros((system.poses, len(structure.mesh_nodes), 6))
     loads[:, index] = force.reshape(system.poses, len(index), 6)
     return loads
 

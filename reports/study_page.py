@@ -16,7 +16,7 @@ from strutwork.reports.data_files import DataFile, csv_file, netcdf_file
 from strutwork.reports.figures.study import parallel, rank_bars, scatter
 from strutwork.reports.numbers import count, significant
 from strutwork.reports.study_analysis_page import analysis_chapters
-from strutwork.reports.study_words import machine_words, read_value, reading, title_of
+from strutwork.reports.study_words import gap_words, machine_words, read_value, reading, title_of
 from strutwork.studies.study import Study
 from strutwork.studies.study_table import (
     NumberColumn,
@@ -142,6 +142,8 @@ def _cover(
     text = f"All {len(study)} machines can be built."
     if lost:
         text = f"{solved} of {len(study)} machines can be built; {MACHINES} says why others cannot."
+    poses = 0 if study.workspace is None else len(study.workspace)
+    text = " ".join([text, *gap_words(found, poses, answers)])
     blocks: list[Answers | Text | Figure] = [Answers(tuple(said)), Text(text)]
     drawn = [*parameters[:DRAWN], *answers[:DRAWN]]
     titles, values = zip(*(_read(c) for c in drawn), strict=True)

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees, isfinite
 
+import numpy as np
+import xarray as xr
+
+from strutwork.reports.numbers import count as counted
 from strutwork.studies.study_table import NumberColumn
 
 #: Unit and factor by SI unit.
@@ -68,3 +72,42 @@ def interval_words(value: float, low: float, high: float) -> str:
         return f"{value:.4g}"
     ends = "–".join(f"{end:.4g}" if isfinite(end) else "…" for end in (low, high))
     return f"{value:.4g} ({ends})"
+
+
+def gap_words(found: xr.Dataset, poses: int, columns: Sequence[NumberColumn]) -> list[str]:
+    """Sentences on poses that machines miss, and on numbers that are not finite.
+
+    Parameters
+    ----------
+    found : xarray.Dataset
+        Of a study.
+    poses : int
+        At which each machine was asked, besides home.
+    columns : sequence of NumberColumn
+        Answers that are read.
+    """
+    built = found["status"].to_numpy().ravel() == 0
+    kept = found["poses_kept"].to_numpy().ravel()[built]
+    said = []
+    if poses and kept.size and kept.min() < poses:
+        low, high = int(kept.min()), int(kept.max())
+        why = "out of reach, outside a joint range, or without an answer"
+        if high == 0:
+            said.append(f"No machine can be asked at any of the {counted(poses, 'pose')} ({why}).")
+        else:
+            asked = str(low) if low == high else f"{low} to {high}"
+            said.append(
+                f"The machines can be asked at {asked} of the {counted(poses, 'pose')} (others are "
+                f"{why}); the worst and the mean are those of these poses. "
+                'With reductions = ["poses"] the result lists them.'
+            )
+    lacking: dict[str, np.ndarray] = {}
+    for column in columns:
+        rows = ~np.isfinite(column.values[built])
+        lacking[column.variable] = lacking.get(column.variable, False) | rows
+    for name, rows in lacking.items():
+        count = int(np.count_nonzero(rows))
+        which = "any machine" if count == len(rows) else f"{count} of {len(rows)} machines"
+        if count:
+            said.append(f"{name.replace('_', ' ').capitalize()} has no finite value in {which}.")
+    return said

@@ -22,6 +22,7 @@ from strutwork.msa import tool_compliance
 from strutwork.outward import OUTWARD, Outward
 from strutwork.tool_stiffness import ToolStiffness
 from strutwork.units import ANGLE, LENGTH, quantity
+from strutwork.varying import VARYING, Varying
 
 if TYPE_CHECKING:
     import plotly.graph_objects as go
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
     from strutwork.reports.model_solution import ModelSolution
     from strutwork.reports.subject import Subject
     from strutwork.studies.answers import Answer
-    from strutwork.studies.calibration_result import MachineCalibration
-    from strutwork.studies.parameter import Parameter
     from strutwork.studies.tolerance_result import ToleranceStudy
 
 Array = NDArray[Any]
@@ -43,7 +42,7 @@ Array = NDArray[Any]
 QUESTIONS = (
     "assembly_forces",
     "at",
-    "calibrate",
+    "changed",
     "check",
     "compare",
     "frequency_response",
@@ -53,13 +52,13 @@ QUESTIONS = (
     "report",
     "solve",
     "stiffness",
-    "study",
     "survey",
+    *VARYING,
 )
 
 
 @dataclass(frozen=True, repr=False)
-class Machine(Model, Outward):
+class Machine(Model, Outward, Varying):
     """A model with its questions; the fields are those of `strutwork.machines.model.Model`.
 
     Attributes
@@ -136,20 +135,18 @@ class Machine(Model, Outward):
             turned[joint, direction] = _coordinate(direction, value)
         return type(self).of(at_pose(self, where, turned))
 
-    def calibrate(
-        self, parameters: Mapping[str, Any] | Sequence[str], **measured: Any
-    ) -> MachineCalibration:
-        """The numbers of the machine that meet its measurements best.
+    def changed(self, numbers: Mapping[str, float | str]) -> Self:
+        """The machine with other numbers.
 
         Parameters
         ----------
-        parameters : mapping of path to (low, high), or sequence of str
-        **measured
-            Both as in `strutwork.studies.calibration.calibrate_machine`, whose errors it raises.
+        numbers : mapping of path to float or str
+            As `strutwork.studies.parametric.Parametric.model`, whose errors it raises: SI, or texts
+            with units.
         """
-        from strutwork.studies.calibration import calibrate_machine
+        from strutwork.studies.parametric import Parametric
 
-        return calibrate_machine(self, parameters, **measured)
+        return type(self).of(Parametric.of(self).model(numbers))
 
     def check(self) -> ModelCheck:
         """Freedoms, redundant constraints and mass.
@@ -163,7 +160,7 @@ class Machine(Model, Outward):
 
     def compare(
         self,
-        other: Machine,
+        other: Machine | Path | str,
         pose: Mapping[str, float | str] | None = None,
         *,
         around: Mapping[str, ArrayLike] | None = None,
@@ -173,7 +170,7 @@ class Machine(Model, Outward):
 
         Parameters
         ----------
-        other : Machine
+        other : Machine, or str or Path as of `strutwork.load`
         pose : mapping of direction to float or str, optional
             Where both stand, m and rad as for `at`; each at home else.
         around : mapping of direction to (n,), optional
@@ -186,9 +183,11 @@ class Machine(Model, Outward):
         ModelError, UnreachableError
             The same machine twice; a pose that one of them cannot take.
         """
+        from strutwork.machines.load import load
         from strutwork.reports.designs.comparison import compare_standing
 
-        a, b = ((m.source or m.title or "machine", m) for m in (self, other))
+        second = other if isinstance(other, Machine) else Machine.of(load(other), str(other))
+        a, b = ((m.source or m.title or "machine", m) for m in (self, second))
         task = {d: _coordinate(d, v) for d, v in (pose or {}).items()}
         grid = None if around is None else _grid(around)
         return compare_standing(a, b, task, {}, around=grid, **options)
@@ -302,42 +301,6 @@ class Machine(Model, Outward):
 
         grid = self._subject.grid if over is None else _grid(over)
         return survey(self, grid, answers or [Stiffness()], **options)
-
-    def study(
-        self, parameters: Mapping[str, Any] | Sequence[Parameter], *answers: Any, **options: Any
-    ) -> xr.Dataset:
-        """Vary numbers of the machine and ask each machine that comes of it.
-
-        Parameters
-        ----------
-        parameters : mapping of path to values
-            Beside a path of `strutwork.studies.Parametric.paths` a list of values, or a pair for a
-            range; SI, or texts with units.
-        *answers : str or Answer
-            "stiffness" where there is none; "vibration", "assembly", "accuracy", "stability",
-            "transmission", "amplification", "mass", or those of a survey.
-        **options
-            Of `strutwork.studies.study.Study.of` (sample, count, seed, workspace, reductions) and
-            of `strutwork.studies.study.Study.run` (workers, progress, folder, executor); `out` and
-            `resume` as `strutwork.studies.study_store.run_to_file`.
-
-        Returns
-        -------
-        xarray.Dataset
-
-        Raises
-        ------
-        ModelError
-            The machine was changed or moved since it was loaded; else as `Study`.
-        """
-        from strutwork.studies.study import Study
-        from strutwork.studies.study_store import run_to_file
-
-        running = ("workers", "progress", "folder", "executor", "resume")
-        how = {k: options.pop(k) for k in running if k in options}
-        out = options.pop("out", None)
-        study = Study.of(self, parameters, *answers, **options)
-        return study.run(**how) if out is None else run_to_file(study, out, **how)
 
     def report(self, folder: Path | str | None = None) -> WrittenReport:
         """Write the report with all that applies to the machine.

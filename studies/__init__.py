@@ -12,7 +12,7 @@ from strutwork.studies.dataset_files import (
 )
 from strutwork.studies.design import Design
 from strutwork.studies.design_file import read_design
-from strutwork.studies.design_pick import write_machine
+from strutwork.studies.design_pick import changes_of, write_machine
 from strutwork.studies.design_store import read_design_result, run_design
 from strutwork.studies.design_terms import Constraint, Cost, CostOf, Objective
 from strutwork.studies.dynamic import dynamic_stiffness, frequency_responses
@@ -81,6 +81,7 @@ __all__ = [
     "Vibration",
     "area_weights",
     "budget_map",
+    "changes_of",
     "default_executor",
     "dynamic_map",
     "dynamic_stiffness",

@@ -6,9 +6,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
+from strutwork.errors import ModelError
 from strutwork.machines.model_errors import model_error
+from strutwork.names import choices, visible
 from strutwork.studies.calibration_file import PAGE, experiment_of
 from strutwork.studies.calibration_fit import fit
 from strutwork.studies.calibration_result import MachineCalibration
@@ -57,8 +60,26 @@ def calibrate_machine(  # noqa: PLR0913 - the tables of a file
         `strutwork.studies.calibration_fit.fit`.
     """
     found = Parametric.of(machine)
+    if isinstance(parameters, str):
+        raise ModelError(
+            "parameters", f'are the text "{visible(parameters)}".', "Give a list of paths."
+        )
     named = parameters if isinstance(parameters, Mapping) else dict.fromkeys(parameters)
     known = priors or {}
+    for path in known:
+        if path not in named:
+            raise ModelError(
+                f"prior of {visible(path)}",
+                "names no parameter of the calibration.",
+                choices("Parameters", path, tuple(named)),
+            )
+    for path, ends in named.items():
+        if ends is not None and (isinstance(ends, str) or np.shape(ends) != (2,)):
+            raise ModelError(
+                f"parameter {visible(path)}",
+                "has no pair as its range.",
+                'Give (low, high), as ("20 kg", "30 kg").',
+            )
     unknowns = tuple(
         Unknown.of(found, path, None, None if ends is None else tuple(ends), prior=known.get(path))
         for path, ends in named.items()

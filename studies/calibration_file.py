@@ -166,7 +166,7 @@ def _frequencies(table: FrequenciesTable, name: str, model: Model, folder: Path)
     if (table.scatter is None) == (table.relative_scatter is None):
         raise ModelError(
             name,
-            "states its scatter " + ("not at all." if table.scatter is None else "twice."),
+            "has no scatter." if table.scatter is None else "states its scatter twice.",
             'Give scatter = "0.3 Hz", or relative_scatter = "1 %".',
         )
     task = task_of(table.pose)

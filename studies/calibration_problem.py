@@ -51,8 +51,8 @@ class Parameter:
         if not (self.low < self.high and self.low <= self.start <= self.high):
             raise ModelError(
                 part,
-                f"starts at {self.start:g} between {self.low:g} and {self.high:g}.",
-                "Give low < high and a start between them.",
+                f"starts at {self.start:g}, and its range is {self.low:g} to {self.high:g}.",
+                "Give the lower end first, and a first guess within the range.",
             )
         if self.scale == "log" and self.low <= 0:
             raise ModelError(

@@ -116,6 +116,7 @@ class Design:
         constraints: Sequence[Constraint] = (),
         workspace: Mapping[str, Any] | PoseSet | None = None,
         cost: Cost | None = None,
+        band: tuple[float, float] | None = None,
         **search: Any,
     ) -> Design:
         """A design from names and plain values.
@@ -135,6 +136,8 @@ class Design:
             home alone.
         cost : Cost, optional
             Nothing by default.
+        band : (float, float), optional
+            Of a least dynamic stiffness, Hz; wide enough for the modes that matter by default.
         **search : int or str
             method, population, generations, starts and seed, as of `Search`.
 
@@ -154,6 +157,7 @@ class Design:
             Search(**search),
             grid,
             cost or Cost(),
+            Asked("vibration", band),
         )
 
     def __repr__(self) -> str:

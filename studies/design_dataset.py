@@ -27,7 +27,10 @@ Array = NDArray[Any]
 MACHINE, FRONT = "machine", "front"
 
 #: Names that a parameter may not have.
-_TAKEN = {MACHINE, FRONT, "parameter", "reason_text"}
+_TAKEN = {
+    *(MACHINE, FRONT, "parameter", "reason_text", "status", "reason", "generation"),
+    *("poses_reached", "share"),
+}
 
 
 class Archive:
@@ -40,11 +43,12 @@ class Archive:
     Raises
     ------
     ModelError
-        The model file is gone.
+        The model file is gone; a parameter with the name of something else in the dataset.
     """
 
     def __init__(self, design: Design) -> None:
         self.design = design
+        self._require_own_names()
         self.parts: list[Generation] = []
         self.count = 0
         self._front = np.zeros(0, dtype=np.intp)
@@ -74,13 +78,7 @@ class Archive:
         self.count += len(generation.shares)
 
     def dataset(self) -> xr.Dataset:
-        """Everything, with units and what it was made of.
-
-        Raises
-        ------
-        ModelError
-            A parameter with the name of something else in the dataset.
-        """
+        """Everything, with units and what it was made of."""
         design, parts = self.design, self.parts
         reasons = [r for p in parts for r in p.judged.reasons]
         words = list(dict.fromkeys(["", *reasons]))
@@ -133,12 +131,6 @@ class Archive:
         names = [_variable(p.name) for p in design.varied]
         coordinates["parameter"] = names
         for i, p in enumerate(design.varied):
-            if names[i] in {*_TAKEN, *made} or names.count(names[i]) > 1:
-                raise ModelError(
-                    f"parameter {p.name}",
-                    "has the name of something else in the result.",
-                    "Give it another name.",
-                )
             coordinates[names[i]] = along(
                 samples[:, i],
                 p.unit or "1",
@@ -148,6 +140,17 @@ class Archive:
                 relative=int(p.relative),
             )
         return xr.Dataset(made, coords=coordinates, attrs=self._attributes())
+
+    def _require_own_names(self) -> None:
+        names = [_variable(p.name) for p in self.design.varied]
+        taken = {*_TAKEN, *(q.name for q in self.design.quantities)}
+        for name, p in zip(names, self.design.varied, strict=True):
+            if name in taken or names.count(name) > 1:
+                raise ModelError(
+                    f"parameter {p.name}",
+                    "has the name of something else in the result.",
+                    "Give it another name.",
+                )
 
     def _attributes(self) -> dict[str, Any]:
         design = self.design

@@ -76,7 +76,7 @@ def write_machine(found: xr.Dataset, number: int, path: str | Path) -> Path:
         raise ModelError(
             f"machine {number}",
             "is a variant of a machine of the catalogue, which has no model file.",
-            "Make it in Python: strutwork.studies.Parametric.of(NAME).model({...}).",
+            "Make it in Python: strutwork.load(NAME).changed(strutwork.studies.changes_of(...)).",
         )
     if Path(path).suffix != ".toml":
         raise ModelError(str(path), "names no model file.", "End it in .toml.")

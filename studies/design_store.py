@@ -15,7 +15,7 @@ from strutwork.studies.chunks import Arrays, ChunkStore
 from strutwork.studies.dataset_files import read_result_file, write_netcdf
 from strutwork.studies.design import Design
 from strutwork.studies.design_dataset import Archive, judged_of
-from strutwork.studies.design_judged import Judged
+from strutwork.studies.design_judged import CANNOT_BE, Judged
 from strutwork.studies.design_search import generations
 from strutwork.studies.design_table import design_rows, reasons_of
 from strutwork.studies.design_terms import GRADIENT
@@ -110,8 +110,8 @@ def run_design(
     if not archive.front.size:
         raise ModelError(
             "design",
-            f"none of its {archive.count} machines is feasible: {_most(found)}",
-            "Change the ranges of its parameters or its constraints.",
+            f"none of its {archive.count} machines is feasible: {_most(found)}.",
+            "Change the ranges of its parameters, its poses or its constraints.",
         )
     if path is not None:
         write_netcdf(Path(path), found)
@@ -188,8 +188,18 @@ def _there(path: Path, design: Design) -> xr.Dataset | None:
 
 
 def _most(found: xr.Dataset) -> str:
+    """Why most machines are not feasible; reasons with numbers in them are of one machine each."""
     text, count = next(iter(reasons_of(found).items()))
-    return f"{text} ({count} of them)."
+    text = text.rstrip(".")
+    lost = int(np.count_nonzero(found["status"].to_numpy() == CANNOT_BE))
+    if lost > count or (lost == count and count == found.sizes["machine"]):
+        one = next(
+            str(found["reason_text"].to_numpy()[int(r)])
+            for s, r in zip(found["status"].to_numpy(), found["reason"].to_numpy(), strict=True)
+            if s == CANNOT_BE
+        )
+        return f"{lost} of them cannot be built, the first because of {one.rstrip('.')}"
+    return f"{text} ({count} of them)"
 
 
 def _arrays(shares: Array, judged: Judged) -> Arrays:

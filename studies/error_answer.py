@@ -18,7 +18,7 @@ from strutwork.machines.model_poses import moved
 from strutwork.msa import PlacedStructure
 from strutwork.outcome import Outcome, solve_poses
 from strutwork.studies.answers import Column
-from strutwork.studies.error_causes import error_sheet
+from strutwork.studies.error_causes import error_causes, error_sheet
 from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_sheet import ErrorSheet
 
@@ -93,7 +93,8 @@ class ErrorSheets:
 
         def some(index: NDArray[np.intp]) -> None:
             for i in index:
-                sheet = error_sheet(self.model, inputs, placed[int(i)])
+                causes = error_causes(self.model, inputs, placed[int(i)])
+                sheet = causes.sheet(forces=False)
                 arrays["known"][i] = sheet.mean
                 arrays["worst_case"][i] = sheet.worst
                 arrays["standard_deviation"][i] = sheet.deviation
@@ -187,7 +188,9 @@ def axis_errors(model: Model, inputs: ErrorInputs, axis: str, positions: Array) 
         )
     placed = model.structure.at(placement)
     inputs = inputs.computed(model)
-    sheets: list[ErrorSheet] = [error_sheet(model, inputs, placed[i]) for i in range(len(values))]
+    sheets: list[ErrorSheet] = [
+        error_causes(model, inputs, placed[i]).sheet(forces=False) for i in range(len(values))
+    ]
     known = np.array([sheet.mean for sheet in sheets])
     errors = known - known[0]
     for i in range(3):

@@ -26,6 +26,7 @@ from strutwork.overconstraint.unit_sets import Disc
 from strutwork.studies.error_calibration import GeometryCalibration, turned
 from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_known import NONE, KnownCauses
+from strutwork.studies.error_servos import servo_notes, with_loops
 from strutwork.studies.error_sheet import CAUSES, PEAK, ErrorRow, ErrorSheet, NormalBall
 from strutwork.studies.model_damping import model_damping
 
@@ -56,8 +57,13 @@ class ErrorCauses:
         """Gravity, temperatures, steady forces, and what servos yield to them."""
         return KnownCauses(self.model, self.inputs, self.placed)
 
-    def sheet(self) -> ErrorSheet:
+    def sheet(self, *, forces: bool = True) -> ErrorSheet:
         """All rows, notes, what the drives carry, and the drift.
+
+        Parameters
+        ----------
+        forces : bool
+            Whether what the drives carry is wanted, which is a solution of its own.
 
         Raises
         ------
@@ -72,7 +78,8 @@ class ErrorCauses:
             before, geometry = tuple(geometry), self._after(geometry, self.inputs.calibrated)
         rows = [*geometry, *drives, *self.known.rows(), *self._periodic()]
         vibration = self.vibration
-        notes: list[str] = []
+        notes = [s.note for t in self.inputs.temperatures for s in t.solids if s.note]
+        notes += servo_notes(self.inputs, self.placed.structure)
         if vibration is not None:
             notes += [vibration.note] if vibration.note else []
             rows += self._ground(vibration)
@@ -86,7 +93,7 @@ class ErrorCauses:
         return ErrorSheet(
             tuple(rows),
             tuple(notes),
-            self._drive_forces(),
+            self._drive_forces() if forces else (),
             self.known.drift(self.inputs.moments),
             self.inputs.calibrated,
             before,
@@ -169,14 +176,14 @@ class ErrorCauses:
             if force.frequency is None:
                 continue
             loads = self.known.at_tool(force.wrench)[0]
-            response = load_response(self.known.soft, loads, self.damping, self.inputs.against)
+            response = load_response(self.known.vibrating, loads, self.damping, self.inputs.against)
             a = response.at(np.array([force.frequency]))[0, :, 0]
             gain = np.stack([a.real, -a.imag], axis=-1)
             rows.append(ErrorRow("cutting", force.name, np.zeros(6), gain, (Disc(),), "surface"))
         milling = self.known.milling
         if milling is not None:
             loads = np.concatenate([self.known.at_tool((*e, 0, 0, 0))[0] for e in np.eye(3)], -1)
-            response = load_response(self.known.soft, loads, self.damping, self.inputs.against)
+            response = load_response(self.known.vibrating, loads, self.damping, self.inputs.against)
             moved = np.einsum("hom,hm->ho", response.at(milling.frequencies), milling.amplitudes)
             for a, f in zip(moved, milling.frequencies, strict=True):
                 gain = np.stack([a.real, -a.imag], axis=-1)
@@ -190,7 +197,7 @@ class ErrorCauses:
         if not self.inputs.ground:
             return None
         return ground_vibration(
-            self.known.soft, self.inputs.ground, self.damping, self.inputs.against
+            self.known.vibrating, self.inputs.ground, self.damping, self.inputs.against
         )
 
     def _ground(self, found: GroundVibration) -> list[ErrorRow]:
@@ -302,7 +309,7 @@ def error_causes(
     """
     model.require_tool()
     here = model.placed if placed is None else placed
-    given, linkage = inputs or ErrorInputs(), here.structure.linkage
+    given, linkage = with_loops(inputs or ErrorInputs(), model), here.structure.linkage
     if given.against is None:
         given = replace(given, against=linkage.against)
     if given.against != linkage.against:

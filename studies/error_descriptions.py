@@ -14,6 +14,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "model": "which causes of the model file count",
         "tool": "what the displacement of the tool is relative to",
         "expansion": "coefficients of thermal expansion by material",
+        "conductivity": "thermal conductivities by material, for solids with heated surfaces",
         "time": "time since the temperatures began to change; their end by default",
         "drift": "times at which the thermal drift is stated",
         "temperatures": "changes of temperature of parts",
@@ -49,6 +50,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
     "CountedTable": {
         "tolerances": "whether the tolerances of the model file count; true by default",
         "gravity": "whether gravity counts; true by default",
+        "servos": "whether the servos of the model file count; true by default",
     },
     "ToolTable": {"against": "node of the workpiece"},
     "TemperatureTable": {
@@ -60,8 +62,28 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "spread": "half the width of what is uncertain of the change",
         "gradient_y": "gradient of the temperature along the local y axis of a beam",
         "gradient_z": "gradient of the temperature along the local z axis of a beam",
+        "gradient": "gradient of the temperature in a solid, global axes",
+        "at": "point at which a solid has the change; its centre of mass by default",
+        "profile": "temperature of a solid along an axis, added to the change",
+        "surfaces": "heated surfaces of a solid, whose temperature follows by steady conduction",
         "time_constant": "time constant of the change",
         "expansion": "coefficient of expansion of these parts; that of the material by default",
+    },
+    "ProfileTable": {
+        "axis": "axis along which the temperature varies, global axes",
+        "places": "distances from the origin along the axis, ascending",
+        "changes": "change of the temperature at the places; constant outside them",
+    },
+    "HeatedSurfaceTable": {
+        "node": "interface of the solid; or patch, or box",
+        "patch": "patch of the solid's mesh; or node, or box",
+        "box": "lowest and highest corner, in the solid's own axes; or node, or patch",
+        "normal": "outward normal of the faces in the box",
+        "change": "temperature of the surface, as a change",
+        "film": "coefficient of heat transfer to the surroundings",
+        "surroundings": "temperature of the surroundings, as a change; 0 K by default",
+        "flux": "flow of heat per area into the solid",
+        "power": "flow of heat into the solid, spread evenly",
     },
     "CuttingTable": {
         "name": "name of the cause",
@@ -79,6 +101,7 @@ DESCRIPTIONS: dict[str, dict[str, str]] = {
         "angular_backlash": "play of a rotary drive, from stop to stop",
         "servo_stiffness": "stiffness of a linear drive's control, in series with the drive",
         "angular_servo_stiffness": "stiffness of a rotary drive's control, in series",
+        "servo": "whether the drive has the static stiffness of its servo in the model file",
     },
     "GroundTable": {
         "direction": "direction along which all mounts move alike",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -25,6 +26,8 @@ from strutwork.studies.error_schema import (
     GeometryCalibrationTable,
     TemperatureTable,
 )
+from strutwork.studies.error_servos import with_loop
+from strutwork.studies.error_solid_heat import HeatFlow, SolidField
 from strutwork.studies.error_temperatures import parts_of, temperature_of
 
 #: Where the file is described.
@@ -99,6 +102,7 @@ def parse_errors(text: str, source: str, model: Model) -> ErrorInputs:
         _milling(tables, model),
         None if tables.calibration is None else _plan(tables.calibration),
         source=tables.source,
+        servos=tables.model.servos,
     )
 
 
@@ -163,12 +167,30 @@ def _temperature(
         parts,
         table.expansion,
         tables.expansion,
+        _field(table, tables),
         name=name,
         change=table.change,
         spread=table.spread,
         gradient=(table.gradient_y, table.gradient_z),
         time_constant=table.time_constant,
     )
+
+
+def _field(table: TemperatureTable, tables: ErrorsTable) -> SolidField | None:
+    """Of solids; None where the temperature is one number."""
+    profile = table.profile
+    if not (any(table.gradient) or table.at or profile or table.surfaces):
+        return None
+    field = SolidField(
+        table.change,
+        table.gradient,
+        table.at,
+        flows=tuple(HeatFlow(**dict(surface)) for surface in table.surfaces),
+        conductivities=tables.conductivity,
+    )
+    if profile is None:
+        return field
+    return replace(field, axis=profile.axis, places=profile.places, changes=profile.changes)
 
 
 def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
@@ -187,8 +209,12 @@ def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
                 f"Write {right}.",
             )
         values[key] = getattr(table, right)
-    if all(v is None for v in values.values()):
-        raise ModelError(part, "states no error.", "Give resolution, backlash or servo_stiffness.")
+    if table.servo is None and all(v is None for v in values.values()):
+        raise ModelError(
+            part, "states no error.", "Give resolution, backlash, servo_stiffness or servo."
+        )
+    if table.servo is not None and values["servo_stiffness"] is not None:
+        raise ModelError(part, "gives servo_stiffness and servo.", "Give one of the two.")
     drives = model.structure.linkage.driven
     joints = (table.joint,) if table.joint is not None else table.joints or ()
     for joint in joints:
@@ -199,4 +225,20 @@ def _drives(number: int, table: DriveTable, model: Model) -> list[DriveError]:
                 f'names the unknown drive "{name}".',
                 choices("Drives", name, [f"{j}:{d}" for j, d in drives]),
             )
-    return [DriveError(joint, table.direction, **values) for joint in joints]
+    errors = [
+        DriveError(joint, table.direction, **values, servo=table.servo is not False)
+        for joint in joints
+    ]
+    return [_with_servo(d, model, part) for d in errors] if table.servo else errors
+
+
+def _with_servo(drive: DriveError, model: Model, part: str) -> DriveError:
+    """With the servo that the model has for it, which is asked for by name."""
+    for servo in model.servos:
+        if (servo.joint, servo.direction) == (drive.joint, drive.direction):
+            return with_loop(drive, servo)
+    raise ModelError(
+        f"{part}.servo",
+        f"asks for the servo of {drive.joint}:{drive.direction}, which the model does not have.",
+        "Add it to [[servos]] of the model file, or give servo_stiffness.",
+    )

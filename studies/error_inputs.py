@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, isfinite
 from typing import Any
@@ -11,10 +10,9 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.fea.ground_vibration import GroundSpectrum
-from strutwork.kinematics import DIRECTIONS, Joint
+from strutwork.kinematics import DIRECTIONS
 from strutwork.machines.model import Model
-from strutwork.msa.structure import Structure
-from strutwork.names import choices
+from strutwork.msa.thermal_loads import Expansion
 from strutwork.overconstraint.tolerance import Tolerance
 from strutwork.studies.error_calibration import (
     CalibrationPlan,
@@ -22,6 +20,7 @@ from strutwork.studies.error_calibration import (
     calibrated_geometry,
 )
 from strutwork.studies.error_milling import MillingCut
+from strutwork.studies.error_solid_heat import SolidHeat
 
 Array = NDArray[Any]
 
@@ -35,7 +34,7 @@ class Temperature:
     name : str
         Of the entry: a material, or the parts.
     parts : tuple of (part, expansion)
-        Coefficient of expansion of every part, 1/K.
+        Coefficient of expansion of every part, 1/K; of a solid of several materials the first.
     change : float
         Uniform, after a long time, K.
     spread : float
@@ -44,6 +43,8 @@ class Temperature:
         Along local y and z of beams, K/m.
     time_constant : float or None
         s; None where the change is there at once.
+    solids : tuple of SolidHeat
+        Loads of those of the parts that are solids.
 
     Raises
     ------
@@ -57,6 +58,7 @@ class Temperature:
     spread: float = 0.0
     gradient: tuple[float, float] = (0.0, 0.0)
     time_constant: float | None = None
+    solids: tuple[SolidHeat, ...] = ()
 
     def __post_init__(self) -> None:
         part = f"temperature of {self.name}"
@@ -78,6 +80,26 @@ class Temperature:
         if time is None or self.time_constant is None:
             return 1.0
         return 1.0 - exp(-time / self.time_constant)
+
+    def expansions(self) -> list[Expansion]:
+        """Of every part, after a long time."""
+        heated = {s.part: s.load for s in self.solids}
+        return [
+            Expansion(part, load=heated[part])
+            if part in heated
+            else Expansion(part, a * self.change, (a * self.gradient[0], a * self.gradient[1]))
+            for part, a in self.parts
+        ]
+
+    def spreads(self) -> list[Expansion]:
+        """Of every part by the spread alone."""
+        heated = {s.part: s.per_kelvin for s in self.solids}
+        return [
+            Expansion(part, load=self.spread * heated[part])
+            if part in heated
+            else Expansion(part, a * self.spread)
+            for part, a in self.parts
+        ]
 
 
 @dataclass(frozen=True)
@@ -118,7 +140,12 @@ class DriveError:
     backlash : float or None
         From stop to stop, m or rad: ± half of it.
     servo_stiffness : float or None
-        In series with the drive, N/m or N·m/rad.
+        Static stiffness of the closed loop, N/m or N·m/rad; infinite with integral action.
+    at_load : bool
+        Whether the servo measures the joint: its stiffness is then that of the entire drive, and
+        in series with the drive otherwise.
+    servo : bool
+        Whether the servo of the model counts, where no stiffness is given.
 
     Raises
     ------
@@ -131,6 +158,8 @@ class DriveError:
     resolution: float | None = None
     backlash: float | None = None
     servo_stiffness: float | None = None
+    at_load: bool = False
+    servo: bool = True
 
     def __post_init__(self) -> None:
         part = f"drive {self.joint}:{self.direction}"
@@ -141,7 +170,7 @@ class DriveError:
                     part, f"has the {what} {value:g}.", "Give the size of its range, zero or more."
                 )
         k = self.servo_stiffness
-        if k is not None and not (isfinite(k) and k > 0):
+        if k is not None and not k > 0:
             raise ModelError(
                 part, f"has the servo stiffness {k:g}.", "Give a positive one, or omit it."
             )
@@ -177,6 +206,8 @@ class ErrorInputs:
         What the plan came to; computed where it is not given.
     source : str
         Where the numbers come from.
+    servos : bool
+        Whether the servos of the model count, where a drive gives no stiffness of its own.
     """
 
     temperatures: tuple[Temperature, ...] = ()
@@ -194,6 +225,7 @@ class ErrorInputs:
     plan: CalibrationPlan | None = None
     calibrated: GeometryCalibration | None = None
     source: str = ""
+    servos: bool = True
 
     def all_tolerances(self, model: Model) -> tuple[Tolerance, ...]:
         """Those of the machine, where they count, and its own.
@@ -220,66 +252,6 @@ class ErrorInputs:
             return self
         found = calibrated_geometry(model, self.all_tolerances(model), self.plan)
         return replace(self, calibrated=found)
-
-
-def with_servos(structure: Structure, drives: Sequence[DriveError]) -> Structure:
-    """The structure with the stiffness of servos in series with that of their drives.
-
-    Parameters
-    ----------
-    structure : Structure
-    drives : sequence of DriveError
-
-    Raises
-    ------
-    ModelError
-        A drive that the structure has not, or one given twice.
-    """
-    linkage = structure.linkage
-    soft: dict[str, dict[str, float]] = {}
-    seen: set[tuple[str, str]] = set()
-    for drive in drives:
-        key = (drive.joint, drive.direction)
-        name = f"{drive.joint}:{drive.direction}"
-        if key not in linkage.driven:
-            raise ModelError(
-                "drives",
-                f'names the unknown drive "{name}".',
-                choices("Drives", name, [f"{j}:{d}" for j, d in linkage.driven]),
-            )
-        if key in seen:
-            raise ModelError(f"drive {name}", "is given twice.", "Give it once.")
-        seen.add(key)
-        if drive.servo_stiffness is None:
-            continue
-        joint = linkage.joints[linkage.joint_index[drive.joint]]
-        if joint.matrix is not None and not joint.bearing:
-            raise ModelError(
-                f"drive {name}",
-                "has a full matrix of stiffness, to which no servo is added.",
-                "Give the joint stiffness by direction.",
-            )
-        at = DIRECTIONS.index(drive.direction)
-        own = float(joint.stiffness_matrix[at, at]) or None
-        k = drive.servo_stiffness
-        soft.setdefault(drive.joint, {})[drive.direction] = (
-            k if own is None else own * k / (own + k)
-        )
-    if not soft:
-        return structure
-    joints = tuple(_with(j, soft[j.name]) if j.name in soft else j for j in linkage.joints)
-    return replace(structure, linkage=replace(linkage, joints=joints))
-
-
-def _with(joint: Joint, stiffness: dict[str, float]) -> Joint:
-    """A joint with another stiffness in driven directions, in which its bearing does not resist."""
-    if joint.matrix is None:
-        return replace(joint, stiffness={**joint.stiffness, **stiffness})
-    matrix = joint.stiffness_matrix.copy()
-    for direction, value in stiffness.items():
-        at = DIRECTIONS.index(direction)
-        matrix[at, at] = value
-    return replace(joint, matrix=tuple(tuple(row) for row in matrix.tolist()))
 
 
 def unit_of(direction: str) -> str:

@@ -16,11 +16,12 @@ from strutwork.msa.assembly import System, system_of
 from strutwork.msa.loads import LoadCase
 from strutwork.msa.nodal_response import nodal_displacements, relative_motion
 from strutwork.msa.structure import PlacedStructure
-from strutwork.msa.thermal_loads import Expansion, thermal_loads
+from strutwork.msa.thermal_loads import thermal_loads
 from strutwork.msa.weights import part_weights
 from strutwork.overconstraint.unit_sets import Interval
-from strutwork.studies.error_inputs import ErrorInputs, with_servos
+from strutwork.studies.error_inputs import ErrorInputs
 from strutwork.studies.error_milling import MillingForces, milling_forces
+from strutwork.studies.error_servos import series_compliance, with_servos
 from strutwork.studies.error_sheet import ErrorRow
 
 Array = NDArray[Any]
@@ -55,8 +56,16 @@ class KnownCauses:
 
     @cached_property
     def soft(self) -> PlacedStructure:
-        """With its servos."""
-        structure = with_servos(self.placed.structure, self.inputs.drives)
+        """With its servos, at rest."""
+        return self._with_servos(vibrating=False)
+
+    @cached_property
+    def vibrating(self) -> PlacedStructure:
+        """With its servos, as far as they matter to vibration."""
+        return self._with_servos(vibrating=True)
+
+    def _with_servos(self, vibrating: bool) -> PlacedStructure:
+        structure = with_servos(self.placed.structure, self.inputs.drives, vibrating=vibrating)
         if structure is self.placed.structure:
             return self.placed
         return structure.at(self.placed.placement)
@@ -107,11 +116,7 @@ class KnownCauses:
                 add("cutting", [force.name], self.at_tool(force.wrench))
         if self.milling is not None:
             add("cutting", ["milling, mean"], self.at_tool((*self.milling.mean, 0.0, 0.0, 0.0)))
-        known = [
-            Expansion(part, alpha * t.change, (alpha * t.gradient[0], alpha * t.gradient[1]))
-            for t in self.inputs.temperatures
-            for part, alpha in t.parts
-        ]
+        known = [e for t in self.inputs.temperatures for e in t.expansions()]
         if known:
             found = thermal_loads(system, known)
             names.extend(("thermal", e.part) for e in known)
@@ -167,8 +172,7 @@ class KnownCauses:
         for t in self.inputs.temperatures:
             if not t.spread:
                 continue
-            parts = [Expansion(part, alpha * t.spread) for part, alpha in t.parts]
-            found = thermal_loads(self.system, parts)
+            found = thermal_loads(self.system, t.spreads())
             u = nodal_displacements(self.system.placed, found.loads, found.gaps) + found.moved
             gain = np.einsum("oni,nim->o", self.wanted, u[0])[:, None]
             rows.append(
@@ -177,11 +181,17 @@ class KnownCauses:
         return rows
 
     def _servos(self) -> list[ErrorRow]:
-        """What servos yield to all that is known: the misfit F / k of every drive is their share.
+        """What servos yield to all that is known: the misfit F c of every drive is their share.
 
         With it the machine without servos does what the machine with them does.
         """
-        given = [d for d in self.inputs.drives if d.servo_stiffness is not None]
+        rigid = self.placed.structure
+        yields = {
+            d: series_compliance(d, rigid)
+            for d in self.inputs.drives
+            if d.servo_stiffness is not None
+        }
+        given = [d for d, c in yields.items() if c]
         if not given:
             return []
         share = self._shares(self.inputs.time)
@@ -210,8 +220,7 @@ class KnownCauses:
             at = DIRECTIONS.index(d.direction)
             force = joint.stiffness_matrix[at, at] * now[d.joint, d.direction]
             part = f"servo of {d.joint}:{d.direction}"
-            k = d.servo_stiffness or np.inf
-            rows.append(ErrorRow("drives", part, matrix[:, m] * force / k, NONE))
+            rows.append(ErrorRow("drives", part, matrix[:, m] * force * yields[d], NONE))
         return rows
 
     def _stretch(self, u: Array) -> dict[tuple[str, str], float]:

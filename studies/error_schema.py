@@ -15,13 +15,16 @@ from strutwork.machines.model_fields import (
     Direction,
     Force,
     Frequency,
+    Length,
     Moment,
     Name,
+    Point,
     Quantity,
     Size,
     Slope,
     Table,
     TurningSpeed,
+    Vector,
 )
 from strutwork.machines.model_motion_schema import WorkspaceTable
 from strutwork.machines.model_schema import ToleranceTable
@@ -36,6 +39,10 @@ _KELVIN = re.compile(r"(?<![A-Za-z])K(?![A-Za-z])")
 TEMPERATURE = Dimension("a difference of temperature", "K", "2 K", (0, 0, 0))
 GRADIENT = Dimension("a gradient of temperature", "K/m", "5 K/m", (-1, 0, 0))
 EXPANSION = Dimension("a coefficient of expansion", "1/K", "11.5 um/m/K", (0, 0, 0))
+CONDUCTIVITY = Dimension("a thermal conductivity", "W/m/K", "50 W/m/K", (1, 1, -3))
+FILM = Dimension("a coefficient of heat transfer", "W/m^2/K", "10 W/m^2/K", (0, 1, -3))
+FLUX = Dimension("a flow of heat per area", "W/m^2", "200 W/m^2", (0, 1, -3))
+PER_KELVIN = (EXPANSION, CONDUCTIVITY, FILM)
 ACCELERATION_DENSITY = Dimension(
     "a spectral density of acceleration", "(m/s^2)^2/Hz", "1e-6 (m/s^2)^2/Hz", (2, 0, -3)
 )
@@ -62,8 +69,9 @@ class Thermal(Quantity):
         """
         if isinstance(value, str):
             found = list(_KELVIN.finditer(value))
-            over = len(found) == 1 and value[: found[0].start()].rstrip().endswith("/")
-            if len(found) != 1 or over != (self.dimension is EXPANSION):
+            before = value[: found[0].start()].rstrip() if found else ""
+            over = before.endswith("/") or before.rfind("/(") > before.rfind(")")
+            if len(found) != 1 or over != (self.dimension in PER_KELVIN):
                 raise PydanticCustomError(
                     "unit",
                     "{problem}",
@@ -81,6 +89,10 @@ Change = Annotated[float, Thermal(TEMPERATURE)]
 Spread = Annotated[float, Thermal(TEMPERATURE, low=0.0)]
 Gradient = Annotated[float, Thermal(GRADIENT)]
 Coefficient = Annotated[float, Thermal(EXPANSION)]
+Conductivity = Annotated[float, Thermal(CONDUCTIVITY, above=0.0)]
+Film = Annotated[float, Thermal(FILM, above=0.0)]
+Flux = Annotated[float, Quantity(FLUX)]
+Power = Annotated[float, Quantity(units.POWER)]
 Time = Annotated[float, Quantity(units.TIME, above=0.0)]
 Moment0 = Annotated[float, Quantity(units.TIME, low=0.0)]
 Density = Annotated[float, Quantity(ACCELERATION_DENSITY, low=0.0)]
@@ -89,6 +101,28 @@ Turn = Annotated[float, Quantity(units.ANGLE, low=0.0)]
 Stiff = Annotated[float, Quantity(units.STIFFNESS, above=0.0)]
 StiffTurn = Annotated[float, Quantity(units.ROTATIONAL_STIFFNESS, above=0.0)]
 Names = Annotated[tuple[Name, ...], Field(max_length=MOST)]
+
+
+class ProfileTable(Table):
+    """A change of temperature along an axis."""
+
+    axis: Vector
+    places: Annotated[tuple[Length, ...], Field(min_length=2, max_length=POINTS)]
+    changes: Annotated[tuple[Change, ...], Field(min_length=2, max_length=POINTS)]
+
+
+class HeatedSurfaceTable(Table):
+    """Part of a solid's surface with a temperature or a flow of heat."""
+
+    node: Name | None = None
+    patch: Name | None = None
+    box: tuple[Point, Point] | None = None
+    normal: Vector | None = None
+    change: Change | None = None
+    film: Film | None = None
+    surroundings: Change = 0.0
+    flux: Flux = 0.0
+    power: Power = 0.0
 
 
 class TemperatureTable(Table):
@@ -102,6 +136,10 @@ class TemperatureTable(Table):
     spread: Spread = 0.0
     gradient_y: Gradient = 0.0
     gradient_z: Gradient = 0.0
+    gradient: tuple[Gradient, Gradient, Gradient] = (0.0, 0.0, 0.0)
+    at: Point | None = None
+    profile: ProfileTable | None = None
+    surfaces: Annotated[tuple[HeatedSurfaceTable, ...], Field(max_length=MOST)] = ()
     time_constant: Time | None = None
     expansion: Coefficient | None = None
 
@@ -127,6 +165,7 @@ class DriveTable(Table):
     angular_backlash: Turn | None = None
     servo_stiffness: Stiff | None = None
     angular_servo_stiffness: StiffTurn | None = None
+    servo: StrictBool | None = None
 
 
 class GroundTable(Table):
@@ -148,6 +187,7 @@ class CountedTable(Table):
 
     tolerances: StrictBool = True
     gravity: StrictBool = True
+    servos: StrictBool = True
 
 
 class MillingTable(Table):
@@ -186,6 +226,7 @@ class ErrorsTable(Table):
     model: CountedTable = CountedTable()
     tool: ToolTable | None = None
     expansion: Annotated[dict[Name, Coefficient], Field(max_length=MOST, default_factory=dict)]
+    conductivity: Annotated[dict[Name, Conductivity], Field(max_length=MOST, default_factory=dict)]
     time: Moment0 | None = None
     drift: Annotated[tuple[Moment0, ...], Field(max_length=MOMENTS)] = ()
     temperatures: Annotated[tuple[TemperatureTable, ...], Field(max_length=MOST)] = ()

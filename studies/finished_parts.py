@@ -11,6 +11,7 @@ import xarray as xr
 from strutwork.csv_rows import RowWriter
 from strutwork.errors import ModelError
 from strutwork.files import write_whole
+from strutwork.studies.executor import place
 
 #: What to do about a file that cannot be written over.
 OTHER_FILE = "Name another file, or remove this one."
@@ -24,6 +25,35 @@ def beside(path: Path) -> Path:
     path : Path
     """
     return path.with_name(f"{path.name}.parts")
+
+
+def any_finished(parts: Path) -> bool:
+    """Whether there are finished parts: folders alone are none.
+
+    Parameters
+    ----------
+    parts : Path
+        Their folder.
+    """
+    return any(p.is_file() for p in parts.rglob("*"))
+
+
+def require_file(out: str | Path | None, *, resume: bool) -> None:
+    """Refuse to go on from the finished parts of a result that is written nowhere.
+
+    Parameters
+    ----------
+    out : str, Path or None
+        File of the result.
+    resume : bool
+
+    Raises
+    ------
+    ModelError
+        There is no file, nor a folder of `strutwork.studies.executor.computed_on`.
+    """
+    if resume and out is None and place().folder is None:
+        raise ModelError("resume", "goes on from nothing.", "Give the file of the result: out=...")
 
 
 def require_resumed(parts: Path, what: str, *, resume: bool) -> None:
@@ -43,7 +73,7 @@ def require_resumed(parts: Path, what: str, *, resume: bool) -> None:
     ModelError
         There are some, and `resume` is not given.
     """
-    if not resume and parts.is_dir() and any(parts.iterdir()):
+    if not resume and any_finished(parts):
         raise ModelError(
             str(parts),
             f"holds {what}, which was interrupted.",
@@ -79,6 +109,8 @@ def result_there(path: Path, read: Callable[[Path], xr.Dataset]) -> xr.Dataset |
     """
     if not path.exists():
         return None
+    if path.is_dir() and path.suffix != ".zarr":
+        raise ModelError(str(path), "is a folder.", "Name a file.")
     try:
         return read(path)
     except ModelError as error:

@@ -20,7 +20,7 @@ from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free
 from strutwork.msa.mass import total_mass
 from strutwork.msa.sensitivity import StaticQuantity, compliance_sensitivity, static_sensitivity
 from strutwork.names import visible
-from strutwork.studies.tangents import PlacedTangents
+from strutwork.studies.tangents import PlacedTangents, Tangents
 
 Array = NDArray[Any]
 
@@ -99,7 +99,7 @@ def read_quantity(model: Model, name: str) -> Asked:
         Another name (the message lists the forms), an unknown direction or load case.
     """
     if name == "mass":
-        return Asked(name, "mass", "kg", "mass of all parts")
+        return Asked(name, "mass", "kg", "mass of all parts, at home")
     tool, mode, static = (p.fullmatch(name) for p in (_TOOL, _MODE, _STATIC))
     if mode:
         number = int(mode[1])
@@ -192,7 +192,7 @@ def sensitivities(
         values[rows], rates[rows] = solved.values.T, np.moveaxis(solved.rates, -1, 0)
     if "mass" in kinds:
         k = next(k for k, a in enumerate(asked) if a.kind == "mass")
-        values[k], rates[k] = _mass(found)
+        values[k], rates[k] = _mass(found.tangents)
     for k, a in enumerate(asked):
         if a.kind == "least_dynamic_stiffness":
             values[k], rates[k] = _least_dynamic(model, found, a, vibrating)
@@ -218,15 +218,12 @@ def _least_dynamic(
     return least.value, least.rates
 
 
-def _mass(found: PlacedTangents) -> tuple[float, Array]:
-    """The mass, kg, the same at every pose, and its rates (g, 1)."""
-    one = found.placed[:1]
-    rates = np.empty((len(found.changes), 1))
-    for i, change in enumerate(found.changes):
-        if change.above is None or change.below is None:
-            sides = [s.at(one.placement) for s in (change.change.above, change.change.below)]
-        else:
-            sides = [change.above[:1], change.below[:1]]
-        above, below = (total_mass(side) for side in sides)
-        rates[i] = (above - below) / change.change.width
-    return float(total_mass(one)[0]), rates
+def _mass(tangents: Tangents) -> tuple[float, Array]:
+    """The mass at home, kg, and its rates (g, 1): beams may be as long as a slider is out."""
+    mass, *sides = (
+        float(np.ravel(total_mass(m.placed))[0])
+        for m in (tangents.model, *tangents.above, *tangents.below)
+    )
+    above, below = np.array(sides).reshape(2, -1)
+    widths = np.array([c.width for c in tangents.changes])
+    return mass, ((above - below) / widths)[:, None]

@@ -291,7 +291,8 @@ class Parametric:
             stem = stem.rpartition(".")[0]
         if not stem:
             heads = dict.fromkeys(re.split(r"[.\[]", p)[0] for p in known)
-            return f"{words}Paths begin with {_some(list(heads))}"
+            every = "`strutwork study MACHINE --paths` lists all."
+            return f"{words}Paths begin with {_some(list(heads))} {every}"
         return f"{words}There are {_some([p for p in known if p.startswith(stem)])}"
 
     def values(self, paths: Iterable[str]) -> dict[str, float]:

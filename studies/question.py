@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.fea.dynamic_stiffness import check_band
 from strutwork.fea.ports import tool_ports
 from strutwork.machines.model import Model
 from strutwork.msa import PlacedStructure
@@ -63,11 +64,21 @@ class Asked:
         Hz, of vibration.
     count : int
         Frequencies, of vibration.
+
+    Raises
+    ------
+    ModelError
+        As `strutwork.fea.dynamic_stiffness.check_band`.
     """
 
     name: str
     band: tuple[float, float] | None = None
     count: int = 6
+
+    def __post_init__(self) -> None:
+        # of every machine alike: said once, before any is made
+        if self.band is not None:
+            check_band(*self.band)
 
     def of(self, model: Model) -> Answer:
         """As `QUESTIONS` makes it.

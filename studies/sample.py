@@ -40,12 +40,21 @@ class Sample:
         Of the randomisation; the same seed gives the same points.
     second_order : bool
         Whether blocks serve indices of second order as well.
+
+    Raises
+    ------
+    ModelError
+        A seed below zero.
     """
 
     kind: str = ""
     count: int | None = None
     seed: int = 0
     second_order: bool = False
+
+    def __post_init__(self) -> None:
+        if self.seed < 0:
+            raise ModelError("sample.seed", f"is {self.seed}.", "Give 0 or more.")
 
 
 @dataclass(frozen=True)

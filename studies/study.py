@@ -37,7 +37,7 @@ from strutwork.studies.run import Chunk, Run, fill
 from strutwork.studies.sample import Drawn, Sample, drawn
 from strutwork.studies.standing import Stand
 from strutwork.studies.study_analysis import analysed
-from strutwork.studies.study_dataset import study_dataset
+from strutwork.studies.study_dataset import require_own_names, study_dataset
 from strutwork.studies.study_machines import REDUCTIONS, Machines
 from strutwork.units import ANGLE, LENGTH, quantity
 
@@ -69,8 +69,9 @@ class Study:
     Raises
     ------
     ModelError
-        A parameter that does not exist or whose values are out of range, an empty sample, an
-        unknown answer or reduction; the machine as stated lacks what is asked for.
+        A parameter that does not exist, whose values are out of range, or with the name of
+        something else in the result; an empty sample, an unknown answer or reduction; the machine
+        as stated lacks what is asked for.
     """
 
     machine: Parametric
@@ -97,6 +98,7 @@ class Study:
         first_pose_can_be_asked(model, self.workspace)
         for question in self.questions:
             question.of(model)
+        require_own_names(self)
 
     @classmethod
     def of(
@@ -313,6 +315,12 @@ class Study:
 
 def _grid(workspace: Mapping[str, Any]) -> TaskGrid | None:
     """Poses of values along directions, SI or texts with units; None where there are none."""
+    if not isinstance(workspace, Mapping):
+        raise ModelError(
+            "workspace",
+            f"is a {type(workspace).__name__}.",
+            'Give values along directions, as {"x": ["-50 mm", "50 mm"]}; {} for home alone.',
+        )
     axes = {}
     for direction, values in workspace.items():
         kind = ANGLE if direction.startswith("r") else LENGTH

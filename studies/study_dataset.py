@@ -32,6 +32,9 @@ SAMPLE = "sample"
 #: Coordinates of what is said of all machines together.
 ANALYSIS = ("answer", "answer_unit", "parameter", "other_parameter", "bound", "quantile")
 
+#: Variables of every study.
+_OF_MACHINES = ("status", "reason", "reason_text", "poses_kept", "pose_status")
+
 #: What became of a machine, by its code.
 STATUS = ("solved", "cannot_be", "no_pose")
 
@@ -53,11 +56,6 @@ def study_dataset(study: Study, arrays: Arrays, words: list[str]) -> xr.Dataset:
         For each machine, any unit.
     words : list of str
         Reasons, the first of them empty.
-
-    Raises
-    ------
-    ModelError
-        A parameter with the name of something else in the dataset.
     """
     gridded = study.drawn.kind == "grid"
     dims = tuple(p.name for p in study.varied) if gridded else (SAMPLE,)
@@ -100,7 +98,7 @@ def study_dataset(study: Study, arrays: Arrays, words: list[str]) -> xr.Dataset:
             "flag_meanings": " ".join(s.word for s in PoseStatus),
         }
         put("pose_status", ("pose",), "1", "what became of the pose", **flag)
-    labels |= _poses(study, made) | _parameters(study, dims, made, labels)
+    labels |= _poses(study, made) | _parameters(study, dims)
     return xr.Dataset(made, coords=labels, attrs=_attributes(study))
 
 
@@ -125,19 +123,9 @@ def _poses(study: Study, made: dict[str, xr.Variable]) -> dict[str, xr.Variable]
     return found
 
 
-def _parameters(
-    study: Study, dims: tuple[str, ...], made: dict[str, xr.Variable], labels: dict[str, Any]
-) -> dict[str, xr.Variable]:
+def _parameters(study: Study, dims: tuple[str, ...]) -> dict[str, xr.Variable]:
     found = {}
-    inner = (d for v in made.values() for d in v.dims)
-    taken = {*made, *labels, SAMPLE, "pose", *ANALYSIS, *inner} - set(dims)
     for i, p in enumerate(study.varied):
-        if p.name in taken or (p.name == SAMPLE):
-            raise ModelError(
-                f"parameter {p.name}",
-                "has the name of something else in the result.",
-                "Give it another name.",
-            )
         values = p.grid if p.name in dims else study.drawn.values[:, i]
         found[p.name] = named(
             p.name if p.name in dims else SAMPLE,
@@ -148,6 +136,36 @@ def _parameters(
             stated=_stated(p),
         )
     return found
+
+
+def require_own_names(study: Study) -> None:
+    """Refuse a parameter with the name of something else in the dataset.
+
+    Parameters
+    ----------
+    study : Study
+
+    Raises
+    ------
+    ModelError
+        There is one.
+    """
+    model = study.machine.origin.model
+    taken = {*_OF_MACHINES, *ANALYSIS, SAMPLE, "pose"}
+    taken |= {f"pose_{d}" for d in DIRECTIONS}
+    for question in study.questions:
+        taken |= {str(name) for name in question.of(model).coordinates}
+    for kept in study.machines.kept:
+        taken |= {kept.name, f"{kept.name}_pose", *kept.column.dims}
+        if isinstance(kept.column.unit, LabelledUnits):
+            taken |= set(unit_coordinate(kept.name, kept.column.dims[-1], kept.column.unit))
+    for p in study.varied:
+        if p.name in taken:
+            raise ModelError(
+                f"parameter {p.name}",
+                "has the name of something else in the result.",
+                "Give it another name.",
+            )
 
 
 def _stated(p: Varied) -> float:

@@ -154,7 +154,7 @@ class Tangents:
             missing.append(lost)
         count = placed.batch[0]
         return PlacedTangents(
-            placed, tuple(changes), np.array(missing, dtype=bool).reshape(-1, count)
+            placed, tuple(changes), np.array(missing, dtype=bool).reshape(-1, count), self
         )
 
     def _still(self, model: Model) -> bool:
@@ -177,11 +177,14 @@ class PlacedTangents:
     changes : tuple of g PlacedChange
     missing : (g, p) of bool
         Where a changed machine cannot take the pose: there is no derivative.
+    tangents : Tangents
+        What was placed; its models are at home.
     """
 
     placed: PlacedStructure
     changes: tuple[PlacedChange, ...]
     missing: NDArray[np.bool_]
+    tangents: Tangents
 
 
 def _require_same_solids(model: Model, *changed: Model) -> None:

@@ -12,6 +12,7 @@ from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.process_file import is_known
 from strutwork.reports.chapters.error_calibration import calibration_blocks
+from strutwork.reports.chapters.error_heat import heat_blocks
 from strutwork.reports.content import Block, Column, Details, Figure, Note, Row, Table, Text
 from strutwork.reports.data_files import DataFile, csv_file, json_file, netcdf_file
 from strutwork.reports.error_tables import axis_heads, axis_rows, sheet_heads, sheet_rows
@@ -37,6 +38,9 @@ MAP, CALIBRATION = "error-sheet-survey", "error-calibration.json"
 
 #: Moments at which the drift is drawn.
 MOMENTS = 121
+
+#: Positions along an axis for causes that are assumed: fewer tell enough.
+FEW = 5
 
 #: Pairs of points that a spectrum is drawn with at most.
 DRAWN = 400
@@ -68,13 +72,12 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
     if sheet.calibrated is not None:
         what = "the calibration: poses, combinations that it determines and that it does not"
         files.append(json_file(CALIBRATION, what, sheet.calibrated.to_dict()))
-    curves_, more = _curves(sheet, causes)
-    blocks += curves_
-    files += more
+    for some, more in (_curves(sheet, causes), heat_blocks(subject.model, inputs)):
+        blocks += some
+        files += more
     if not subject.unmoved:
         lines, area = subject, subject
         if is_known(subject.errors):
-            # of what is assumed fewer poses tell enough
             axes = {d: _few(v) for d, v in subject.grid.axes.items()}
             lines = _over(subject, axes)
             area = _over(subject, dict(list(axes.items())[:2]))
@@ -85,8 +88,10 @@ def error_blocks(subject: Subject) -> tuple[list[Block], tuple[DataFile, ...]]:
 
 
 def _few(values: Array) -> Array:
-    """The first, the middle and the last of the positions along an axis."""
-    return np.asarray(values)[sorted({0, len(values) // 2, len(values) - 1})]
+    """At most `FEW` of the positions along an axis, evenly, with both ends."""
+    last = len(values) - 1
+    picked = np.unique(np.linspace(0, last, FEW).round().astype(int))
+    return np.asarray(np.asarray(values)[picked])
 
 
 def _over(subject: Subject, axes: dict[str, Array]) -> Subject:

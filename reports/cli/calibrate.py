@@ -31,7 +31,7 @@ def run(file: str, out: str | None, report: str | None, poses: int | None, *, js
         raise ModelError(
             out,
             "cannot be written: the machine is one of the catalogue and has no model file.",
-            "Leave --out out, or describe the machine in a file.",
+            "Omit --out, or describe the machine in a model file.",
         )
     if out is not None and not out.endswith(".toml"):
         raise ModelError(out, "does not end in .toml.", "Name a model file, as calibrated.toml.")

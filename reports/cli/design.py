@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from strutwork.errors import OutputError
 from strutwork.names import visible
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table, tell
@@ -28,6 +29,7 @@ from strutwork.studies.design_search import pymoo
 from strutwork.studies.design_store import parts_of, read_design_result, run_design
 from strutwork.studies.design_table import design_parameters, design_quantities, reasons_of
 from strutwork.studies.design_terms import GRADIENT
+from strutwork.studies.finished_parts import any_finished
 
 #: Machines of the front that a terminal shows.
 ROWS = 12
@@ -93,8 +95,8 @@ def _told(design: Design) -> Any:
 def _searched(design: Design, out: str | None, **options: Any) -> xr.Dataset:
     try:
         return run_design(design, out, **options)
-    except (KeyboardInterrupt, SystemExit):
-        if out is not None and parts_of(design, Path(out)).is_dir():
+    except (KeyboardInterrupt, SystemExit, OutputError):
+        if out is not None and any_finished(parts_of(design, Path(out))):
             tell(f"Finished generations are kept beside {out}: give --resume to go on.")
         raise
 

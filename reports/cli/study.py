@@ -9,13 +9,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from strutwork.errors import OutputError
 from strutwork.names import visible
 from strutwork.reports.cli.manner import MANNER
 from strutwork.reports.cli.output import console, print_json, table, tell
 from strutwork.reports.cli.progress import shown
 from strutwork.reports.cli.study_tables import analysis, print_analysis
 from strutwork.reports.numbers import count as counted
-from strutwork.reports.study_words import machine_words, read_value, reading, title_of
+from strutwork.reports.study_words import gap_words, machine_words, read_value, reading, title_of
+from strutwork.studies.finished_parts import any_finished
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.study import Study
 from strutwork.studies.study_file import read_study
@@ -84,8 +86,8 @@ def run(
 def _to_file(study: Study, out: str, **options: Any) -> xr.Dataset:
     try:
         return run_to_file(study, out, **options)
-    except (KeyboardInterrupt, SystemExit):
-        if parts_of(study, Path(out)).is_dir():
+    except (KeyboardInterrupt, SystemExit, OutputError):
+        if any_finished(parts_of(study, Path(out))):
             tell(f"What is finished is kept beside {out}: give --resume to go on.")
         raise
 
@@ -175,6 +177,8 @@ def _print(study: Study, found: xr.Dataset, result: dict[str, Any]) -> None:
             names=2,
         )
     )
+    for sentence in gap_words(found, poses, columns):
+        out.print(visible(sentence), markup=False, soft_wrap=True)
     last = print_analysis(out, found, columns)
     for path in result["data"]:
         out.print(visible(path), markup=False, soft_wrap=True)

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from strutwork.errors import StrutworkError
+from strutwork.errors import ClusterError, OutputError, StrutworkError
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.names import visible
@@ -81,6 +81,9 @@ def _survey(
     told = None if progress is None else progress(f"stiffness of {visible(design.name)}")
     try:
         return survey(design.model, grid, [Stiffness()], progress=told)
+    except (ClusterError, OutputError):
+        # no answer of the machine: nobody computed it, or it cannot be kept
+        raise
     except StrutworkError as error:
         return visible(" ".join(str(error).split()))
 

@@ -97,12 +97,17 @@ def write_comparison(found: DesignComparison, file: Path) -> Path:
     """
     page = comparison_page(found)
     files = [one for chapter in page.chapters for one in chapter.files]
-    with TemporaryDirectory() as folder:
-        for one in files:
-            one.write(Path(folder) / one.name)
-        paths = [Path(folder) / one.name for one in files]
-        text = render(with_archive(page), carried(write_archive(Path(folder) / ARCHIVE, paths)))
-    return write_whole(file, lambda path: path.write_text(text, encoding="utf-8"))
+
+    def write(path: Path) -> None:
+        # beside the page: what the disk says is said of the page
+        with TemporaryDirectory(dir=path.parent) as folder:
+            for one in files:
+                one.write(Path(folder) / one.name)
+            paths = [Path(folder) / one.name for one in files]
+            data = carried(write_archive(Path(folder) / ARCHIVE, paths))
+            path.write_text(render(with_archive(page), data), encoding="utf-8")
+
+    return write_whole(file, write)
 
 
 def comparison_page(found: DesignComparison) -> Page:

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import re
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -220,3 +221,15 @@ def test_what_is_a_universal_file(tmp_path: Path) -> None:
     assert not is_universal("mit-ss1")
     assert not is_universal(str(HEAD))
     assert not is_universal(str(tmp_path))
+
+
+def test_a_cluster_that_does_not_answer_is_no_reason_of_a_machine(
+    strutwork: Program, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed")
+    cluster = pytest.importorskip("strutwork.studies.cluster")
+    monkeypatch.setattr(cluster, "Dask", partial(cluster.Dask, patience=0.5))
+    run = strutwork("compare", "proposed-3pprs", "eclipse-3pprs", "--cluster", "tcp://127.0.0.1:9")
+    assert run.status == 1
+    assert "cluster tcp://127.0.0.1:9: cannot be reached" in run.err
+    assert run.out == ""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import resource
 import tomllib
 from functools import partial
 from pathlib import Path
@@ -84,6 +85,9 @@ def test_numbers_that_can_be_varied(strutwork: Program) -> None:
         (('answers = ["stiffness", "mass"]', 'answers = ["stifness"]'), 'Did you mean "stiffness"'),
         (("[[parameters]]", "[[parameter]]"), 'Did you mean "parameters"'),
         (("values =", "value ="), 'Did you mean "values"'),
+        (("values =", 'name = "mass"\nvalues ='), "has the name of something else in the result"),
+        (("values =", 'name = "direction"\nvalues ='), "has the name of something else"),
+        (("materials.*.youngs_modulus", "mass"), "study MACHINE --paths` lists all"),
         (('values = ["190 GPa", "210 GPa", "230 GPa"]', ""), "neither values nor range"),
         (("190 GPa", "190 mm"), "is a length, not a modulus"),
         (('"190 GPa"', "[1]"), "parameters[0].values"),
@@ -106,6 +110,18 @@ def test_a_wrong_file_is_explained(
     assert run.status == 1
     assert message in run.err
     assert run.out == ""
+
+
+def test_poses_that_machines_miss_are_said(strutwork: Program, file: Path) -> None:
+    some = "workspace = { z = { from = 0.65, to = 1.0, points = 4 } }"
+    file.write_text(SHORT.replace("workspace = {}", some), encoding="utf-8")
+    said = strutwork("study", file).out
+    assert "The machines can be asked at 2 of the 4 poses (others are out of reach" in said
+    far = "workspace = { z = { from = 1.5, to = 2.0, points = 2 } }"
+    file.write_text(SHORT.replace("workspace = {}", far), encoding="utf-8")
+    said = strutwork("study", file).out
+    assert "No machine can be asked at any of the 2 poses" in said
+    assert "Stiffness free worst has no finite value in any machine." in said
 
 
 def test_wrong_usage(strutwork: Program, file: Path, tmp_path: Path) -> None:
@@ -194,12 +210,31 @@ def test_a_full_disk_loses_nothing(
     assert run.status == 3
     assert "result.nc" in run.err
     assert "o space left on device" in run.err
+    assert "is kept beside" in run.err
     assert not out.exists()
     monkeypatch.undo()
     assert "Give --resume" in strutwork("study", file, "-o", out).err
     monkeypatch.setattr(Machines, "__call__", None)
     assert strutwork("study", file, "-o", out, "--resume").status == 0
     assert out.is_file()
+
+
+def test_a_disk_that_was_full_from_the_start_leaves_nothing_to_resume(
+    strutwork: Program, file: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "result.nc"
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+    try:
+        run = strutwork("study", file, "-o", out)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert run.status == 3
+    assert "cannot be written (File too large)" in run.err
+    assert "kept beside" not in run.err
+    assert strutwork("study", file, "-o", out).status == 0
+    (tmp_path / "folder.nc").mkdir()
+    assert "is a folder" in strutwork("study", file, "-o", tmp_path / "folder.nc").err
 
 
 def test_the_result_of_another_study_or_version_is_not_overwritten(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 from dataclasses import replace
 from math import inf, nan
 from pathlib import Path
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 import strutwork as sw
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, OutputError
 from strutwork.front import Machine
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.reports.designs.comparison import compare_designs
@@ -152,6 +153,17 @@ def test_what_has_no_tool_and_no_freedom_is_answered_in_words(tmp_path: Path) ->
         for value in (row.a, row.b):
             assert value.known == (value.number is not None or bool(value.words))
     assert found.report(tmp_path / "page.html").stat().st_size > 1e6
+
+
+def test_a_full_disk_is_said_of_the_page(compared: DesignComparison, tmp_path: Path) -> None:
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, limits[1]))
+    try:
+        with pytest.raises(OutputError, match=r"page\.html: cannot be written \(File too large\)"):
+            compared.report(tmp_path / "page.html")
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert not list(tmp_path.iterdir())
 
 
 def test_names_in_the_page_are_text(machines: tuple[Machine, Machine], tmp_path: Path) -> None:

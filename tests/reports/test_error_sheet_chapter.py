@@ -11,6 +11,7 @@ import pytest
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.load import load
 from strutwork.reports.chapters import accuracy
+from strutwork.reports.chapters.error_heat import heat_blocks
 from strutwork.reports.chapters.error_sheet import error_blocks
 from strutwork.reports.content import Details, Figure, Row, Table
 from strutwork.reports.numbers import significant
@@ -56,3 +57,20 @@ def test_without_a_file_the_chapter_is_as_before(gantry: Subject) -> None:
     bare = replace(gantry.model, tolerances=(), drives=())
     assert accuracy.missing(replace(gantry, model=bare, errors=None))
     assert not accuracy.missing(replace(gantry, model=bare))
+
+
+def test_uneven_temperatures_of_solids_are_drawn_with_their_file(gantry: Subject) -> None:
+    inputs = read_errors(EXAMPLES / "errors" / "gantry-warm-bed.toml", gantry.model)
+    (figure,), (file,) = heat_blocks(gantry.model, inputs)
+    assert isinstance(figure, Figure)
+    assert figure.data == file.name
+    (bed,) = gantry.model.solids
+    ((heat,),) = (t.solids for t in inputs.temperatures)
+    (trace,) = figure.spec["data"]
+    assert len(trace["x"]) == len(bed.points) == len(heat.surface)
+    # the bottom keeps its temperature, the front is the coldest
+    bottom = np.isclose(bed.points[:, 2], -0.2)
+    np.testing.assert_allclose(heat.surface[bottom], 0.0, atol=1e-12)
+    assert np.isclose(bed.points[heat.surface.argmin(), 1], -0.45)
+    uniform = replace(inputs.temperatures[0], solids=())
+    assert heat_blocks(gantry.model, replace(inputs, temperatures=(uniform,))) == ([], [])

@@ -16,7 +16,8 @@ from strutwork.msa import tool_compliance
 from strutwork.msa.assembly import system_of
 from strutwork.msa.program_builder import compile_program
 from strutwork.reports.model_solution import solve_model
-from strutwork.studies.error_inputs import DriveError, with_servos
+from strutwork.studies.error_inputs import DriveError
+from strutwork.studies.error_servos import with_servos
 from tests.bearings import ROLLERS, SHAFT, shaft
 
 Array = NDArray[Any]

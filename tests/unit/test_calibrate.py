@@ -187,7 +187,10 @@ def test_progress_counts_starts() -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Parameter("k", 1.0, 2.0, 3.0), "parameter k: starts at 1 between 2 and 3"),
+        (
+            lambda: Parameter("k", 1.0, 2.0, 3.0),
+            "parameter k: starts at 1, and its range is 2 to 3",
+        ),
         (lambda: Parameter("k", 1.0, -1.0, 3.0), 'Give a positive one, or scale="linear"'),
         (lambda: Parameter("k", 1.0, 0.5, np.inf), "not finite"),
         (lambda: Target("f", 1.0, 0.0), "positive uncertainty"),

@@ -13,14 +13,17 @@ from strutwork.machines.load import load
 from strutwork.machines.model import Model
 from strutwork.msa.mass import total_mass as mass_of
 from strutwork.studies import design_search
+from strutwork.studies.chunks import Arrays
 from strutwork.studies.design import Design
-from strutwork.studies.design_judged import CANNOT_BE, FEASIBLE, MISSES, OUTSIDE
+from strutwork.studies.design_judged import CANNOT_BE, FEASIBLE, MISSES, NOT_FINITE, OUTSIDE
 from strutwork.studies.design_pick import changes_of, write_machine
 from strutwork.studies.design_search import front_of
 from strutwork.studies.design_store import parts_of, read_design_result, run_design
 from strutwork.studies.design_table import reasons_of
 from strutwork.studies.design_terms import Constraint, Cost, CostOf, Objective
+from strutwork.studies.parameter import Parameter
 from strutwork.studies.parametric import Parametric
+from strutwork.studies.variants import Variants
 
 pytest.importorskip("pymoo")
 
@@ -144,6 +147,47 @@ def test_every_pose_must_be_reached_unless_reach_is_spoken_of() -> None:
     judged = spoken.judge(spoken.samples(np.array([[0.5]])))
     assert judged.status.tolist() == [FEASIBLE]
     assert judged.values[0, 1] == 0.5
+
+
+def test_machines_that_cannot_be_built_are_counted_together() -> None:
+    """Their reasons have numbers that differ."""
+    thin = Design.of(
+        RPS, {OUTER: ("10 mm", "40 mm")}, "mass", workspace={}, population=4, generations=1
+    )
+    with pytest.raises(ModelError, match=r"4 of them cannot be built, the first because of sect"):
+        run_design(thin)
+
+
+def test_a_quantity_that_is_not_finite_loses_its_machine_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    values = Variants.values
+
+    def some(self: Variants, samples: Any, workers: int | None = None) -> Arrays:
+        found = values(self, samples, workers)
+        stiffness = found["stiffness_free_home"]
+        if len(stiffness) > 1:
+            built = np.flatnonzero(found["status"] == 0)
+            stiffness[built[0]], stiffness[built[1]] = np.inf, np.nan
+        return found
+
+    monkeypatch.setattr(Variants, "values", some)
+    found = run_design(small(generations=2))
+    status = found["status"].to_numpy()
+    lost = np.flatnonzero(status == NOT_FINITE)
+    assert len(lost) == 4
+    assert not set(lost) & set(found["front"].to_numpy())
+    assert np.isfinite(found["stiffness_z"].to_numpy()[found["front"].to_numpy()]).all()
+    assert reasons_of(found)["stiffness z is not finite"] == len(lost)
+    assert (status == FEASIBLE).sum() >= 4
+
+
+def test_names_of_parameters_are_checked_before_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Design, "judge", None)
+    for name in ("share", "front", "poses_reached"):
+        named = [Parameter(OUTER, low="60 mm", high="90 mm", name=name)]
+        with pytest.raises(ModelError, match="has the name of something else in the result"):
+            run_design(Design.of(RPS, named, "mass", workspace={}))
 
 
 def test_cost_is_linear() -> None:

@@ -18,7 +18,8 @@ from strutwork.studies.accuracy_answer import VolumetricAccuracy, drive_errors
 from strutwork.studies.error_answer import ErrorSheets, axis_errors
 from strutwork.studies.error_causes import error_sheet
 from strutwork.studies.error_file import parse_errors, read_errors
-from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs, with_servos
+from strutwork.studies.error_inputs import CuttingForce, DriveError, ErrorInputs
+from strutwork.studies.error_servos import with_servos
 from strutwork.studies.error_sheet import ErrorRow, ErrorSheet
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -227,7 +228,7 @@ def test_an_axis_and_a_workspace_have_the_sheets_of_their_poses() -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('[[temperatures]]\npart = "ram"\nchange = "2 K"', "no one coefficient of expansion"),
+        ('[[temperatures]]\npart = "ram"\nchange = "2 K"', "steel has no coefficient of expansion"),
         ('[[temperatures]]\npart = "rom"\nchange = 2\nexpansion = 1e-5', 'unknown part "rom"'),
         ('[[temperatures]]\nmaterial = "steal"\nchange = 2', "of which no part is made"),
         ('[[temperatures]]\npart = "ram"\nchange = "2 mm"', "is not a difference of temperature"),

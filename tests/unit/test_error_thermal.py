@@ -227,10 +227,10 @@ def test_what_does_not_fit_is_named() -> None:
     model = parse_model(BAR)
     with pytest.raises(ModelError, match=r'unknown part "baar".\nDid you mean "bar"'):
         temperature_of(model, ["baar"], ALPHA, {}, name="t")
-    with pytest.raises(ModelError, match="steel has no one coefficient of expansion"):
+    with pytest.raises(ModelError, match="steel has no coefficient of expansion"):
         temperature_of(model, ["bar"], None, {"granite": 7e-6}, name="t")
     with pytest.raises(ModelError, match="spread"):
         replace(temperature_of(model, ["bar"], ALPHA, {}, name="t"), spread=-1.0)
     body = load(str(MACHINES / "gantry.toml"))
-    with pytest.raises(ModelError, match="gradient, and it is no beam"):
+    with pytest.raises(ModelError, match="gradient across a beam, and it is no beam"):
         heated(body, "spindle", change=0.0, gradient=(1.0, 0.0))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,6 +21,9 @@ from strutwork.front import QUESTIONS, Machine
 from strutwork.machines.load import load as plain_model
 from strutwork.msa import tool_compliance
 from strutwork.studies.answers import Stiffness
+from strutwork.studies.design import Design
+from strutwork.studies.design_pick import changes_of
+from strutwork.studies.design_store import read_design_result
 from strutwork.studies.pose_table import pose_table
 from strutwork.studies.survey import survey
 
@@ -121,6 +127,69 @@ def test_a_changed_machine_has_no_source(machine: Machine) -> None:
     assert (type(changed), changed.source) == (Machine, "")
     copied = pickle.loads(pickle.dumps(machine))  # noqa: S301 - our own
     assert copied.stiffness().free[2] == machine.stiffness().free[2]
+
+
+def test_a_machine_with_other_numbers(machine: Machine) -> None:
+    thick = machine.changed({"sections.ram.diameter": "60 mm"})
+    assert (type(thick), thick.source) == (Machine, "")
+    assert thick.stiffness().free[2] > machine.stiffness().free[2]
+    with pytest.raises(ModelError, match=r'Did you mean "sections\.ram\.diameter"'):
+        machine.changed({"sections.ram.diametre": 0.06})
+    with pytest.raises(ModelError, match="was changed or moved since it was read"):
+        thick.changed({"sections.ram.diameter": 0.06})
+
+
+def test_a_design_of_a_machine(tmp_path: Path) -> None:
+    """Limits by quantity, the file, and each machine of the front as a machine."""
+    machine = sw.load(ROOT / "examples" / "machines" / "3-rps.toml")
+    ranges = {"sections.ram.diameter": ("30 mm", "48 mm")}
+    options: dict[str, Any] = {"workspace": {}, "method": "gradient", "starts": 1}
+    limits: dict[str, Any] = {"at_least": {"stiffness_z": "stated"}, "at_most": {"mass": "1 t"}}
+    file = tmp_path / "light.nc"
+    found = machine.design(ranges, "mass", **limits, out=file, **options)
+    assert read_design_result(file).attrs["design_key"] == found.attrs["design_key"]
+    best = machine.changed(changes_of(found, 1))
+    assert best.stiffness().free[2] >= machine.stiffness().free[2] * (1.0 - 1e-9)
+    settings = json.loads(found.attrs["settings"])
+    assert {c["quantity"]: sorted(c) for c in settings["constraints"]} == {
+        "stiffness_z": ["at_least", "quantity"],
+        "mass": ["at_most", "quantity"],
+    }
+    dynamic = "least_dynamic_stiffness_z"
+    wide, narrow = (
+        Design.of(machine, ranges, dynamic, workspace={}, band=band).stated.values.item()
+        for band in ((5.0, 300.0), (5.0, 6.0))
+    )
+    assert narrow > 1.5 * wide
+    with pytest.raises(ModelError, match='Did you mean "stiffness_z"'):
+        machine.design(ranges, "mass", at_least={"stifness_z": 1.0})
+    with pytest.raises(ModelError, match="was changed or moved since it was read"):
+        best.design(ranges, "mass")
+
+
+def test_wrong_arguments_are_explained(machine: Machine) -> None:
+    ram = "sections.ram.diameter"
+    wrong: list[tuple[Callable[[], object], str]] = [
+        (lambda: machine.study({ram: [0.04]}, workspace="all"), "workspace: is a str"),
+        (lambda: machine.study({ram: [0.04]}, resume=True), "resume: goes on from nothing"),
+        (lambda: machine.study({ram: (0.04, 0.05)}, count=2, seed=-1), "sample.seed: is -1"),
+        (lambda: machine.design({ram: (0.04, 0.05)}, "mass", at_least=["mass"]), "at_least: is a"),
+        (lambda: machine.design({ram: (0.04, 0.05)}, "mass", resume=True), "goes on from nothing"),
+        (lambda: machine.design({ram: (0.04, 0.05)}, "mass", band=(5, 1)), "from 5 to 1 Hz"),
+        (lambda: machine.calibrate(ram), "Give a list of paths"),
+        (lambda: machine.calibrate({ram: 0.05}), "has no pair as its range"),
+        (lambda: machine.calibrate([ram], priors={"ram": 0.1}), "names no parameter of the"),
+        (lambda: machine.calibrate([ram]), "has no measurement"),
+    ]
+    for make, message in wrong:
+        with pytest.raises(ModelError, match=message):
+            make()
+
+
+def test_a_machine_is_compared_with_one_by_its_name() -> None:
+    bar, frame = (ROOT / "examples" / f"{n}.toml" for n in ("01_cantilever", "04_four_bar"))
+    named = sw.load(bar).compare(frame)
+    assert (named.a.name, named.b.name) == (str(bar), str(frame))
 
 
 def test_without_damping_there_is_no_response(machine: Machine) -> None:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 import strutwork as sw
 from strutwork.errors import ModelError, UnitError, UnreachableError
+from strutwork.msa.mass import total_mass
 from strutwork.studies.function import MachineFunction
 from strutwork.studies.gradient import machine_gradient
 from strutwork.studies.parameter import Parameter
@@ -91,6 +92,22 @@ def test_the_worst_is_the_least_of_all_poses(head: MachineFunction) -> None:
     values = every()
     assert {name: values[name].min() for name in head.answers} == pytest.approx(head(), rel=1e-12)
     assert values["stiffness_x"][0] != values["stiffness_x"][1]
+
+
+def test_the_mass_is_that_at_home() -> None:
+    """Its first links are as long as the slider is out, which every pose changes."""
+    paths = ["link_length", "section.outer_diameter"]
+    poses = {"x": [0.003, -0.002], "z": [0.125]}
+    machine = sw.load("proposed-3pprs")
+    f = machine.function(paths, ["mass"], poses=poses, reduction="poses")
+    home = machine.study({"link_length": [0.216]}, "mass", workspace={})["mass"].item()
+    there = float(np.ravel(total_mass(machine.at(x=0.003, z=0.125).placed))[0])
+    assert abs(there / home - 1.0) > 1e-3
+    assert f()["mass"] == pytest.approx([home, home], rel=1e-12)
+    slopes = differences(f, f.start, "mass")
+    np.testing.assert_allclose(f.jacobian()["mass"], slopes, rtol=1e-6)
+    gradient = machine.gradient("mass", by=paths, task={"x": [0.003]})
+    np.testing.assert_allclose(gradient["gradient"][0, :, 0], slopes[0], rtol=1e-6)
 
 
 def test_displacements_are_worst_where_they_are_largest() -> None:

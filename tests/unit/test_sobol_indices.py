@@ -1,4 +1,4 @@
-"""Sobol indices: against closed forms, of incomplete blocks, and through a study."""
+"""Sobol indices: of incomplete blocks, and through a study."""
 
 from __future__ import annotations
 
@@ -19,47 +19,16 @@ from strutwork.studies.sobol_indices import dropped_words, indices
 from strutwork.studies.study import Study
 from strutwork.studies.study_analysis import analysed
 from strutwork.studies.study_table import answer_columns
+from tests.ishigami import closed_form, ishigami
 
 pytest.importorskip("SALib")
 
 RPS = Path(__file__).parents[2] / "examples/machines/3-rps.toml"
 
 
-def ishigami(x: np.ndarray, a: float = 7.0, b: float = 0.1) -> np.ndarray:
-    """Ishigami and Homma (1990): of x in (-pi, pi)^3."""
-    return np.asarray(
-        np.sin(x[:, 0]) + a * np.sin(x[:, 1]) ** 2 + b * x[:, 2] ** 4 * np.sin(x[:, 0])
-    )
-
-
 @pytest.fixture(scope="module")
 def closed() -> dict[str, np.ndarray]:
-    """Variance by variance, Saltelli et al., Sensitivity Analysis in Practice (2004), p. 196."""
-    a, b, pi = 7.0, 0.1, np.pi
-    one = b * pi**4 / 5 + b**2 * pi**8 / 50 + 0.5
-    two, both = a**2 / 8, b**2 * pi**8 * (1 / 18 - 1 / 50)
-    return {
-        "first": np.array([one, two, 0.0]) / (one + two + both),
-        "total": np.array([one + both, two, both]) / (one + two + both),
-        "second": np.array([0.0, both, 0.0]) / (one + two + both),
-    }
-
-
-def test_ishigamis_function_has_the_indices_of_its_closed_form(
-    closed: dict[str, np.ndarray],
-) -> None:
-    shares = block_shares(2048, 3, 5, second_order=True)
-    found = indices(ishigami((2 * shares - 1) * np.pi), 3, second_order=True)
-    assert found.dropped == ()
-    # of six intervals at 95 % one in four times one would miss: three standard deviations
-    assert np.all(np.abs(found.first - closed["first"]) < 1.53 * found.first_confidence)
-    assert np.all(np.abs(found.total - closed["total"]) < 1.53 * found.total_confidence)
-    assert found.first == pytest.approx(closed["first"], abs=0.02)
-    assert found.total == pytest.approx(closed["total"], abs=0.02)
-    pairs = found.second[np.triu_indices(3, 1)]
-    assert pairs == pytest.approx(closed["second"], abs=0.03)
-    # the variance shares of an answer sum to one
-    assert found.first.sum() + pairs.sum() == pytest.approx(1.0, abs=0.03)
+    return closed_form()
 
 
 def test_incomplete_blocks_are_left_out_and_named(closed: dict[str, np.ndarray]) -> None:
