@@ -31,6 +31,8 @@ MOST = 5.0
 
 #: Parameters of the reach.
 COUNT = 30
+#: Of the smallest size.
+FEW = 10
 
 
 #: Model files of the project.
@@ -174,7 +176,8 @@ def main() -> None:
     """Measure, print and perhaps write the table."""
     arguments = parsed(parser(__doc__, DOCUMENT))
     cases = dict(list(CASES.items())[1:2]) if arguments.smallest else CASES
-    found = {name: measured(case, COUNT) for name, case in cases.items()}
+    count = FEW if arguments.smallest else COUNT
+    found = {name: measured(case, count) for name, case in cases.items()}
     shown(table(found), DOCUMENT, arguments)
     if not arguments.smallest:
         slow = [n for n, c in found.items() if c.gradient >= MOST * c.value]

@@ -2,9 +2,27 @@
 
 from __future__ import annotations
 
+import gc
 import os
+from collections.abc import Generator
 
+import pytest
 from hypothesis import settings
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Look for no garbage while tests are read, nor among what was read while they run.
+
+    It is some 600 000 objects that stay; the searches among them took a quarter of the time.
+    """
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
+
 
 # the same examples at every run in CI; elsewhere new ones, which find more
 settings.register_profile("ci", deadline=None, derandomize=True, print_blob=True, max_examples=50)

@@ -142,12 +142,24 @@ def placed(model: Model, task: Mapping[str, float]) -> PlacedStructure:
     return model.structure.at(moved(model, task)[1] if task else model.placement)
 
 
-def answer(model: Model, asked: Asked, task: Mapping[str, float], vibrating: Vibrating) -> float:
-    """A quantity by the solvers that know nothing of gradients."""
+def answers(
+    model: Model, asked: Sequence[Asked], task: Mapping[str, float], vibrating: Vibrating
+) -> Array:
+    """Quantities by the solvers that know nothing of gradients, all at one placement."""
     at = placed(model, task)
-    if asked.kind in ("stiffness", "blocked_stiffness"):
-        stiffness = axis_stiffness_free if asked.kind == "stiffness" else axis_stiffness_blocked
-        return float(stiffness(tool_compliance(at))[asked.direction])
+    stiff = {"stiffness": axis_stiffness_free, "blocked_stiffness": axis_stiffness_blocked}
+    compliance = tool_compliance(at) if any(one.kind in stiff for one in asked) else None
+    return np.array(
+        [
+            stiff[one.kind](compliance)[one.direction]
+            if one.kind in stiff
+            else _answer(model, at, one, vibrating)
+            for one in asked
+        ]
+    )
+
+
+def _answer(model: Model, at: PlacedStructure, asked: Asked, vibrating: Vibrating) -> float:
     if asked.kind == "frequency":
         return float(modes(at, asked.direction + 1).frequencies[asked.direction])
     if asked.kind == "least_dynamic_stiffness":
@@ -161,11 +173,12 @@ def answer(model: Model, asked: Asked, task: Mapping[str, float], vibrating: Vib
     return float(read(part, case.name)[asked.direction])
 
 
-def slope(value: Callable[[float], float], step: float) -> float:
-    """Derivative at zero: central differences of three steps, extrapolated (Richardson)."""
+def slope(value: Callable[[float], Array], step: float) -> Array:
+    """Derivatives at zero: central differences of three steps, extrapolated (Richardson)."""
     found = [(value(h) - value(-h)) / (2 * h) for h in (step, step / 2, step / 4)]
     first, second = ((4 * found[k + 1] - found[k]) / 3 for k in (0, 1))
-    return (16 * second - first) / 15
+    extrapolated: Array = (16 * second - first) / 15
+    return extrapolated
 
 
 def gap(
@@ -191,14 +204,12 @@ def gap(
     result = np.zeros((len(asked), len(parameters)))
     for g, parameter in enumerate(parameters):
         size = abs(parameter.value) or 1.0
-        for q, one in enumerate(asked):
 
-            def at(h: float, one: Asked = one, parameter: Dimension = parameter) -> float:
-                return answer(model_of(parameter.moved(h)), one, task, vibrating)
+        def at(h: float, parameter: Dimension = parameter) -> Array:
+            return answers(model_of(parameter.moved(h)), asked, task, vibrating)
 
-            expected = slope(at, step * size)
-            value = abs(float(found["value"][q, 0]))
-            result[q, g] = abs(float(found["gradient"][q, g, 0]) - expected) / max(
-                abs(expected), 1e-2 * value / size
-            )
+        expected = slope(at, step * size)
+        least = 1e-2 * np.abs(found["value"][:, 0].to_numpy()) / size
+        error = np.abs(found["gradient"][:, g, 0].to_numpy() - expected)
+        result[:, g] = error / np.maximum(np.abs(expected), least)
     return result

@@ -10,7 +10,7 @@ import typer
 from typer.main import get_command
 
 from strutwork.reports.cli.app import app
-from tests.docs.conftest import ROOT
+from tests.docs.building import ROOT
 from tests.reports.browser import Browser
 
 PAGES = (

@@ -91,9 +91,12 @@ def test_gradients_of_chains(machine: Parametric) -> None:
     parameters = [Dimension.of(machine, name) for name in names]
     quantities = ["stiffness_x", "stiffness_rz", "blocked_stiffness_y", "frequency_1"]
     # a step that suits one machine is too long for a softer one; a wrong gradient fails all
-    steps = (1e-3, 2e-4, 4e-5)
-    found = [gap(machine.model, parameters, quantities, step=step) for step in steps]
-    assert np.min(found, axis=0).max() < 1e-6
+    least = np.full((len(quantities), len(parameters)), np.inf)
+    for step in (1e-3, 2e-4, 4e-5):
+        least = np.minimum(least, gap(machine.model, parameters, quantities, step=step))
+        if least.max() < 1e-6:
+            break
+    assert least.max() < 1e-6
 
 
 @settings(max_examples=3, deadline=None)

@@ -92,7 +92,7 @@ def test_a_single_beam_feels_no_rigid_motion(seed: int) -> None:
 
 
 @given(seeds, st.booleans())
-@settings(max_examples=50)
+@settings(max_examples=20)
 def test_all_roads_lead_to_one_answer(seed: int, joints: bool) -> None:
     model = random_frame(seed, joints=joints)
     placed = model.place()
@@ -114,7 +114,7 @@ def test_all_roads_lead_to_one_answer(seed: int, joints: bool) -> None:
 
 
 @given(seeds, st.integers(2, 5))
-@settings(max_examples=30)
+@settings(max_examples=20)
 def test_a_batch_is_its_poses(seed: int, poses: int) -> None:
     rng = np.random.default_rng(seed)
     model = random_frame(seed, joints=True)

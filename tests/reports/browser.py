@@ -111,6 +111,15 @@ class Browser:
         self.evaluate("document.querySelector('.unfold button')?.click()")
         self.wait_for("!document.documentElement.dataset.plots.includes('folded')")
 
+    def draw(self, selector: str) -> None:
+        """Open the chapter of an element of a folded page and wait until its plots are drawn."""
+        self.evaluate(
+            f"(() => {{ const chapter = document.querySelector({json.dumps(selector)})"
+            ".closest('details:not([open])'); if (!chapter) return;"
+            " delete document.documentElement.dataset.plots; chapter.open = true; })()"
+        )
+        self.wait_for("document.documentElement.dataset.plots !== undefined")
+
     def resize(self, width: int, height: int) -> None:
         self.send(
             "Emulation.setDeviceMetricsOverride",

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from strutwork.reports.build import WrittenReport, write_report
+from strutwork.reports.build import WrittenReport
 from tests.reports.browser import Browser, chromium
 from tests.reports.shared import shared_report
 from tests.sharing import folder_of
@@ -101,10 +101,9 @@ def prototype_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
 
 @pytest.fixture(scope="session")
 def model_report(tmp_path_factory: pytest.TempPathFactory) -> WrittenReport:
-    folder = tmp_path_factory.mktemp("model")
-    file = folder / "arm & <co>.toml"
+    file = tmp_path_factory.mktemp("model") / "arm & <co>.toml"
     file.write_text(HOSTILE, encoding="utf-8")
-    return write_report(str(file), folder / "report")
+    return shared("model", str(file), tmp_path_factory)
 
 
 @pytest.fixture(scope="session")

@@ -58,8 +58,9 @@ def test_no_violation_of_wcag(
 def test_plots_are_turned_and_shifted_by_keys(
     browser: Browser, model_report: WrittenReport
 ) -> None:
-    browser.open(model_report.report, 1400)
+    browser.open(model_report.report, 1400, unfolded=False)
     solid, flat = "#cover-softest .drawing", "#budget .drawing"
+    browser.draw(flat)
 
     def press(selector: str, key: str) -> None:
         browser.evaluate(f"document.querySelector('{selector}').focus()")

@@ -58,11 +58,11 @@ def test_a_page_that_is_mailed_alone_keeps_its_links(
     browser: Browser, model_report: WrittenReport, tmp_path: Path
 ) -> None:
     alone = Path(shutil.copy(model_report.report, tmp_path / "mailed.html"))
-    browser.open(alone, 1400)
+    browser.open(alone, 1400, unfolded=False)
     browser.wait_for("document.documentElement.dataset.files === 'linked'")
     # the page itself may fetch nothing: the test may
     browser.send("Page.setBypassCSP", enabled=True)
-    browser.open(alone, 1400)
+    browser.open(alone, 1400, unfolded=False)
     browser.wait_for("document.documentElement.dataset.files === 'linked'")
     found = browser.evaluate(FETCHED)
     browser.send("Page.setBypassCSP", enabled=False)

@@ -98,7 +98,8 @@ def test_three_dimensional_views_show_something(
 def test_names_of_a_model_are_text_and_never_markup(
     browser: Browser, model_report: WrittenReport
 ) -> None:
-    browser.open(model_report.report, WIDTHS[0])
+    browser.open(model_report.report, WIDTHS[0], unfolded=False)
+    browser.draw("#structure-drawing")
 
     title = "Arm </script><script>document.title='taken'</script> & <b>co</b>"
     assert browser.evaluate("document.title") == title
@@ -155,7 +156,7 @@ def test_page_can_be_walked_by_keyboard(browser: Browser, model_report: WrittenR
 def test_the_page_may_not_reach_the_network_even_if_asked(
     browser: Browser, model_report: WrittenReport
 ) -> None:
-    browser.open(model_report.report, WIDTHS[0])
+    browser.open(model_report.report, WIDTHS[0], unfolded=False)
 
     answer = browser.evaluate(
         "fetch('http://127.0.0.1:9/').then(() => 'reached', (error) => error.name)"

@@ -166,7 +166,8 @@ def test_a_mode_swings_at_the_button(
     features = [{"name": "prefers-reduced-motion", "value": value}]
     browser.send("Emulation.setEmulatedMedia", features=features)
     try:
-        browser.open(model_report.report, 1400)
+        browser.open(model_report.report, 1400, unfolded=False)
+        browser.draw("#modes-vibration")
         figure = "document.querySelector('#modes-vibration')"
         now = f"JSON.stringify({figure}.querySelector('.drawing').data[1].z)"
         browser.evaluate(f"{figure}.scrollIntoView()")

@@ -25,7 +25,7 @@ BAND = (5.0, 1500.0)
 @functools.cache
 def held_frame() -> tuple[sp.csc_array, sp.csc_array, Array, Array]:
     """Stiffness, mass, loads on a patch in x, y, z, and ports of three dampers."""
-    stiffness, mass, _ = frame(14, 4, 4).held()
+    stiffness, mass, _ = frame(10, 4, 3).held()
     n = stiffness.shape[0]
     loads, ports = np.zeros((n, 3)), np.zeros((n, 3))
     for i in range(3):

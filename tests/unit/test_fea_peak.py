@@ -23,8 +23,12 @@ Array = NDArray[Any]
 def response(
     omega: Array, products: Array, square: Array, viscous: Array, eta: float, rigid: Array
 ) -> Array:
-    w = omega[:, None]
-    total = (products / (1 - w**2 * square + 1j * (w * viscous + eta))).sum(axis=1)
+    total = np.empty(len(omega), complex)
+    # so many lines at a time as the cache holds: all of hundreds of modes would take gigabytes
+    for i in range(0, len(omega), 1000):
+        w = omega[i : i + 1000, None]
+        terms = products / (1 - w**2 * square + 1j * (w * viscous + eta))
+        total[i : i + 1000] = terms.sum(axis=1)
     moving, alpha = rigid
     if moving:
         total = total + moving / (-(omega**2) + 1j * omega * alpha)

@@ -8,6 +8,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
+import scipy.linalg
 
 from strutwork.errors import NumericalError, UnverifiedWarning
 from strutwork.fea import PartDamping, Port, complex_modes, frequency_response, modes
@@ -40,16 +41,29 @@ def matrices(of: Target) -> tuple[Any, ...]:
 
 
 def precise(k: Any, c: Any, m: Any, pole: complex, shape: Any) -> complex:
-    """A pole to 30 digits of the same matrices, by inverse iteration from a start."""
+    """A pole to 25 digits of the same matrices, by Newton's method from a start.
+
+    Residuals have 40 digits; steps, from one factor of the start in double precision, some.
+    """
+    n, size = len(shape), 1 / np.sqrt(np.abs(np.diag(k)) + np.diag(m) * abs(pole) ** 2)
+    # unknowns and equations scaled; the shape keeps its length along the start
+    scaled = shape / size / np.linalg.norm(shape / size)
+    bordered = np.zeros((n + 1, n + 1), complex)
+    bordered[:n, :n] = (k + pole * c + pole**2 * m) * np.outer(size, size)
+    bordered[:n, n] = size * ((c + 2 * pole * m) @ (size * scaled))
+    bordered[n, :n] = scaled.conj()
+    factor = scipy.linalg.lu_factor(bordered)
     with mp.workdps(40):
         exact = [mp.matrix(x.tolist()) for x in (k, c, m)]
-        s, x = mp.mpc(pole), mp.matrix(shape.tolist())
-        for _ in range(3):
-            slope = exact[1] * x + 2 * s * (exact[2] * x)
-            step = mp.lu_solve(exact[0] + s * exact[1] + s**2 * exact[2], slope)
-            where = max(range(len(x)), key=lambda i: abs(step[i]))
-            s, x = s - x[where] / step[where], step / step[where]
-        return complex(s)
+        s, x = mp.mpc(pole), mp.matrix((size * scaled).tolist())
+        for _ in range(20):
+            left = exact[0] * x + s * (exact[1] * x) + s**2 * (exact[2] * x)
+            right = np.append([-complex(v) for v in left] * size, 0.0)
+            *step, change = scipy.linalg.lu_solve(factor, right)
+            s, x = s + change, x + mp.matrix((size * np.array(step)).tolist())
+            if abs(change) <= 1e-25 * abs(s):
+                return complex(s)
+    raise AssertionError("Newton's method does not converge")
 
 
 def test_ratios_of_two_coupled_dashpot_modes_are_right() -> None:

@@ -102,7 +102,7 @@ def test_no_start_changes_its_assembly_mode(name: str) -> None:
 
 @pytest.mark.parametrize("name", ["hexapod", "prototype", "proposed"])
 def test_a_few_starts_keep_their_assembly_mode(name: str) -> None:
-    check_branches(MACHINES[name], 40, 1500)
+    check_branches(MACHINES[name], 40, 800)
 
 
 def check_branches(machine: Any, count: int, steps: int) -> None:
@@ -150,7 +150,7 @@ def test_the_workspace_of_a_regular_machine_is_found_from_home() -> None:
 
 def test_a_batch_is_its_poses_one_by_one() -> None:
     machine = Proposed3PPRS()
-    _, values = around(machine, 12, 8)
+    _, values = around(machine, 8, 8)
     together = forward_kinematics(machine, values, machine.home())
     for i in range(len(values)):
         alone = forward_kinematics(machine, values[i : i + 1], machine.home())

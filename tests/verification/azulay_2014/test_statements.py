@@ -24,6 +24,7 @@ from strutwork.papers.azulay_2014.regions import SIDES
 from strutwork.papers.azulay_2014.statements import CRITICAL, significance, statements
 from strutwork.papers.azulay_2014.tilts import tilts
 from strutwork.papers.statements import Statement
+from tests.sharing import folder_of, once
 
 ROOT = Path(__file__).parents[3]
 
@@ -38,8 +39,9 @@ KEPT = {
 
 
 @pytest.fixture(scope="module")
-def said(study: Comparison) -> tuple[Statement, ...]:
-    return statements(study)
+def said(study: Comparison, tmp_path_factory: pytest.TempPathFactory) -> tuple[Statement, ...]:
+    folder = folder_of(tmp_path_factory.getbasetemp())
+    return once("azulay-statements", folder, lambda: statements(study))
 
 
 def test_every_result_is_there(said: tuple[Statement, ...]) -> None:
