@@ -172,5 +172,6 @@ def diagonal(square: Array) -> Array:
     Parameters
     ----------
     square : (n, n)
+        Of any unit.
     """
     return np.asarray(np.einsum("ii->i", square))
