@@ -1,6 +1,7 @@
 """Cutting: stability of milling, turning and boring, removal rates and cutting forces."""
 
 from strutwork.cutting.absolute import AbsoluteLimits, absolute_limits, turned_matrices
+from strutwork.cutting.assembly import period_map
 from strutwork.cutting.coefficients import ForceCoefficients, ProcessDamping
 from strutwork.cutting.cutter import Cutter
 from strutwork.cutting.depth_effects import DepthEffects, depth_effects
@@ -14,7 +15,7 @@ from strutwork.cutting.limits import (
     stability_chart,
 )
 from strutwork.cutting.materials import material, material_library
-from strutwork.cutting.period_map import PeriodMap, period_map
+from strutwork.cutting.period_map import PeriodMap
 from strutwork.cutting.pockets import Pocket, best_pockets, removal_rates
 from strutwork.cutting.process import Milling, Turning
 from strutwork.cutting.tip_dynamics import TipDynamics, tip_dynamics

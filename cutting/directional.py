@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -105,10 +106,10 @@ class Directional:
             m.
         """
         swept, lag = self.leave - self.entry, self.lag * depth
-        angles = np.mod([0.0, swept, lag, swept + lag], self.pitch)
-        angles = np.sort(np.where(self.pitch - angles < SAME, 0.0, angles))
-        keep = np.concatenate([[True], np.diff(angles) > SAME])
-        return np.asarray(np.append(angles[keep], self.pitch))
+        angles = [a % self.pitch for a in (0.0, swept, lag, swept + lag)]
+        angles = sorted(0.0 if self.pitch - a < SAME else a for a in angles)
+        keep = [angles[0]] + [b for a, b in pairwise(angles) if b - a > SAME]
+        return np.array([*keep, self.pitch])
 
     def cuts(self, angle: float, depth: float) -> bool:
         """Whether a tooth cuts somewhere along the depth.
@@ -121,7 +122,7 @@ class Directional:
             m.
         """
         span = self.leave - self.entry + self.lag * depth
-        return bool(np.mod(angle, self.pitch) < span)
+        return bool(angle % self.pitch < span)
 
     def at(self, angles: Array, depth: float) -> Array:
         """The matrix (..., 3, 3), mean along the depth, of its own unit.
@@ -136,16 +137,15 @@ class Directional:
         lag = self.lag * depth
         span = self.leave - self.entry + lag
         first = self.entry + np.mod(angles, self.pitch)
-        total = np.zeros((*np.shape(angles), 6))
-        for tooth in range(int(np.ceil(span / self.pitch)) + 1):
-            angle = first + tooth * self.pitch
-            if lag > 0:
-                upper = np.clip(angle, self.entry, self.leave)
-                lower = np.clip(angle - lag, self.entry, self.leave)
-                total += (_integral(upper) - _integral(lower)) / lag
-            else:
-                total += np.where((angle < self.leave)[..., None], _powers(angle), 0.0)
-        return np.asarray(np.tensordot(total, self.terms, 1))
+        teeth = np.arange(int(np.ceil(span / self.pitch)) + 1) * self.pitch
+        angle = np.add.outer(teeth, first)
+        if lag > 0:
+            ends = np.clip(np.stack([angle, angle - lag]), self.entry, self.leave)
+            upper, lower = _integral(ends)
+            total = (upper - lower).sum(axis=0) / lag
+        else:
+            total = np.where((angle < self.leave)[..., None], _powers(angle), 0.0).sum(axis=0)
+        return np.asarray((total @ self.terms.reshape(6, 9)).reshape(*np.shape(angles), 3, 3))
 
 
 def _powers(angle: Array) -> Array:

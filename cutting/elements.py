@@ -77,8 +77,8 @@ def response_weights(poles: Array, order: int, length: float) -> Array:
         s.
     """
     swing = float(np.abs(poles).max()) * length
-    # rounded up, so that few tables are made
-    points = int(np.ceil((0.5 * order + 0.35 * swing + 12.0) / 8.0)) * 8
+    # as many as integrate polynomial and exponential to rounding, rounded up to have few tables
+    points = int(np.ceil((0.5 * order + 0.35 * swing + min(12.0, 8.0 + 0.1 * swing)) / 4.0)) * 4
     left, weighted = _tables(order, points)
     scaled = 0.5 * length * poles
     growth = np.exp(scaled[:, None, None] * left)

@@ -10,19 +10,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from strutwork.cutting.assembly import Assembly, assembly
 from strutwork.cutting.numbers import positive, positive_list
-from strutwork.cutting.period_map import PeriodMap, period_map
+from strutwork.cutting.period_map import PeriodMap
 from strutwork.cutting.process import Process
+from strutwork.cutting.spans import first_margin
 from strutwork.cutting.tip_modes import TipModes
 from strutwork.errors import NumericalError
 
 Array = NDArray[Any]
 
-#: Nodes beyond the least that resolves the fastest mode, tried in turn.
-MARGINS = (6, 9, 12, 16, 20, 26, 32)
+#: Nodes beyond the first margin, tried in turn.
+MORE = (0, 3, 6, 10, 14, 18, 23, 28)
 
 #: Largest change of the magnitude of a multiplier by more nodes that is let pass.
 TOLERANCE = 1e-6
+
+#: Share of it at the depths of a chart that are checked: between them magnitudes change more.
+BETWEEN = 0.5
 
 #: Ratio of one trial depth to the one before.
 STRIDE = 1.12
@@ -143,7 +148,7 @@ def stability_chart(
     """Largest multipliers at every speed and depth.
 
     Nodes are added at each speed until the magnitudes at its smallest, middle and largest depth
-    change by no more than the tolerance.
+    change by no more than half the tolerance, which leaves the rest to the depths between.
 
     Parameters
     ----------
@@ -171,12 +176,13 @@ def stability_chart(
     deep = positive_list("depths of cut", depths, "m")
     order = np.argsort(deep)
     checked = np.unique(order[[0, len(deep) // 2, -1]])
+    cut = assembly(modes, process)
     found = np.empty((len(rpm), len(deep)), dtype=complex)
     worst = 0.0
     for row, speed in enumerate(rpm / 60.0):
-        margin, change = _margin(modes, process, speed, deep[checked], tolerance)
+        margin, change = _margin(cut, speed, deep[checked], tolerance)
         worst = max(worst, change)
-        at = _Maps(modes, process, speed, margin)
+        at = _Maps(cut, speed, margin)
         found[row] = [at(depth).largest(depth) for depth in deep]
     return StabilityChart(rpm, deep, found, worst)
 
@@ -232,8 +238,9 @@ def depth_limits(
     kinds: list[Kind] = ["stable"] * len(rpm)
     leading = np.full(len(rpm), -1)
     frequencies = np.full(len(rpm), np.nan)
+    cut = assembly(modes, process)
     for row, speed in enumerate(rpm / 60.0):
-        limit, maps = _limit(modes, process, speed, trials, tolerance)
+        limit, maps = _limit(cut, speed, trials, tolerance)
         if not np.isfinite(limit):
             continue
         multiplier, mode = _leading(maps(limit), limit, modes)
@@ -246,15 +253,13 @@ def depth_limits(
 class _Maps:
     """Maps of one speed by depth: one map where teeth are straight."""
 
-    def __init__(self, modes: TipModes, process: Process, speed: float, margin: int) -> None:
-        self._given = (modes, process, speed, margin)
-        self._same = process.directional.lag == 0
+    def __init__(self, cut: Assembly, speed: float, margin: int) -> None:
+        self._cut, self._speed, self._margin = cut, speed, margin
         self._kept: PeriodMap | None = None
 
     def __call__(self, depth: float) -> PeriodMap:
-        if self._kept is None or not self._same:
-            modes, process, speed, margin = self._given
-            self._kept = period_map(modes, process, speed, depth, margin)
+        if self._kept is None or self._cut.chip.lag != 0:
+            self._kept = self._cut.at(self._speed, depth, self._margin)
         return self._kept
 
     def excess(self, depth: float) -> float:
@@ -262,32 +267,32 @@ class _Maps:
         return float(np.log(max(abs(self(depth).largest(depth)), 1e-300)))
 
 
-def _margin(
-    modes: TipModes, process: Process, speed: float, depths: Array, tolerance: float
-) -> tuple[int, float]:
+def _margin(cut: Assembly, speed: float, depths: Array, tolerance: float) -> tuple[int, float]:
     """The first margin whose magnitudes the next one leaves, and by how much they change."""
     before: Array | None = None
     change, at = np.inf, 0
-    for number, margin in enumerate(MARGINS):
-        maps = _Maps(modes, process, speed, margin)
+    first = first_margin(cut.chip, cut.fastest, speed, float(depths.max()), tolerance)
+    for number, more in enumerate(MORE):
+        margin = first + more
+        maps = _Maps(cut, speed, margin)
         now = np.array([abs(maps(depth).largest(depth)) for depth in depths])
         if before is not None:
             off = np.abs(now - before) / np.maximum(now, 1.0)
             at = int(off.argmax())
-            change = float(off[at])
-            if change <= tolerance:
-                return MARGINS[number - 1], change
+            # two magnitudes that agree to rounding say no more than that
+            change = max(float(off[at]), np.finfo(float).eps)
+            if change <= BETWEEN * tolerance:
+                return first + MORE[number - 1], change
         before = now
     raise _unsettled(speed, float(depths[at]), change)
 
 
-def _limit(
-    modes: TipModes, process: Process, speed: float, trials: Array, tolerance: float
-) -> tuple[float, _Maps]:
+def _limit(cut: Assembly, speed: float, trials: Array, tolerance: float) -> tuple[float, _Maps]:
     """The border at a speed, infinite for none, with the maps that gave it."""
     change, at = np.inf, 0.0
-    for number, margin in enumerate(MARGINS[:-1]):
-        maps = _Maps(modes, process, speed, margin)
+    first = first_margin(cut.chip, cut.fastest, speed, float(trials[-1]), tolerance)
+    for more, further in pairwise(MORE):
+        maps = _Maps(cut, speed, first + more)
         limit = at = float(trials[-1])
         stable = True
         for below, above in pairwise(trials):
@@ -295,9 +300,9 @@ def _limit(
                 stable = False
                 limit = at = _first_crossing(maps, below, above)
                 break
-        finer = _Maps(modes, process, speed, MARGINS[number + 1])
+        finer = _Maps(cut, speed, first + further)
         here, there = abs(maps(at).largest(at)), abs(finer(at).largest(at))
-        change = abs(here - there) / max(here, 1.0)
+        change = max(abs(here - there) / max(here, 1.0), np.finfo(float).eps)
         if change <= tolerance:
             return (np.inf if stable else limit), maps
     raise _unsettled(speed, at, change)

@@ -9,47 +9,16 @@ eigenvalues are the characteristic multipliers, and the cut is stable where all 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lapack
 
-from strutwork.cutting.directional import Directional
-from strutwork.cutting.elements import gauss, response_weights
-from strutwork.cutting.process import Process
-from strutwork.cutting.tip_modes import TipModes
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import NumericalError
 
 Array = NDArray[Any]
-
-#: Nodes of an element at most; a longer one is cut.
-ORDER = 40
-
-#: Unknowns of a map at most.
-LARGEST = 1200
-
-#: Directions in which the tip moves less than this share of its largest motion do not count.
-STILL = 1e-12
-
-
-@dataclass(frozen=True)
-class Span:
-    """One element of a period.
-
-    Parameters
-    ----------
-    start, length : float
-        s, from the entry of a tooth.
-    order : int
-        Nodes.
-    """
-
-    start: float
-    length: float
-    order: int
 
 
 @dataclass(frozen=True)
@@ -140,17 +109,19 @@ class PeriodMap:
         if self.damped is not None:
             kernel, free, decay, drive = self.damped.at(depth, free, decay)
         size, states = len(kernel), len(decay)
-        right = np.empty((size, states + size), order="F")
+        implicit = np.asarray(-depth * kernel, order="F")
+        diagonal(implicit)[:] += 1.0
+        right = np.zeros((size, states + size), order="F")
         right[:, :states] = free
-        right[:, states:] = -np.eye(size)
-        _, _, gap, info = lapack.dgesv(np.eye(size) - depth * kernel, right, overwrite_b=1)
+        diagonal(right[:, states:])[:] = -1.0
+        _, _, gap, info = lapack.dgesv(implicit, right, overwrite_a=1, overwrite_b=1)
         if info:
             raise NumericalError("period map", "is singular.", "Take another depth of cut.")
         found = np.empty((states + size, states + size), order="F")
         found[:states] = depth * (drive @ gap)
         found[:states, :states] += decay
         found[states:] = gap
-        found[states:, states:] += np.eye(size)
+        diagonal(found[states:, states:])[:] += 1.0
         return found
 
     def multipliers(self, depth: float) -> Array:
@@ -195,153 +166,12 @@ class PeriodMap:
         return complex(worst.real, abs(worst.imag))
 
 
-def period_map(
-    modes: TipModes, process: Process, speed: float, depth: float, margin: int
-) -> PeriodMap:
-    """Assemble the map at a spindle speed.
+def diagonal(square: Array) -> Array:
+    """View of the diagonal (n,) that can be written to.
 
     Parameters
     ----------
-    modes : TipModes
-    process : Process
-    speed : float
-        Turns per second, Hz.
-    depth : float
-        m; where teeth are straight the map holds for every depth.
-    margin : int
-        Nodes of an element beyond half its length in radians of the fastest mode.
-
-    Returns
-    -------
-    PeriodMap
-
-    Raises
-    ------
-    ModelError
-        No mode moves the tip in a direction of the chip.
-    NumericalError
-        A speed so low that the map would be beyond its largest size.
+    square : (n, n)
+        Of any unit.
     """
-    chip, flank = process.directional, process.flank(speed)
-    spans = _spans(chip, modes.poles, speed, depth, margin)
-    basis = chip_directions(modes, chip)
-    nodes = sum(span.order for span in spans)
-    if nodes * basis.shape[1] > LARGEST:
-        raise NumericalError(
-            "period map",
-            f"has {nodes * basis.shape[1]} unknowns at {60 * speed:g} rpm, more than {LARGEST}.",
-            "Ask for higher speeds, or leave out modes of high frequency.",
-        )
-    period = chip.pitch / (2.0 * np.pi * speed)
-    times = np.concatenate([s.start + 0.5 * s.length * (gauss(s.order)[0] + 1) for s in spans])
-    poles = modes.poles
-    within, to_end = _integrals(poles, spans, times, period)
-    shapes = modes.shapes @ basis
-    kernel = _real(np.einsum("ra,rc->rac", shapes, modes.loads), within)
-    free = _state_part(shapes, np.exp(poles[:, None] * times))
-    last = np.exp(poles * period)
-    decay = np.block(
-        [[np.diag(last.real), np.diag(-last.imag)], [np.diag(last.imag), np.diag(last.real)]]
-    )
-    ends = to_end[:, :, None] * modes.loads[:, None, :]
-    drive = np.concatenate([ends.real, ends.imag]).reshape(2 * len(poles), 3 * nodes)
-    angles = 2.0 * np.pi * speed * times
-    chip_at = _blocks(chip.at(angles, depth) @ basis)
-    plain = PeriodMap(kernel @ chip_at, free, decay, drive @ chip_at)
-    if flank is None:
-        return plain
-    moving = shapes * poles[:, None]
-    velocity = _real(np.einsum("ra,rc->rac", moving, modes.loads), within)
-    # a load moves a tip at once only where residues are complex
-    at_once = 2.0 * np.einsum("ra,rc->ac", shapes, modes.loads).real
-    velocity += np.kron(np.eye(nodes), at_once)
-    velocity_free = _state_part(moving, np.exp(poles[:, None] * times))
-    flank_at = _blocks(flank.at(angles, depth) @ basis)
-    return replace(plain, damped=Damped(velocity, velocity_free, chip_at, flank_at, kernel, drive))
-
-
-def chip_directions(modes: TipModes, chip: Directional) -> Array:
-    """Unit vectors (3, d), no unit, along which the tip moves and changes the chip.
-
-    Parameters
-    ----------
-    modes : TipModes
-    chip : Directional
-
-    Raises
-    ------
-    ModelError
-        There is none.
-    """
-    rows = chip.terms.reshape(-1, 3)
-    _, size, axes = np.linalg.svd(rows, full_matrices=False)
-    seen = axes[size > STILL * size[0]].T
-    moved = seen.T @ np.concatenate([modes.shapes.real, modes.shapes.imag]).T
-    left, size, _ = np.linalg.svd(moved, full_matrices=False)
-    whole = max(float(np.abs(modes.shapes).max()), np.finfo(float).tiny)
-    kept = left[:, size > STILL * whole]
-    if not kept.shape[1]:
-        raise ModelError(
-            "modes of the tip",
-            "move it in no direction that changes the chip.",
-            "Give a mode across the cut, or check the axes of the process.",
-        )
-    return np.asarray(seen @ kept)
-
-
-def _spans(chip: Directional, poles: Array, speed: float, depth: float, margin: int) -> list[Span]:
-    """Elements of the cuts of a period."""
-    turning = 2.0 * np.pi * speed
-    fastest = float(np.abs(poles).max())
-    found = []
-    breaks = chip.breaks(depth)
-    for start, stop in pairwise(breaks):
-        if not chip.cuts(0.5 * (start + stop), depth):
-            continue
-        length = (stop - start) / turning
-        pieces = int(np.ceil((0.5 * fastest * length + 1e-9) / (ORDER - 12)))
-        for piece in range(pieces):
-            order = int(np.ceil(0.5 * fastest * length / pieces)) + margin
-            found.append(Span(start / turning + piece * length / pieces, length / pieces, order))
-    return found
-
-
-def _integrals(poles: Array, spans: list[Span], times: Array, period: float) -> tuple[Array, Array]:
-    """Response of each mode at the nodes (n, m, m), and at the end (n, m), to unit loads, s."""
-    nodes = len(times)
-    within = np.zeros((len(poles), nodes, nodes), dtype=complex)
-    to_end = np.empty((len(poles), nodes), dtype=complex)
-    first = 0
-    for span in spans:
-        last = first + span.order
-        weights = response_weights(poles, span.order, span.length)
-        end = span.start + span.length
-        within[:, first:last, first:last] = weights[:, :-1]
-        later = np.exp(poles[:, None] * (times[last:] - end))
-        within[:, last:, first:last] = later[:, :, None] * weights[:, None, -1]
-        to_end[:, first:last] = np.exp(poles * (period - end))[:, None] * weights[:, -1]
-        first = last
-    return within, to_end
-
-
-def _real(dyads: Array, within: Array) -> Array:
-    """Sum over modes and their conjugates, (m d, 3 m)."""
-    n, d, c = dyads.shape
-    m = within.shape[-1]
-    flat, square = dyads.reshape(n, d * c), within.reshape(n, m * m)
-    total = 2.0 * (square.real.T @ flat.real - square.imag.T @ flat.imag)
-    return np.asarray(total.reshape(m, m, d, c).transpose(0, 2, 1, 3).reshape(m * d, m * c))
-
-
-def _state_part(shapes: Array, swing: Array) -> Array:
-    """Motion at the nodes by real and imaginary parts of the modes' state, (m d, 2 n)."""
-    parts = 2.0 * np.einsum("ra,rm->mar", shapes, swing).reshape(-1, len(shapes))
-    return np.concatenate([parts.real, -parts.imag], axis=1)
-
-
-def _blocks(matrices: Array) -> Array:
-    """Matrices (m, 3, d) along the diagonal of (3 m, m d)."""
-    m, rows, columns = matrices.shape
-    found = np.zeros((m, rows, m, columns))
-    found[np.arange(m), :, np.arange(m)] = matrices
-    return found.reshape(m * rows, m * columns)
+    return np.asarray(np.einsum("ii->i", square))
