@@ -57,6 +57,17 @@ class EnergyBasis:
         """M V, (n, size)."""
         return self._room[2][:, : self.size]
 
+    def energy(self, block: Array) -> Array:
+        """(K + shift M) times some motions, N and N·m.
+
+        Parameters
+        ----------
+        block : (n, k)
+            m and rad.
+        """
+        force = self.stiffness @ block
+        return np.asarray(force + self.shift * (self.mass @ block) if self.shift else force)
+
     def grow(self, loads: Array, block: Array) -> slice:
         """Add what is new in the answers to some loads; returns where it stands.
 

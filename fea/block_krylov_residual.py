@@ -28,6 +28,9 @@ ROUNDING = 1e-20
 #: Eigenvalue of the Gram matrix of unit vectors below which they are linearly dependent.
 COLLINEAR = 1e-13
 
+#: Eigenvalue above which one step of orthonormalisation is as good as two.
+APART = 1e-6
+
 #: Share of the largest below which a negative eigenvalue of a damping matrix is rounding.
 NEGATIVE = 1e-9
 
@@ -125,32 +128,34 @@ class Residual:
             return np.asarray(((np.abs(square) + self.shift) / np.abs(dynamic)).max(axis=1))
 
 
-def beyond(basis: EnergyBasis, answers: Array) -> Array:
-    """What answers S⁻¹ x add to the basis, orthonormal in its energy, (n, p).
+def beyond(basis: EnergyBasis, loads: Array, answers: Array) -> Array:
+    """What answers S⁻¹ loads add to the basis, orthonormal in its energy, (n, p).
 
     Parameters
     ----------
     basis : EnergyBasis
+    loads : (n, q)
+        N, N·m.
     answers : (n, q)
-        Of one size or not, m and rad.
+        m and rad.
     """
-    force, push = basis.stiffness @ answers, basis.mass @ answers
-    size = np.einsum("ij,ij->j", answers, force + basis.shift * push)
+    size = np.einsum("ij,ij->j", answers, loads)
     answers = answers[:, size > 0] / np.sqrt(size[size > 0])
     for _ in range(2):
         weights = basis.force.T @ answers + basis.shift * (basis.push.T @ answers)
         answers -= basis.vectors @ weights
     for least in (ROUNDING, 0.0):
-        gram = answers.T @ (basis.stiffness @ answers + basis.shift * (basis.mass @ answers))
+        gram = answers.T @ basis.energy(answers)
         # columns of one size: what the eigenvalues drop is then what is collinear
         size = gram.diagonal()
         kept = size > least
         root = np.sqrt(size[kept])
-        values, turn = np.linalg.eigh(
-            (gram + gram.T)[np.ix_(kept, kept)] / 2.0 / root[:, None] / root
-        )
+        gram = gram[np.ix_(kept, kept)] / root[:, None] / root
+        values, turn = np.linalg.eigh((gram + gram.T) / 2.0)
         fresh = values > COLLINEAR
-        answers = (answers[:, kept] / root) @ (turn[:, fresh] / np.sqrt(values[fresh]))
+        answers = answers[:, kept] @ (turn[:, fresh] / root[:, None] / np.sqrt(values[fresh]))
+        if values[fresh].min(initial=1.0) > APART:
+            break
     return np.asarray(answers)
 
 

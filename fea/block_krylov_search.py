@@ -24,8 +24,9 @@ COMPARED = 200
 #: Largest errors between whose neighbours more lines are put, how many, and how often.
 PEAKS, BETWEEN, TIMES = 3, 9, 2
 
-#: Lines at which missing motions are added, or the residual is formed in full.
-CHECKED = 2
+#: Squared size, in tolerances, from which a direction of the residuals is added to the basis, and
+#: how many at once.
+ENOUGH, MORE = 0.1, 12
 
 #: Share of the tolerance that is used: the rest is for what lies between lines.
 USED = 0.8
@@ -132,15 +133,14 @@ class Search:
             settled = change <= NEAR * self.tolerance or change > last / 3.0
             checked, added = settled or not self.enriches or not added, False
             if checked:
-                directions = self._directions(ahead)
+                directions = self._directions(push, ahead)
                 rest = residual(self.basis, self.damping, small, directions)
                 errors, lines = self._errors(small, rest)
                 error, worst = float(errors.max()), float(lines[errors.argmax()])
                 if error <= USED * self.tolerance:
                     return self._verified(Found(small, rest, error, worst), lines)
                 if self.enriches:
-                    peaks = lines[_peaks(errors)[:CHECKED]]
-                    added = self._enrich(small, rest, directions, peaks)
+                    added = self._enrich(small, rest, directions, lines)
             before, last = small, change
             for i, solve in enumerate(solves):
                 if blocks[i].stop > blocks[i].start:
@@ -188,22 +188,24 @@ class Search:
             errors, lines = np.r_[errors, at(more)][order], np.r_[lines, more][order]
         return errors, lines
 
-    def _directions(self, ahead: Array) -> Array:
+    def _directions(self, push: Array, ahead: Array) -> Array:
         """What S⁻¹ of the model's matrices times the basis adds to it.
 
         All but the last block's masses, motions that were added, and damping matrices lies in the
         basis: also for further expansions, since S v = M u with S = K − ω²M makes K⁻¹M v the sum
         of such terms of u.
         """
-        answers = [ahead]
-        for name in ("viscous", "structural"):
-            matrix = getattr(self.damping, name)
-            if matrix is not None:
-                answers.append(self._answered(name, matrix @ self.basis.vectors))
+        loads = {name: getattr(self.damping, name) for name in ("viscous", "structural")}
+        loads = {k: x @ self.basis.vectors for k, x in loads.items() if x is not None}
         if self._enriched:
-            push = np.concatenate([self.basis.push[:, s] for s in self._enriched], axis=1)
-            answers.append(self._answered("mass", push))
-        return beyond(self.basis, np.concatenate(answers, axis=1))
+            parts = [self.basis.push[:, s] for s in self._enriched]
+            loads["mass"] = np.concatenate(parts, axis=1)
+        answers = [self._answered(name, x) for name, x in loads.items()]
+        return beyond(
+            self.basis,
+            np.concatenate([push, *loads.values()], axis=1),
+            np.concatenate([ahead, *answers], axis=1),
+        )
 
     def _answered(self, name: str, loads: Array) -> Array:
         """S⁻¹ loads, of which the first columns are known."""
@@ -215,11 +217,17 @@ class Search:
         return known
 
     def _enrich(self, small: SmallModel, rest: Residual, directions: Array, lines: Array) -> bool:
-        """Add the motions that lines lack; returns whether there were any."""
-        missing = rest.coordinates(small, lines, small.coordinates(lines))
-        block = directions @ _apart(np.concatenate(list(missing), axis=1))
-        loads = self.basis.stiffness @ block + self.basis.shift * (self.basis.mass @ block)
-        new = self.basis.grow(loads, block)
+        """Add the directions in which lines lack most; returns whether there were any."""
+        states = small.coordinates(lines)
+        weights = rest.gain(small, lines) / np.linalg.norm(small.ports.T @ states, axis=(1, 2))
+        # so weighted, a line's squared norm is its error
+        missing = np.sqrt(weights)[:, None, None] * rest.coordinates(small, lines, states)
+        turn, sizes, _ = np.linalg.svd(
+            _apart(np.concatenate(list(missing), axis=1)), full_matrices=False
+        )
+        wanted = sizes**2 > ENOUGH * self.tolerance
+        block = directions @ turn[:, wanted][:, :MORE]
+        new = self.basis.grow(self.basis.energy(block), block)
         self._enriched.append(new)
         return new.stop > new.start
 
