@@ -14,6 +14,7 @@ field of values.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -160,7 +161,11 @@ def beyond(basis: EnergyBasis, loads: Array, answers: Array) -> Array:
 
 
 def residual(
-    basis: EnergyBasis, damping: MatrixDamping, small: SmallModel, directions: Array
+    basis: EnergyBasis,
+    damping: MatrixDamping,
+    small: SmallModel,
+    directions: Array,
+    damped: Sequence[Array],
 ) -> Residual:
     """Residual of a model whose answers beyond the basis lie in some directions.
 
@@ -172,19 +177,21 @@ def residual(
         Projected on the basis.
     directions : (n, p)
         As `beyond` returns them, m and rad per square root of J.
+    damped : two of (n, k)
+        C V and D V, N·s and N, and N·m s and N·m, per square root of J.
     """
-    none = np.zeros((directions.shape[1], basis.size))
+    mass = directions.T @ basis.push
+    eta, rate, time = small.factors
+    # K V is S V, which directions do not know, less shift M V
     viscous, structural = (
-        none if matrix is None else directions.T @ (matrix @ basis.vectors)
-        for matrix in (damping.viscous, damping.structural)
+        np.zeros_like(mass) if matrix is None else directions.T @ whole - share * mass
+        for matrix, whole, share in (
+            (damping.viscous, damped[0], rate - time * basis.shift),
+            (damping.structural, damped[1], -eta * basis.shift),
+        )
     )
-    return Residual(
-        basis.shift,
-        directions.T @ basis.push,
-        viscous,
-        structural,
-        any(small.factors) and damping.takes_power and _positive(small),
-    )
+    proven = any(small.factors) and damping.takes_power and _positive(small)
+    return Residual(basis.shift, mass, viscous, structural, proven)
 
 
 def _positive(small: SmallModel) -> bool:

@@ -81,16 +81,18 @@ class Search:
     factor: Factor
     band: tuple[float, float]
     tolerance: float
-    _damped: tuple[Array, Array] = field(init=False)
+    _damped: tuple[Array, ...] = field(init=False, default=())
     _answers: dict[str, Array] = field(init=False, default_factory=dict)
     _enriched: list[slice] = field(init=False, default_factory=list)
 
     def small(self) -> SmallModel:
         """The projected matrices."""
         b = self.basis
-        v = b.vectors
-        viscous, structural = self.damping.apply(b.force, b.push, v)
-        self._damped = (viscous, structural)
+        v, known = b.vectors, self._damped[0].shape[1] if self._damped else 0
+        new = self.damping.apply(b.force[:, known:], b.push[:, known:], v[:, known:])
+        if self._damped:
+            new = tuple(np.hstack(x) for x in zip(self._damped, new, strict=True))
+        self._damped = viscous, structural = new
         k, m, c, d = (
             (x + x.T) / 2.0 for x in (v.T @ y for y in (b.force, b.push, viscous, structural))
         )
@@ -134,7 +136,7 @@ class Search:
             checked, added = settled or not self.enriches or not added, False
             if checked:
                 directions = self._directions(push, ahead)
-                rest = residual(self.basis, self.damping, small, directions)
+                rest = residual(self.basis, self.damping, small, directions, self._damped)
                 errors, lines = self._errors(small, rest)
                 error, worst = float(errors.max()), float(lines[errors.argmax()])
                 if error <= USED * self.tolerance:
@@ -195,8 +197,9 @@ class Search:
         basis: also for further expansions, since S v = M u with S = K − ω²M makes K⁻¹M v the sum
         of such terms of u.
         """
-        loads = {name: getattr(self.damping, name) for name in ("viscous", "structural")}
-        loads = {k: x @ self.basis.vectors for k, x in loads.items() if x is not None}
+        given = self.damping.viscous, self.damping.structural
+        # with their shares of K and M, which add nothing of their own
+        loads = {str(i): x for i, x in enumerate(self._damped) if given[i] is not None}
         if self._enriched:
             parts = [self.basis.push[:, s] for s in self._enriched]
             loads["mass"] = np.concatenate(parts, axis=1)
