@@ -90,9 +90,9 @@ class Search:
         b = self.basis
         v, known = b.vectors, self._damped[0].shape[1] if self._damped else 0
         new = self.damping.apply(b.force[:, known:], b.push[:, known:], v[:, known:])
-        if self._damped:
-            new = tuple(np.hstack(x) for x in zip(self._damped, new, strict=True))
-        self._damped = viscous, structural = new
+        before = self._damped or (v[:, :0], v[:, :0])
+        viscous, structural = (np.hstack(x) for x in zip(before, new, strict=True))
+        self._damped = (viscous, structural)
         k, m, c, d = (
             (x + x.T) / 2.0 for x in (v.T @ y for y in (b.force, b.push, viscous, structural))
         )
@@ -232,7 +232,7 @@ class Search:
         block = directions @ turn[:, wanted][:, :MORE]
         new = self.basis.grow(self.basis.energy(block), block)
         self._enriched.append(new)
-        return new.stop > new.start
+        return bool(new.stop > new.start)
 
     def _verified(self, found: Found, lines: Array) -> Found:
         """The model, after the residual of the full system at its worst lines."""
