@@ -58,7 +58,7 @@ class EnergyBasis:
         return self._room[2][:, : self.size]
 
     def energy(self, block: Array) -> Array:
-        """(K + shift M) times some motions, N and N·m.
+        """(K + shift M) times some motions, (n, k), N and N·m.
 
         Parameters
         ----------

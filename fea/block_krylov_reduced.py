@@ -32,7 +32,8 @@ class KrylovModel:
         Hz, in which the error was searched.
     error : float
         Largest error of a line's receptance in the band, Frobenius norm over Frobenius norm: a
-        bound where `residual.proven`, otherwise an estimate (`errors`).
+        bound where `residual.proven`, otherwise an estimate (`errors`); with an estimate of
+        rounding where it is largest.
     worst : float
         Hz, where.
     tolerance : float
