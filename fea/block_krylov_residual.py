@@ -7,9 +7,9 @@ leaves R no component in the basis, so the receptance is wrong by exactly Rᵀ Z
 the squared norm times the norm of S^½ Z⁻¹ S^½. The latter is at most one over the distance of
 S^-½ Z S^-½'s field of values from zero, which damping keeps away from it.
 
-Sources: Beattie and Gugercin (2009), Systems and Control Letters 58, 225, for the error as a
-product of two residuals; Horn and Johnson (1991), Topics in Matrix Analysis, section 1.3, for the
-field of values.
+Sources: Feng, Antoulas and Benner (2017), ESAIM: Mathematical Modelling and Numerical Analysis 51,
+2127, for bounds from residuals; Horn and Johnson (1991), Topics in Matrix Analysis, chapter 1, for
+the field of values.
 """
 
 from __future__ import annotations
