@@ -152,7 +152,7 @@ def _vibration(study: VibrationStudy) -> Chapter:
             "Platform and stages are rigid; spherical and revolute joints rotate freely.",
         ),
     )
-    return replace(chapter, cover=vibration_answers(study, given="With assumed masses"))
+    return replace(chapter, cover=vibration_answers(study, given="With assumed masses and damping"))
 
 
 def _summary(

@@ -65,6 +65,9 @@ IN_PLANE = (
     "a calibration of the drives can take out; what moves it along y or about x and z stays."
 )
 
+#: What the locked-in force on the cover depends on.
+CALIBRATED = "; bearings are calibrated, their rating and some tolerances assumed."
+
 RATING = f"{significant(STATIC_RATING / 1e3)} kN"
 
 
@@ -145,7 +148,7 @@ def machine_chapter(study: MitSS1Study) -> Chapter:
         ),
     )
     key = "overconstraint"
-    cover = (locked_answer(own, key),)
+    cover = (locked_answer(own, key, CALIBRATED),)
     return Chapter(key, "Assembly forces of the machine", *gathered, cover=cover)
 
 

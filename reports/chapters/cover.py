@@ -279,7 +279,7 @@ def _locked(subject: Subject) -> Answer:
     return locked_answer(subject.tolerances.study)
 
 
-def locked_answer(study: ToleranceStudy, link: str = "tolerances") -> Answer:
+def locked_answer(study: ToleranceStudy, link: str = "tolerances", ending: str = ".") -> Answer:
     """The force that manufacturing errors lock in: nearest to its limit, else the largest.
 
     Parameters
@@ -288,20 +288,22 @@ def locked_answer(study: ToleranceStudy, link: str = "tolerances") -> Answer:
         Of a machine that is constrained more than once.
     link : str
         Key of the chapter that says more.
+    ending : str
+        How the sentence ends.
     """
     used = study.utilisation
     top = int(np.argmax(used))
     if used[top] <= 0:
         forces = [i for i, q in enumerate(study.quantities) if q.unit == "N"]
         if not forces:
-            return Answer("Manufacturing errors lock in ", "moments only", ".", link)
+            return Answer("Manufacturing errors lock in ", "moments only", ending, link)
         top = max(forces, key=lambda i: float(study.largest[i]))
     quantity = study.quantities[top]
-    after = f": {quantity.name} in the worst case; no limit is given."
+    after = f": {quantity.name} in the worst case; no limit is given{ending}"
     if used[top] > 0:
         limit = f"{significant(float(study.limit[top]))} {quantity.unit}"
         beyond = "more than" if used[top] > 1 else f"{share(float(used[top]))} of"
-        after = f": {quantity.name} in the worst case, {beyond} its limit of {limit}."
+        after = f": {quantity.name} in the worst case, {beyond} its limit of {limit}{ending}"
     number = f"{significant(float(study.largest[top]))} {quantity.unit}"
     return Answer("Manufacturing errors lock in up to ", number, after, link, bool(used[top] > 1))
 

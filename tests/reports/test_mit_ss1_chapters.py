@@ -67,6 +67,7 @@ def test_the_first_screen_answers_from_the_chapters_of_the_document(
     first = min(float(row["frequency_Hz"]) for row in modes)
     assert f"its lowest natural frequency at home is {first:.3g} Hz; the lowest of" in text
     assert "Manufacturing errors lock in up to " in text
+    assert "bearings are calibrated, their rating and some tolerances assumed" in text
 
 
 def test_page_has_all_chapters_and_stays_small(planar_report: WrittenReport) -> None:

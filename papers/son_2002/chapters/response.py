@@ -10,7 +10,10 @@ from strutwork.reports.content import Block, Chapter, Note, Text
 from strutwork.reports.numbers import significant
 
 #: What the sentences of the cover hold for: the mechanism alone has other bearings and no mounts.
-GIVEN = "On its granite and mounts, with bearings calibrated to the thesis's finite element model"
+GIVEN = (
+    "On its granite and mounts, with damping assumed and bearings calibrated to the thesis's finite "
+    "element model"
+)
 
 
 def response_chapter(study: WholeStudy) -> Chapter:
