@@ -11,8 +11,8 @@ from strutwork.reports.numbers import significant
 
 #: What the sentences of the cover hold for: the mechanism alone has other bearings and no mounts.
 GIVEN = (
-    "On its granite and mounts, with damping assumed and bearings calibrated to the thesis's finite "
-    "element model"
+    "On its granite and mounts, with damping assumed and bearings calibrated to the thesis's "
+    "finite element model"
 )
 
 
