@@ -27,7 +27,7 @@ if TYPE_CHECKING:
         tool_stiffness,
     )
     from strutwork.msa.structure import PlacedStructure, Structure
-    from strutwork.msa.tool import compliance_and_outcome, tool_compliance
+    from strutwork.msa.tool import compliance_and_outcome, prepare_compliance, tool_compliance
     from strutwork.msa.topology import Topology
 
 __all__ = [
@@ -55,6 +55,7 @@ __all__ = [
     "compliance_budget",
     "movable_directions",
     "movable_rank",
+    "prepare_compliance",
     "rectangle",
     "rigid_map",
     "rod",
@@ -92,6 +93,7 @@ _LATER = {
     "compliance_budget": "budget",
     "movable_directions": "movable",
     "movable_rank": "stiffness",
+    "prepare_compliance": "tool",
     "rectangle": "sections",
     "rigid_map": "rigid_map",
     "rod": "sections",

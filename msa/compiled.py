@@ -82,7 +82,7 @@ def _kept_as(system: System) -> str:
 
 
 def compiled_compliance(
-    system: System, program: Program, workers: int = 1
+    system: System, program: Program, workers: int = 1, *, keeps: bool = True
 ) -> tuple[Array, NDArray[np.bool_]]:
     """Tool compliance at every pose of a system.
 
@@ -97,6 +97,9 @@ def compiled_compliance(
         From `program_of`.
     workers : int
         Threads; each takes pieces of the batch.
+    keeps : bool
+        Whether a better program serves the next systems too; their answers then differ, by
+        rounding, with what came before them.
 
     Returns
     -------
@@ -110,7 +113,7 @@ def compiled_compliance(
         renewed = compile_program(part)
         if renewed is not None and _dependent(renewed) != _dependent(program):
             compliance[again], doubt = _run(part, renewed, workers)
-            if 2 * doubt.sum() < part.poses:
+            if keeps and 2 * doubt.sum() < part.poses:
                 system.placed.structure.__dict__[_kept_as(system)] = renewed
             again[again] = doubt
     return compliance, again

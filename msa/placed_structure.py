@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -36,11 +36,15 @@ class PlacedStructure:
     stiffening : Stiffening or None
         What a preload adds when it vibrates (`strutwork.fea.preloaded`); statics is linear and does
         without.
+    of_many : int
+        Poses of the study of which these are a part; its solver is then the study's, however few
+        these are.
     """
 
     structure: Structure
     placement: Placement
     stiffening: Stiffening | None = None
+    of_many: int = 0
 
     def __repr__(self) -> str:
         return f"<PlacedStructure: {self.structure!r}, batch {self.batch}>"
@@ -63,6 +67,16 @@ class PlacedStructure:
     def __getitem__(self, index: Any) -> PlacedStructure:
         added = None if self.stiffening is None else self.stiffening[index]
         return PlacedStructure(self.structure, self.placement[index], added)
+
+    def among(self, poses: int) -> PlacedStructure:
+        """The same as a part of a study.
+
+        Parameters
+        ----------
+        poses : int
+            Of the whole study.
+        """
+        return replace(self, of_many=poses)
 
     @cached_property
     def beam_ends(self) -> tuple[Array, Array]:

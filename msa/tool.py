@@ -108,7 +108,8 @@ def compliance_and_outcome(
         )
     program = None
     structure = placed.structure
-    many = system.poses >= COMPILED_FROM or expected_poses(structure) >= VARIANTS_FROM
+    many = max(system.poses, placed.of_many) >= COMPILED_FROM
+    many = many or expected_poses(structure) >= VARIANTS_FROM
     if method == "compiled" or (method is None and many):
         # the kernel has the numbers of one structure for all poses
         one = system.placed.numbers is structure.numbers
@@ -122,7 +123,7 @@ def compliance_and_outcome(
     if program is None:
         result, outcome = _stacked(system, method)
     else:
-        result, again = compiled_compliance(system, program, workers)
+        result, again = compiled_compliance(system, program, workers, keeps=not placed.of_many)
         outcome = Outcome.good((system.poses,))
         if np.any(again):
             result[again], some = _stacked(system_of(system.placed[again]), None)
@@ -130,6 +131,22 @@ def compliance_and_outcome(
             outcome = Outcome(outcome.status, some.reasons, some.errors)
     _project(system, result, outcome.solved)
     return result.reshape(*placed.batch, 6, 6), outcome.reshaped(placed.batch)
+
+
+def prepare_compliance(placed: PlacedStructure) -> None:
+    """Make what all parts of a study share, on poses that are spread over the study.
+
+    The coordinates that follow from others in closed loops are chosen on the poses of the first
+    solve. Made beforehand, they do not hang on which part of the study comes first.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        Some poses of it, with `PlacedStructure.of_many`; none does nothing.
+    """
+    system = system_of(placed)
+    if system.poses and placed.of_many >= COMPILED_FROM and available():
+        program_of(system)
 
 
 def _stacked(system: System, method: ToolMethod | None) -> tuple[Array, Outcome]:

@@ -59,12 +59,12 @@ class CheckPoints:
     def __repr__(self) -> str:
         return f"<CheckPoints: {len(self)} points, positions in m>"
 
-    def poses(self, items: slice, rolls: Array) -> Poses:
+    def poses(self, items: slice | NDArray[np.intp], rolls: Array) -> Poses:
         """Poses of some points at every roll, flat, roll fastest.
 
         Parameters
         ----------
-        items : slice
+        items : slice or (k,)
             Of the points.
         rolls : (r,)
             About the normal, rad.

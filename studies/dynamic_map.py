@@ -21,7 +21,7 @@ from strutwork.studies.check_points import CheckPoints, hemisphere
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import attributes, plain, study_key
 from strutwork.studies.dynamic import BAND, MODES, ONE_PERCENT, modal_data, tool_ports
-from strutwork.studies.evaluation import Evaluator
+from strutwork.studies.evaluation import SAMPLE, Evaluator, spread
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import REASONS, Filters, PoseStatus
 from strutwork.studies.progress import Progress
@@ -135,7 +135,8 @@ def dynamic_map(
     turns = np.atleast_1d(np.asarray(roll_angles() if rolls is None else rolls, dtype=float))
     if turns.ndim != 1 or not turns.size or not np.all(np.isfinite(turns)):
         raise ModelError("rolls", "are none, or not finite.", "Give a list of angles, rad.")
-    evaluator = Evaluator(machine, filters).prepared()
+    some = points.poses(spread(len(points), max(1, SAMPLE // len(turns))), turns)
+    evaluator = Evaluator(machine, filters, len(points) * len(turns)).prepared(some)
     # what is wrong whatever the pose is told before the work begins
     home = machine.place(machine.home())
     _vibrate_stack(machine, home, vibration)

@@ -13,14 +13,17 @@ from numpy.typing import NDArray
 from strutwork.errors import MechanismError, StrutworkError
 from strutwork.kinematics import Placement, Poses, jacobians
 from strutwork.machines import Limit, Machine, check_limits
-from strutwork.msa import Structure, compliance_and_outcome
+from strutwork.msa import Structure, compliance_and_outcome, prepare_compliance
 from strutwork.outcome import Outcome
 from strutwork.studies.filters import Filters, PoseStatus, moving_machine
 
 Array = NDArray[Any]
 
 #: Poses whose Jacobians are made at once: keeps a stack of constraint matrices in the cache.
-JACOBIAN_PIECE = 128
+JACOBIAN_PIECE = 512
+
+#: Poses of a study on which what its chunks share is made.
+SAMPLE = 256
 
 
 @dataclass(frozen=True)
@@ -68,10 +71,13 @@ class Evaluator:
     ----------
     machine : Machine
     filters : Filters
+    poses : int
+        Of the whole study, of which a stack is a part: every stack is solved as the study is.
     """
 
     machine: Machine
     filters: Filters
+    poses: int = 0
 
     @cached_property
     def kinds(self) -> tuple[str, ...]:
@@ -93,10 +99,21 @@ class Evaluator:
         """Length of the condition number, m."""
         return self.filters.length_for(self.machine)
 
-    def prepared(self) -> Evaluator:
-        """The same, with everything made that the threads share."""
+    def prepared(self, sample: Poses) -> Evaluator:
+        """The same, with everything made that the threads share.
+
+        Parameters
+        ----------
+        sample : Poses
+            A flat stack of some poses, spread over the study.
+        """
         _ = self.kinds, self.limits, self.moving.linkage, self.length
-        _ = self.machine.structure.segments, self.machine.structure.vertex_of_node
+        structure = self.machine.structure
+        _ = structure.segments, structure.vertex_of_node
+        placement = self.machine.place(sample)
+        reached = np.flatnonzero(placement.reachable)
+        if reached.size:
+            prepare_compliance(structure.at(placement[reached]).among(self.poses))
         return self
 
     def __call__(self, poses: Poses) -> Evaluated:
@@ -132,7 +149,7 @@ class Evaluator:
         good = np.flatnonzero(status == PoseStatus.GOOD)
         compliance = np.full((count, 6, 6), np.nan)
         compliance[good], status[good], outcome = compliance_where_possible(
-            self.machine.structure, ranged[good]
+            self.machine.structure, ranged[good], self.poses
         )
         failed = np.flatnonzero(~outcome.solved)
         reason[good[failed]] = len(reasons) + outcome.status[failed]
@@ -165,7 +182,7 @@ class Evaluator:
 
 
 def compliance_where_possible(
-    structure: Structure, placement: Placement
+    structure: Structure, placement: Placement, poses: int = 0
 ) -> tuple[Array, NDArray[np.int8], Outcome]:
     """Tool compliance of a stack of poses, some of which may be mechanisms.
 
@@ -174,6 +191,8 @@ def compliance_where_possible(
     structure : Structure
     placement : Placement
         One batch axis, p poses, all reachable.
+    poses : int
+        Of the whole study of which these are a part.
 
     Returns
     -------
@@ -184,10 +203,20 @@ def compliance_where_possible(
     outcome : Outcome
         (p,): the reasons.
     """
-    compliance, outcome = compliance_and_outcome(structure.at(placement))
+    compliance, outcome = compliance_and_outcome(structure.at(placement).among(poses))
     failed = np.where(outcome.of_kind(MechanismError), PoseStatus.MECHANISM, PoseStatus.UNSOLVED)
     status = np.where(outcome.solved, PoseStatus.GOOD, failed).astype(np.int8)
     return compliance, status, outcome
+
+
+def spread(count: int, most: int = SAMPLE) -> NDArray[np.intp]:
+    """Evenly spaced ones of so many items, at most so many, ascending.
+
+    Parameters
+    ----------
+    count, most : int
+    """
+    return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.intp))
 
 
 def _in_words(error: StrutworkError) -> str:

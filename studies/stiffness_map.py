@@ -19,7 +19,7 @@ from strutwork.msa import axis_stiffness_blocked
 from strutwork.studies.check_points import CheckPoints, hemisphere
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import attributes, plain, study_key
-from strutwork.studies.evaluation import Evaluated, Evaluator, keep_said, said
+from strutwork.studies.evaluation import SAMPLE, Evaluated, Evaluator, keep_said, said, spread
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import REASONS, Filters, PoseStatus
 from strutwork.studies.progress import Progress
@@ -28,8 +28,12 @@ from strutwork.studies.variables import AXES, named, stiffness_variables
 
 Array = NDArray[Any]
 
-#: Poses evaluated at once: some tens of megabytes a worker.
-CHUNK = 2048
+#: Least and most poses evaluated at once: up to a hundred megabytes a worker. Threads wait for
+#: one another between the steps of a chunk, the less often the larger it is.
+LEAST, CHUNK = 2048, 16384
+
+#: Chunks that a map is cut into before they grow: enough for the workers of a small machine.
+PARTS = 16
 
 #: Rolls whose stiffness is this near to the best one's are as good; the first is taken, so that
 #: rounding decides nothing.
@@ -86,7 +90,7 @@ def stiffness_map(
     """
     asked = map_function(machine, points, rolls, filters)
     points, turns = asked.points, asked.rolls
-    size = max(1, CHUNK // len(turns))
+    size = chunk_size(len(points) * len(turns), len(turns))
     settings = {"filters": asked.evaluator.filters, "chunk": size}
     run = Run(workers, executor, folder, progress)
     arrays: Arrays = {}
@@ -107,6 +111,18 @@ def stiffness_map(
         fill(arrays, chunk, part, len(points))
     arrays["position"], arrays["normal"] = points.position, points.normal
     return asked.dataset(arrays, {w: n for w, n in words.items() if n}, examples)
+
+
+def chunk_size(poses: int, rolls: int) -> int:
+    """Points of a chunk, whatever the workers: their number changes no result.
+
+    Parameters
+    ----------
+    poses : int
+        Of the whole map.
+    rolls : int
+    """
+    return max(1, min(CHUNK, max(LEAST, poses // PARTS)) // rolls)
 
 
 @dataclass(frozen=True)
@@ -171,8 +187,10 @@ def map_function(
     turns = np.atleast_1d(np.asarray(roll_angles() if rolls is None else rolls, dtype=float))
     if turns.ndim != 1 or not turns.size or not np.all(np.isfinite(turns)):
         raise ModelError("rolls", "are none, or not finite.", "Give a list of angles, rad.")
-    evaluator = Evaluator(machine, filters or Filters()).prepared()
-    return MapFunction(evaluator, points or hemisphere(machine), turns)
+    points = points or hemisphere(machine)
+    evaluator = Evaluator(machine, filters or Filters(), len(points) * len(turns))
+    some = points.poses(spread(len(points), max(1, SAMPLE // len(turns))), turns)
+    return MapFunction(evaluator.prepared(some), points, turns)
 
 
 def stiffest_roll(found: Evaluated, rolls: int) -> tuple[NDArray[np.intp], NDArray[np.int8]]:

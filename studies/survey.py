@@ -19,11 +19,14 @@ from strutwork.kinematics import DIRECTIONS, Moved
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
 from strutwork.machines.model_poses import moved
+from strutwork.msa import prepare_compliance
+from strutwork.msa.tool import COMPILED_FROM
 from strutwork.source_digest import source_digest
-from strutwork.studies.answers import Answer
+from strutwork.studies.answers import Answer, Stiffness
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.dataset_units import LabelledUnits, motion_units, unit_coordinate
 from strutwork.studies.description import plain, versions
+from strutwork.studies.evaluation import spread
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.foresee import LONGEST, SMALL, foresee
@@ -35,6 +38,9 @@ Array = NDArray[Any]
 
 #: Poses moved to and asked at once.
 CHUNK = 256
+
+#: Poses of a grid on which what the chunks share is made.
+SAMPLE = 64
 
 #: Packages whose code decides a survey's numbers.
 _CODE = (
@@ -93,15 +99,16 @@ def survey(
     # what the threads share, and what is wrong whatever the pose, comes before the work
     moved(model, {d: values[:1] for d, values in grid.axes.items()})
     _ = model.structure.segments, model.structure.vertex_of_node
+    _prepare(model, task, answers, count)
     if count > SMALL:
-        foresee(lambda some: _asked(model, some, answers), grid, workers).require(
+        foresee(lambda some: _asked(model, some, answers, count), grid, workers).require(
             "workspace",
             "Use fewer points along a direction.",
             LONGEST if run.bounded else None,
         )
 
     def evaluate(chunk: Chunk) -> Arrays:
-        return _asked(model, {d: v[chunk.items] for d, v in task.items()}, answers)
+        return _asked(model, {d: v[chunk.items] for d, v in task.items()}, answers, count)
 
     arrays: Arrays = {}
     words = [""]
@@ -121,14 +128,26 @@ def survey(
     return _dataset(model, grid, answers, arrays, words)
 
 
+def _prepare(
+    model: Model, task: Mapping[str, Array], answers: Sequence[Answer], count: int
+) -> None:
+    """Make what the stiffness of all chunks shares, on poses of the whole grid."""
+    if count >= COMPILED_FROM and any(isinstance(answer, Stiffness) for answer in answers):
+        some = spread(count, SAMPLE)
+        _, placement = moved(model, {d: values[some] for d, values in task.items()})
+        good = np.flatnonzero(placement.reachable)
+        if good.size:
+            prepare_compliance(model.structure.at(placement[good]).among(count))
+
+
 def _spans(task: Mapping[str, Array], items: slice) -> str:
     """Task coordinates of some poses, as in "x -0.1 to 0.1", m and rad."""
     spans = {d: (float(v[items].min()), float(v[items].max())) for d, v in task.items()}
     return ", ".join(f"{d} {a:.6g} to {b:.6g}" for d, (a, b) in spans.items())
 
 
-def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> Arrays:
-    """Status, reasons, joint coordinates and answers of some poses."""
+def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer], count: int) -> Arrays:
+    """Status, reasons, joint coordinates and answers of some poses of so many."""
     found, placement = moved(model, task)
     reach = np.asarray(found.reached)
     # the ranges' reasons are the last: what they alone forbid is out of range, not out of reach
@@ -150,7 +169,7 @@ def _asked(model: Model, task: dict[str, Array], answers: Sequence[Answer]) -> A
                 widths = (len(answer.coordinates[d]) for d in column.dims)
                 arrays[column.name] = np.full((len(status), *widths), np.nan)
         return arrays | {"status": status, "reason": reason, "reasons": np.array(reasons)}
-    placed = model.structure.at(placement[good])
+    placed = model.structure.at(placement[good]).among(count)
     for answer in answers:
         values, outcome = answer(placed)
         for name, some in values.items():

@@ -15,7 +15,7 @@ from strutwork.kinematics import Poses
 from strutwork.machines import Machine
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.description import attributes, study_key
-from strutwork.studies.evaluation import Evaluator, keep_said, said
+from strutwork.studies.evaluation import Evaluator, keep_said, said, spread
 from strutwork.studies.executor import Executor
 from strutwork.studies.filters import Filters, PoseStatus
 from strutwork.studies.progress import Progress
@@ -76,9 +76,12 @@ def sweep(
             f"positions have the shape {position.shape}, rotations {rotation.shape}.",
             "Give at least one position (n, 3), and rotations (q, 3, 3).",
         )
-    evaluator = Evaluator(machine, filters).prepared()
     turns = len(rotation)
     total = len(position) * turns
+    some = spread(total)
+    evaluator = Evaluator(machine, filters, total).prepared(
+        Poses(position[some // turns], rotation[some % turns])
+    )
 
     def evaluate(chunk: Chunk) -> Arrays:
         item = np.arange(chunk.start, chunk.stop)
