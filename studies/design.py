@@ -27,12 +27,12 @@ from strutwork.studies.design_judged import (
 )
 from strutwork.studies.design_quantities import COST, REACH, Quantity, share_reached, taken
 from strutwork.studies.design_smooth import require_smooth
-from strutwork.studies.design_terms import Constraint, Cost, Objective, Search
+from strutwork.studies.design_terms import Constraint, Cost, Objective, Search, require_travel
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.pose_sets import PoseSet
 from strutwork.studies.question import Asked
-from strutwork.studies.study_machines import Kept
+from strutwork.studies.study_machines import MACHINE, REDUCTIONS, Kept
 from strutwork.studies.variants import Variants
 
 Array = NDArray[Any]
@@ -91,6 +91,7 @@ class Design:
                 )
         if any(q.name == COST for q in self.quantities) and self.cost == Cost():
             raise ModelError("cost", "is asked for and not stated.", "Give a table [cost].")
+        require_travel(self.quantities, self.workspace)
         # their errors come now
         _ = self.rates, self.variants
         if any(c.kept for c in self.constraints):
@@ -200,7 +201,8 @@ class Design:
 
     @property
     def _reductions(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(q.reduction for q in self.quantities))
+        found = dict.fromkeys(q.reduction for q in self.quantities if q.reduction in REDUCTIONS)
+        return tuple(found) or ("worst",)
 
     @cached_property
     def stated(self) -> Judged:
@@ -286,7 +288,7 @@ class Design:
             return np.asarray(self.cost.fixed + self.cost.per_kg * mass + samples @ self.rates)
         for kept, labels in self._columns:
             # what is asked at home alone, or once of a machine, has no other reduction
-            same = kept.reduction == quantity.reduction or kept.reduction not in ("worst", "mean")
+            same = kept.reduction in (quantity.reduction, "home", MACHINE)
             if kept.column.name == quantity.column and same:
                 return taken(quantity, kept.column, labels, found[kept.name])
         raise AssertionError(quantity.name)

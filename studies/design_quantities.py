@@ -16,10 +16,14 @@ from strutwork.names import choices
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.dataset_units import LabelledUnits
+from strutwork.studies.joint_selection import matches
+from strutwork.studies.travel_answer import COLUMN, TRAVEL
 from strutwork.studies.variables import AXES
 from strutwork.units import (
+    ANGLE,
     FORCE,
     FREQUENCY,
+    LENGTH,
     MASS,
     MOMENT,
     NUMBER,
@@ -55,7 +59,7 @@ class Quantity:
     goal : "minimise" or "maximise"
         Unless a file states the other.
     meaning : str
-    reduction : "worst" or "mean"
+    reduction : "worst", "mean", or one of `OF_JOINTS`
         Over the poses, of what depends on them.
     """
 
@@ -72,6 +76,11 @@ class Quantity:
     def unit(self) -> str:
         """SI; "1" for none."""
         return self.dimension.unit or "1"
+
+    @property
+    def variable(self) -> str:
+        """Its name in a dataset: a NetCDF file allows no slash."""
+        return re.sub(r"[\s/]", "_", self.name)
 
 
 def _quantities() -> dict[str, Quantity]:
@@ -189,6 +198,13 @@ def _quantities() -> dict[str, Quantity]:
 #: By name.
 QUANTITIES: Mapping[str, Quantity] = _quantities()
 
+#: Quantities of joints, before a colon and JOINT:DIRECTION, with what is better of each.
+OF_JOINTS: Mapping[str, tuple[Goal, str]] = {
+    "travel": ("minimise", "distance between the least and the greatest coordinate over the poses"),
+    "least": ("maximise", "least coordinate over the poses"),
+    "greatest": ("minimise", "greatest coordinate over the poses"),
+}
+
 #: Those that are no answer of the machine.
 REACH, COST = "reach", "cost"
 
@@ -204,13 +220,25 @@ def quantity_of(name: str, part: str) -> Quantity:
     Raises
     ------
     ModelError
-        There is none.
+        There is none, or a joint is not named with its direction.
     """
-    if name not in QUANTITIES:
-        raise ModelError(
-            part, f'names "{name}", which is unknown.', choices("Quantities", name, QUANTITIES)
-        )
-    return QUANTITIES[name]
+    if name in QUANTITIES:
+        return QUANTITIES[name]
+    head, colon, place = name.partition(":")
+    if head in OF_JOINTS:
+        joint, _, direction = place.rpartition(":")
+        if not joint or not direction:
+            raise ModelError(
+                part,
+                f'names "{name}", which is no direction of a joint.',
+                f'Write "{head}:JOINT:z", with a direction x, y, z, rx, ry, rz or bend.',
+            )
+        goal, words = OF_JOINTS[head]
+        kind = LENGTH if direction in AXES else ANGLE
+        meaning = f"{words}, {direction} of {joint}"
+        return Quantity(name, f"{TRAVEL}:{place}", COLUMN, place, kind, goal, meaning, head)
+    known = [*QUANTITIES, *(f"{h}:JOINT:z" for h in OF_JOINTS)]
+    raise ModelError(part, f'names "{name}", which is unknown.', choices("Quantities", name, known))
 
 
 def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Array) -> Array:
@@ -227,7 +255,10 @@ def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Ar
     """
     if not column.dims:
         return found
-    if isinstance(column.unit, LabelledUnits):
+    if quantity.reduction in OF_JOINTS:
+        # a star may name several joints
+        at = [i for i, label in enumerate(labels) if matches(str(label), quantity.label)]
+    elif isinstance(column.unit, LabelledUnits):
         # joint quantities of one unit
         at = [i for i, unit in enumerate(column.unit.units) if unit == quantity.label]
     else:

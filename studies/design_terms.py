@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.names import choices
-from strutwork.studies.design_quantities import Goal, Quantity, quantity_of
+from strutwork.studies.design_quantities import OF_JOINTS, Goal, Quantity, quantity_of
 from strutwork.studies.parameter import Value, Varied
+from strutwork.studies.pose_sets import PoseSet
 from strutwork.units import quantity
 
 Array = NDArray[Any]
@@ -192,6 +193,29 @@ class Constraint:
         if self.at_most is not None and value > self.at_most:
             return f"{name} is above its limit"
         return ""
+
+
+def require_travel(quantities: Iterable[Quantity], poses: PoseSet | None) -> None:
+    """Refuse what joints do over poses where there is home alone.
+
+    Parameters
+    ----------
+    quantities : iterable of Quantity
+    poses : TaskGrid, TaskList, PoseList or None
+        None: home alone.
+
+    Raises
+    ------
+    ModelError
+        A quantity of a joint, and no poses.
+    """
+    for one in quantities:
+        if one.reduction in OF_JOINTS and poses is None:
+            raise ModelError(
+                f"quantity {one.name}",
+                "is asked for at home alone, where no joint moves.",
+                "Name poses: a table [workspace], or workspace = {...} in Python.",
+            )
 
 
 @dataclass(frozen=True)
