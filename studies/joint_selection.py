@@ -67,6 +67,12 @@ class JointCoordinate:
         return np.arccos(np.clip(np.cos(a) * np.cos(b), -1.0, 1.0))
 
     def _one(self, placement: Placement, direction: str) -> Array:
+        if (self.joint, direction) not in placement.names:
+            raise ModelError(
+                f"joint {visible(self.joint)}",
+                f"has no value of {direction} at these poses.",
+                "Name a workspace in which the tool moves.",
+            )
         return placement.values[..., placement.names.index((self.joint, direction))].real
 
 
@@ -87,10 +93,11 @@ def coordinates_of(model: Model, selected: Sequence[str] = ()) -> tuple[JointCoo
         a direction in which it does not move or that the machine's formulas do not give; a machine
         without any.
     """
-    every = [c for joint in model.structure.linkage.joints for c in _of_joint(joint, model.placement)]
+    given = _given(model)
+    every = [c for joint in model.structure.linkage.joints for c in _of_joint(joint, given)]
     if not selected:
         if not every:
-            raise ModelError("joints", "have no free direction.", "Travel needs a moving joint.")
+            raise ModelError("joints", "have no free direction.", "Ask a machine whose joints move, or for another answer.")
         return tuple(every)
     wanted: set[JointCoordinate] = set()
     for text in selected:
@@ -98,10 +105,17 @@ def coordinates_of(model: Model, selected: Sequence[str] = ()) -> tuple[JointCoo
     return tuple(c for c in every if c in wanted)
 
 
-def _of_joint(joint: Joint, placement: Placement) -> list[JointCoordinate]:
-    given = [d for d in DIRECTIONS if (joint.name, d) in placement.names]
-    found = [JointCoordinate(joint.name, d) for d in given]
-    if joint.type == "universal" and {"rx", "rz"} <= set(given):
+def _given(model: Model) -> tuple[tuple[str, str], ...]:
+    """Coordinates that placements have: all that move, or those of the machine's own formulas."""
+    if model.closed_form is not None:
+        return model.placement.names
+    return model.motion.joints.names
+
+
+def _of_joint(joint: Joint, given: Sequence[tuple[str, str]]) -> list[JointCoordinate]:
+    own = [d for d in DIRECTIONS if (joint.name, d) in given]
+    found = [JointCoordinate(joint.name, d) for d in own]
+    if joint.type == "universal" and {"rx", "rz"} <= set(own):
         found.append(JointCoordinate(joint.name, BEND))
     return found
 

@@ -24,6 +24,8 @@ Array = NDArray[Any]
 TRAVEL = "travel"
 #: The array of the answer, and its dimension.
 COLUMN, DIM = "joint_coordinate", "joint"
+#: In the dataset of a study: from the least to the greatest coordinate.
+TRAVELLED = f"{COLUMN}_travel"
 
 
 @dataclass(frozen=True)
