@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.names import choices
-from strutwork.studies.design_quantities import OF_JOINTS, Goal, Quantity, quantity_of
+from strutwork.studies.design_quantities import OF_JOINTS, REACH, Goal, Quantity, quantity_of
 from strutwork.studies.parameter import Value, Varied
 from strutwork.studies.pose_sets import PoseSet
 from strutwork.units import quantity
@@ -195,8 +196,8 @@ class Constraint:
         return ""
 
 
-def require_travel(quantities: Iterable[Quantity], poses: PoseSet | None) -> None:
-    """Refuse what joints do over poses where there is home alone.
+def require_poses(quantities: Iterable[Quantity], poses: PoseSet | None) -> None:
+    """Refuse what needs poses where there are none, and a range where they form no grid.
 
     Parameters
     ----------
@@ -207,9 +208,17 @@ def require_travel(quantities: Iterable[Quantity], poses: PoseSet | None) -> Non
     Raises
     ------
     ModelError
-        A quantity of a joint, and no poses.
+        A quantity of a joint, and no poses; the range of a direction that no grid has.
     """
     for one in quantities:
+        if one.name.startswith(f"{REACH}_"):
+            axes = poses.axes if isinstance(poses, TaskGrid) else {}
+            if len(axes.get(one.label, ())) < 2:
+                raise ModelError(
+                    f"quantity {one.name}",
+                    f"needs a grid of poses with several values of {one.label}.",
+                    f"Give [workspace] a range of {one.label} in several points.",
+                )
         if one.reduction in OF_JOINTS and poses is None:
             raise ModelError(
                 f"quantity {one.name}",

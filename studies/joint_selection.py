@@ -30,7 +30,8 @@ class JointCoordinate:
     ----------
     joint : str
     direction : str
-        One of `DIRECTIONS` in which the joint is free, or `BEND` of a universal joint.
+        One of `DIRECTIONS` in which the joint is free, `BEND` of a universal joint, or what else
+        the machine's own formulas give, as the swing of a ball joint; all of these are angles.
     """
 
     joint: str
@@ -61,7 +62,7 @@ class JointCoordinate:
         placement : Placement
             That gives the coordinate.
         """
-        if self.direction != BEND:
+        if self.direction != BEND or (self.joint, BEND) in placement.names:
             return self._one(placement, self.direction)
         a, b = (self._one(placement, d) for d in ("rx", "rz"))
         return np.arccos(np.clip(np.cos(a) * np.cos(b), -1.0, 1.0))
@@ -97,7 +98,11 @@ def coordinates_of(model: Model, selected: Sequence[str] = ()) -> tuple[JointCoo
     every = [c for joint in model.structure.linkage.joints for c in _of_joint(joint, given)]
     if not selected:
         if not every:
-            raise ModelError("joints", "have no free direction.", "Ask a machine whose joints move, or for another answer.")
+            raise ModelError(
+                "joints",
+                "have no free direction.",
+                "Ask a machine whose joints move, or for another answer.",
+            )
         return tuple(every)
     wanted: set[JointCoordinate] = set()
     for text in selected:
@@ -113,9 +118,10 @@ def _given(model: Model) -> tuple[tuple[str, str], ...]:
 
 
 def _of_joint(joint: Joint, given: Sequence[tuple[str, str]]) -> list[JointCoordinate]:
-    own = [d for d in DIRECTIONS if (joint.name, d) in given]
+    # formulas may give more than directions, as the swing of a ball joint
+    own = [d for name, d in given if name == joint.name]
     found = [JointCoordinate(joint.name, d) for d in own]
-    if joint.type == "universal" and {"rx", "rz"} <= set(own):
+    if joint.type == "universal" and {"rx", "rz"} <= set(own) and BEND not in own:
         found.append(JointCoordinate(joint.name, BEND))
     return found
 
