@@ -254,7 +254,7 @@ def quantity_of(name: str, part: str) -> Quantity:
         kind = LENGTH if direction in AXES else ANGLE
         meaning = f"{words}, {direction} of {joint}"
         return Quantity(name, f"{TRAVEL}:{place}", COLUMN, place, kind, goal, meaning, head)
-    known = [*QUANTITIES, *(f"{h}:JOINT:z" for h in OF_JOINTS)]
+    known = [*QUANTITIES, *(f"{h}:{place or 'JOINT:z'}" for h in OF_JOINTS)]
     raise ModelError(part, f'names "{name}", which is unknown.', choices("Quantities", name, known))
 
 

@@ -65,7 +65,7 @@ class JointCoordinate:
         if self.direction != BEND or (self.joint, BEND) in placement.names:
             return self._one(placement, self.direction)
         a, b = (self._one(placement, d) for d in ("rx", "rz"))
-        return np.arccos(np.clip(np.cos(a) * np.cos(b), -1.0, 1.0))
+        return np.asarray(np.arccos(np.clip(np.cos(a) * np.cos(b), -1.0, 1.0)))
 
     def _one(self, placement: Placement, direction: str) -> Array:
         if (self.joint, direction) not in placement.names:
@@ -74,7 +74,9 @@ class JointCoordinate:
                 f"has no value of {direction} at these poses.",
                 "Name a workspace in which the tool moves.",
             )
-        return placement.values[..., placement.names.index((self.joint, direction))].real
+        return np.asarray(
+            placement.values[..., placement.names.index((self.joint, direction))].real
+        )
 
 
 def coordinates_of(model: Model, selected: Sequence[str] = ()) -> tuple[JointCoordinate, ...]:

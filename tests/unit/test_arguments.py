@@ -94,4 +94,4 @@ def test_methods_keep_their_faces(machine: Machine) -> None:
         kinds = {p.kind for p in inspect.signature(getattr(Machine, name)).parameters.values()}
         # options that a method hands on are known by name, but for the directions of a pose
         assert (inspect.Parameter.VAR_KEYWORD in kinds) == (name in TAKERS or name == "at")
-    assert pickle.loads(pickle.dumps(machine)).title == machine.title
+    assert pickle.loads(pickle.dumps(machine)).title == machine.title  # noqa: S301
