@@ -12,6 +12,9 @@ from strutwork.contact.law import ContactLaw
 
 Array = NDArray[Any]
 
+#: Approach, as a share of the displacement of a roller, that is rounding.
+ROUNDING = 1e-14
+
 
 @dataclass(frozen=True)
 class Contacts:
@@ -162,6 +165,9 @@ class Contacts:
         span = np.sqrt((rest + straight) ** 2 + (across**2).sum(axis=-1))
         grown = ((moved**2).sum(axis=-1) + 2.0 * rest * straight) / (span + rest)
         directions = ((rest + straight)[:, None] * self.normals + across) / span[:, None]
+        # a roller across the load is not closed by rounding, of whose root its slope is
+        tiny = ROUNDING * np.sqrt((np.abs(moved) ** 2).sum(axis=-1))
+        straight = np.where((straight.real > 0.0) & (straight.real <= tiny), 0.0, straight)
         return (
             np.where(ball, grown, straight),
             np.where(ball[:, None], directions, self.normals),
