@@ -63,14 +63,15 @@ def _study(tables: Tables) -> None:
     properties["reductions"]["items"] = {"enum": list(REDUCTIONS)}
     # joints are those of the machine
     named = {"type": "string", "pattern": f"^{TRAVEL}:."}
-    properties["answers"]["items"] = {"anyOf": [{"enum": [*QUESTIONS, TRAVEL]}, named]}
+    properties["answers"]["items"] = {"if": named, "else": {"enum": [*QUESTIONS, TRAVEL]}}
 
 
 def _design(tables: Tables) -> None:
     for table in ("ObjectiveTable", "ConstraintTable"):
         quantity = tables[table]["properties"]["quantity"]
         named = {"type": "string", "pattern": f"^({'|'.join(OF_JOINTS)}):.+:"}
-        quantity["anyOf"] = [{"enum": list(QUANTITIES)}, named]
+        # a message of the list names what is wrong; one of several schemas does not
+        quantity |= {"if": named, "else": {"enum": list(QUANTITIES)}}
 
 
 def _calibration(tables: Tables) -> None:
