@@ -133,7 +133,7 @@ def frequency_response(
     Warns
     -----
     ValidityWarning
-        A line above half the cutoff of a superelement.
+        A line above the limit of a superelement.
     """
     found = response_at(placed, inputs, outputs, frequencies, damping, method)
     warn_beyond(placed, float(found.frequencies.max()))

@@ -19,9 +19,10 @@ from typing import Any, Literal
 import numpy as np
 import scipy.linalg as sla
 from numpy.typing import NDArray
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.held_modes import held_modes
+from strutwork.fea.superelement_limit import accurate_to
 from strutwork.fea.tied_solid import StaticSolver, TiedSolid
 from strutwork.msa.structure import PlacedStructure, rigid_map
 
@@ -29,6 +30,9 @@ Array = NDArray[Any]
 
 #: Largest condition number of the exchange of coordinates.
 CONDITION = 1e6
+
+#: Relative error of a frequency that rounding by the exchange may cause.
+ROUNDED = 1e-5
 
 #: Candidates for monitors.
 CANDIDATES = 400
@@ -59,6 +63,9 @@ class Superelement:
         Hz, of the retained modes with the interfaces held; empty for a Krylov basis.
     solver : str
         Which factorisation ran.
+    limit : float, optional
+        Hz: computed when it was made, the frequency below which answers hold to 1e-4
+        (`strutwork.fea.superelement_limit`). Without it, half of the cutoff counts.
     """
 
     name: str
@@ -69,17 +76,30 @@ class Superelement:
     shapes: Array
     fixed_frequencies: Array
     solver: str
+    limit: float | None = None
 
     def __repr__(self) -> str:
+        if len(self.fixed_frequencies):
+            reach = f"fixed-interface modes to {self.cutoff:.4g} Hz"
+        else:
+            reach = f"Krylov basis accurate to {self.accurate_to:.4g} Hz"
         return (
             f"<Superelement {self.name}: {len(self.nodes)} nodes for "
-            f"{self.shapes.shape[0]} dof, fixed-interface modes to {self.cutoff:.4g} Hz>"
+            f"{self.shapes.shape[0]} dof, {reach}>"
         )
 
     @property
     def cutoff(self) -> float:
         """Highest retained frequency with the interfaces held, Hz; zero for a Krylov basis."""
         return float(self.fixed_frequencies[-1]) if len(self.fixed_frequencies) else 0.0
+
+    @property
+    def accurate_to(self) -> float:
+        """Frequency below which answers hold to 1e-4, Hz.
+
+        The limit computed when it was made, else half of the cutoff; zero where neither is known.
+        """
+        return self.cutoff / 2.0 if self.limit is None else self.limit
 
     def scaled(self, factor: float) -> Superelement:
         """The same solid of the same material, `factor` times as large, exactly.
@@ -101,6 +121,7 @@ class Superelement:
             local_mass=factor**3 * pairs * self.local_mass,
             shapes=self.shapes * lengths,
             fixed_frequencies=self.fixed_frequencies / factor,
+            limit=None if self.limit is None else self.limit / factor,
         )
 
     def turn(self, at: PlacedStructure) -> Array:
@@ -180,7 +201,7 @@ def superelement(
         Nodes of the solid's cells, k each, among which monitors are chosen.
     cutoff : float, optional
         Hz: modes with the interfaces held are retained beyond it. Answers below half of it are
-        good to 1e-4.
+        good to 1e-4. A Krylov basis has its number of shapes alone, and its limit is computed.
     modes : int
         Without a cutoff, how many modes (Krylov: shapes), rounded up to a multiple of six.
     method : "craig_bampton" or "krylov"
@@ -194,18 +215,25 @@ def superelement(
     Raises
     ------
     ModelError
-        No interface, or more shapes than the solid has.
+        No interface, a cutoff for a Krylov basis, or more shapes than the solid has.
     NumericalError
-        Shapes that cannot be told apart by motions of its monitors.
+        Shapes that motions of its monitors cannot tell apart, or only with much rounding.
     """
     if not solid.patches:
         raise ModelError(f"solid {solid.name}", "has no interface.", "Tie a patch to a node.")
+    if method == "krylov" and cutoff is not None:
+        raise ModelError(
+            f"superelement {solid.name}",
+            "has a cutoff, which a Krylov basis does not follow.",
+            "Give modes, and compare accurate_to of the result with the cutoff.",
+        )
     static = StaticSolver(solid, solver)
     carried = static.constraint_modes()
     k = carried.shape[1]
-    frequencies = np.zeros(0)
+    frequencies, limit = np.zeros(0), None
     if method == "krylov":
         inner = _krylov(static, carried, _sixes(modes))
+        limit = accurate_to(static, carried, inner)
     else:
         frequencies, inner = _held_modes(static, cutoff, modes)
         residual, _ = static.solve(solid.mass @ carried)
@@ -224,16 +252,51 @@ def superelement(
     if len(places):
         names += [f"{solid.name}/{i + 1}" for i in range(len(places))]
         positions = np.concatenate([positions, places])
+    local_stiffness = _even(exchange.T @ stiffness @ exchange)
+    local_mass = _even(exchange.T @ mass @ exchange)
+    _check_exchange(solid.name, (stiffness, mass), (local_stiffness, local_mass), k)
     return Superelement(
         solid.name,
         tuple(names),
         positions,
-        _even(exchange.T @ stiffness @ exchange),
-        _even(exchange.T @ mass @ exchange),
+        local_stiffness,
+        local_mass,
         shapes @ exchange,
         frequencies,
         static.name,
+        limit,
     )
+
+
+def _check_exchange(
+    name: str, before: tuple[Array, Array], after: tuple[Array, Array], k: int
+) -> None:
+    """NumericalError where coordinates exchanged for monitors round frequencies by `ROUNDED`.
+
+    The frequencies with all k interface freedoms held, and those with none held.
+    """
+    if len(before[0]) == k:
+        return
+    floor = 0.0
+    for free in (slice(k, None), slice(None)):
+        exact, rounded = (_squares(m[0][free, free], m[1][free, free]) for m in (before, after))
+        # rigid motions have no frequency: what rounds them counts beside the lowest held one
+        floor = floor or float(exact[0])
+        error = float((np.abs(rounded - exact) / np.maximum(np.abs(exact), floor)).max()) / 2.0
+        if not error <= ROUNDED:
+            raise NumericalError(
+                f"superelement {name}",
+                f"rounding by the exchange of its coordinates changes a frequency by {error:.2g} "
+                "of it.",
+                "Retain fewer modes, or refine the mesh.",
+            )
+
+
+def _squares(stiffness: Array, mass: Array) -> Array:
+    """Eigenvalues, (rad/s)², of matrices with coordinates of any units."""
+    size = 1.0 / np.sqrt(mass.diagonal())
+    scale = np.outer(size, size)
+    return np.asarray(sla.eigh(stiffness * scale, mass * scale, eigvals_only=True))
 
 
 def _even(matrix: Array) -> Array:
@@ -256,17 +319,8 @@ def _held_modes(static: StaticSolver, cutoff: float | None, modes: int) -> tuple
                 f"{count} modes are too many for {size} coordinates.",
                 "Lower the cutoff or the number of modes, or refine the mesh.",
             )
-        operator = LinearOperator((size, size), matvec=lambda x: static.solve(x[:, None])[0][:, 0])
-        start = np.random.default_rng(0).standard_normal(size)
-        values, vectors = eigsh(
-            solid.stiffness,
-            k=count,
-            M=solid.mass,
-            sigma=0.0,
-            OPinv=operator,
-            v0=operator.matvec(solid.mass @ start),
-        )
-        frequencies = np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
+        squares, vectors = held_modes(static, count)
+        frequencies = np.sqrt(squares) / (2 * np.pi)
         if cutoff is None or frequencies[-1] >= cutoff:
             break
         count *= 2
