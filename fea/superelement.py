@@ -236,10 +236,9 @@ def superelement(
         limit = accurate_to(static, carried, inner)
     else:
         frequencies, inner = _held_modes(static, cutoff, modes)
-        residual, _ = static.solve(solid.mass @ carried)
-        inner = _independent(solid, inner, residual)
-        # six freedoms a monitor: the residual shapes that matter least make the number even
-        inner = inner[:, : len(inner.T) // 6 * 6]
+        inner, complete = _with_residuals(static, carried, inner)
+        if not complete:
+            limit = min(frequencies[-1] / 2.0, accurate_to(static, carried, inner))
     basis = np.concatenate([carried, inner], axis=1)
     stiffness = basis.T @ (solid.stiffness @ basis)
     mass = basis.T @ (solid.mass @ basis)
@@ -328,6 +327,23 @@ def _held_modes(static: StaticSolver, cutoff: float | None, modes: int) -> tuple
     if cutoff is not None:
         keep = min(keep, _sixes(int(np.searchsorted(frequencies, cutoff)) + 1))
     return frequencies[:keep], vectors[:, :keep]
+
+
+def _with_residuals(static: StaticSolver, carried: Array, inner: Array) -> tuple[Array, bool]:
+    """Modes with the residual vectors, a multiple of six, and whether all of these are in it.
+
+    A monitor has six freedoms. Without one of the residual vectors the cutoff promises nothing, so
+    what lacks to the multiple comes from the next term of the expansion.
+    """
+    solid = static.solid
+    residual, _ = static.solve(solid.mass @ carried)
+    inner = _independent(solid, inner, residual)
+    count = inner.shape[1]
+    if count % 6:
+        further, _ = static.solve(solid.mass @ residual)
+        inner = _independent(solid, inner, further)[:, : _sixes(count)]
+    kept = inner.shape[1] // 6 * 6
+    return inner[:, :kept], kept >= count
 
 
 def _krylov(static: StaticSolver, carried: Array, count: int) -> Array:
