@@ -22,20 +22,12 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError, NumericalError
 from strutwork.fea.held_modes import held_modes
+from strutwork.fea.monitors import check_exchange, choose_monitors
 from strutwork.fea.superelement_limit import accurate_to
 from strutwork.fea.tied_solid import StaticSolver, TiedSolid
-from strutwork.msa.structure import PlacedStructure, rigid_map
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
-
-#: Largest condition number of the exchange of coordinates.
-CONDITION = 1e6
-
-#: Relative error of a frequency that rounding by the exchange may cause.
-ROUNDED = 1e-5
-
-#: Candidates for monitors.
-CANDIDATES = 400
 
 #: Shapes with less than this share of their size outside the others are dropped.
 DEPENDENT = 1e-8
@@ -229,23 +221,42 @@ def superelement(
         )
     static = StaticSolver(solid, solver)
     carried = static.constraint_modes()
-    k = carried.shape[1]
-    frequencies, limit = np.zeros(0), None
+    nodes = np.asarray(cells, dtype=np.intp)
     if method == "krylov":
         inner = _krylov(static, carried, _sixes(modes))
         limit = accurate_to(static, carried, inner)
-    else:
-        frequencies, inner = _held_modes(static, cutoff, modes)
-        inner, complete = _with_residuals(static, carried, inner)
-        if not complete:
-            limit = min(frequencies[-1] / 2.0, accurate_to(static, carried, inner))
+        return _on_monitors(static, carried, inner, nodes, np.zeros(0), limit)
+    frequencies, held = _held_modes(static, cutoff, modes)
+    inner, count = _with_residuals(static, carried, held)
+    if inner.shape[1] >= count:
+        try:
+            return _on_monitors(static, carried, inner, nodes, frequencies, None)
+        except NumericalError:
+            # a coarse mesh may tell fewer shapes apart
+            if count % 6 == 0:
+                raise
+    inner = inner[:, : count // 6 * 6]
+    limit = min(float(frequencies[-1]) / 2.0, accurate_to(static, carried, inner))
+    return _on_monitors(static, carried, inner, nodes, frequencies, limit)
+
+
+def _on_monitors(
+    static: StaticSolver,
+    carried: Array,
+    inner: Array,
+    cells: NDArray[np.intp],
+    frequencies: Array,
+    limit: float | None,
+) -> Superelement:
+    """The superelement of a basis, its inner shapes exchanged for motions of monitors."""
+    solid, k = static.solid, carried.shape[1]
     basis = np.concatenate([carried, inner], axis=1)
     stiffness = basis.T @ (solid.stiffness @ basis)
     mass = basis.T @ (solid.mass @ basis)
     # static shapes are in balance with interface forces alone, and inner ones do no work there
     stiffness[:k, k:] = stiffness[k:, :k] = 0.0
     shapes = solid.recovery @ basis
-    places, exchange = _monitors(solid, shapes, np.asarray(cells, dtype=np.intp), k)
+    places, exchange = choose_monitors(solid, shapes, cells, k)
     names = [p.interface.name for p in solid.patches]
     positions = np.array([p.position for p in solid.patches])
     if len(places):
@@ -253,7 +264,7 @@ def superelement(
         positions = np.concatenate([positions, places])
     local_stiffness = _even(exchange.T @ stiffness @ exchange)
     local_mass = _even(exchange.T @ mass @ exchange)
-    _check_exchange(solid.name, (stiffness, mass), (local_stiffness, local_mass), k)
+    check_exchange(solid.name, (stiffness, mass), (local_stiffness, local_mass), k)
     return Superelement(
         solid.name,
         tuple(names),
@@ -265,37 +276,6 @@ def superelement(
         static.name,
         limit,
     )
-
-
-def _check_exchange(
-    name: str, before: tuple[Array, Array], after: tuple[Array, Array], k: int
-) -> None:
-    """NumericalError where coordinates exchanged for monitors round frequencies by `ROUNDED`.
-
-    The frequencies with all k interface freedoms held, and those with none held.
-    """
-    if len(before[0]) == k:
-        return
-    floor = 0.0
-    for free in (slice(k, None), slice(None)):
-        exact, rounded = (_squares(m[0][free, free], m[1][free, free]) for m in (before, after))
-        # rigid motions have no frequency: what rounds them counts beside the lowest held one
-        floor = floor or float(exact[0])
-        error = float((np.abs(rounded - exact) / np.maximum(np.abs(exact), floor)).max()) / 2.0
-        if not error <= ROUNDED:
-            raise NumericalError(
-                f"superelement {name}",
-                f"rounding by the exchange of its coordinates changes a frequency by {error:.2g} "
-                "of it.",
-                "Retain fewer modes, or refine the mesh.",
-            )
-
-
-def _squares(stiffness: Array, mass: Array) -> Array:
-    """Eigenvalues, (rad/s)², of matrices with coordinates of any units."""
-    size = 1.0 / np.sqrt(mass.diagonal())
-    scale = np.outer(size, size)
-    return np.asarray(sla.eigh(stiffness * scale, mass * scale, eigvals_only=True))
 
 
 def _even(matrix: Array) -> Array:
@@ -329,11 +309,11 @@ def _held_modes(static: StaticSolver, cutoff: float | None, modes: int) -> tuple
     return frequencies[:keep], vectors[:, :keep]
 
 
-def _with_residuals(static: StaticSolver, carried: Array, inner: Array) -> tuple[Array, bool]:
-    """Modes with the residual vectors, a multiple of six, and whether all of these are in it.
+def _with_residuals(static: StaticSolver, carried: Array, inner: Array) -> tuple[Array, int]:
+    """Modes with the residual vectors, filled up to a multiple of six, and their own number.
 
     A monitor has six freedoms. Without one of the residual vectors the cutoff promises nothing, so
-    what lacks to the multiple comes from the next term of the expansion.
+    what lacks to the multiple comes from the next term of the expansion; there may be too little.
     """
     solid = static.solid
     residual, _ = static.solve(solid.mass @ carried)
@@ -342,8 +322,7 @@ def _with_residuals(static: StaticSolver, carried: Array, inner: Array) -> tuple
     if count % 6:
         further, _ = static.solve(solid.mass @ residual)
         inner = _independent(solid, inner, further)[:, : _sixes(count)]
-    kept = inner.shape[1] // 6 * 6
-    return inner[:, :kept], kept >= count
+    return inner[:, : inner.shape[1] // 6 * 6], count
 
 
 def _krylov(static: StaticSolver, carried: Array, count: int) -> Array:
@@ -379,48 +358,3 @@ def _independent(solid: TiedSolid, first: Array, more: Array) -> Array:
     lower = np.linalg.cholesky(_even(added.T @ (solid.mass @ added)))
     added = np.linalg.solve(lower, added.T).T
     return np.concatenate([first, added], axis=1)
-
-
-def _monitors(
-    solid: TiedSolid, shapes: Array, cells: NDArray[np.intp], k: int
-) -> tuple[Array, Array]:
-    """Places of the monitors (p, 3), and the exchange of coordinates (k + m, k + 6 p).
-
-    Each monitor is one cell, its motion the least-squares rigid motion of the corners. They are
-    chosen one by one for the volume that their rows add.
-    """
-    m = shapes.shape[1] - k
-    if m == 0:
-        return np.zeros((0, 3)), np.eye(k)
-    step = max(1, len(cells) // CANDIDATES)
-    chosen = cells[::step]
-    points = solid.points[chosen]
-    middle = points.mean(axis=1)
-    arms = rigid_map(points - middle[:, None])[:, :, :3].reshape(len(chosen), -1, 6)
-    reader = np.linalg.pinv(arms)
-    dofs = (3 * chosen[:, :, None] + np.arange(3)).reshape(len(chosen), -1)
-    rows = reader @ shapes[dofs]
-    reach = np.linalg.norm(solid.points - solid.points.mean(axis=0), axis=1).max()
-    # compared as displacements at the solid's size, and every shape by its own
-    scaled = rows[:, :, k:] * np.array([1.0] * 3 + [reach] * 3)[:, None]
-    scaled = scaled / np.maximum(np.abs(scaled).max(axis=(0, 1)), 1e-300)
-    picked: list[int] = []
-    outside = np.eye(m)
-    for _ in range(m // 6):
-        sizes = np.linalg.svd(scaled @ outside, compute_uv=False)
-        volume = np.log(np.maximum(sizes[:, :6], 1e-300)).sum(axis=-1)
-        volume[picked] = -np.inf
-        picked.append(int(volume.argmax()))
-        _, _, right = np.linalg.svd(scaled[picked].reshape(-1, m), full_matrices=False)
-        outside = np.eye(m) - right.T @ right
-    taken = rows[picked].reshape(m, -1)
-    condition = float(np.linalg.cond(scaled[picked].reshape(m, m)))
-    if not condition < CONDITION:
-        raise NumericalError(
-            f"superelement {solid.name}",
-            f"the exchange of its coordinates has the condition number {condition:.2g}.",
-            "Retain fewer modes, or refine the mesh.",
-        )
-    inverse = np.linalg.inv(taken[:, k:])
-    exchange = np.block([[np.eye(k), np.zeros((k, m))], [-inverse @ taken[:, :k], inverse]])
-    return middle[picked], exchange

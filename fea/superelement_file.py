@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import zipfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -96,7 +96,7 @@ def read_superelement(path: Path) -> Superelement:
     """Read a superelement and verify it.
 
     A file from before the limit was stored is read without one: a Krylov basis then is accurate
-    to 0 Hz, and every solver warns of it.
+    to 0 Hz, and every solver warns of it. So is a basis of modes that lacks a residual vector.
 
     Parameters
     ----------
@@ -128,6 +128,8 @@ def read_superelement(path: Path) -> Superelement:
     try:
         with np.load(io.BytesIO(body), allow_pickle=False) as data:
             limit = np.nan if old else float(data["limit"])
+            if old and len(data["fixed_frequencies"]) and not _complete(data):
+                limit = 0.0
             return Superelement(
                 name=str(data["name"]),
                 nodes=tuple(str(n) for n in data["nodes"]),
@@ -139,6 +141,13 @@ def read_superelement(path: Path) -> Superelement:
         raise ModelError(
             part, "was written by another version.", "Delete it; it is made again."
         ) from error
+
+
+def _complete(data: Mapping[str, Array]) -> bool:
+    """Whether a stored basis of modes has a residual vector for every interface freedom."""
+    monitors = sum(str(n).startswith(f"{data['name']}/") for n in data["nodes"])
+    interfaces = len(data["nodes"]) - monitors
+    return 6 * monitors >= len(data["fixed_frequencies"]) + 6 * interfaces
 
 
 def cache_folder() -> Path | None:

@@ -46,18 +46,20 @@ def beyond(placed: PlacedStructure, highest: float) -> str:
     short = {name: limit for name, limit in limits(placed).items() if highest > limit}
     if not short:
         return ""
-    by_cutoff = {e.name for e in placed.structure.elements if getattr(e, "cutoff", 0.0) > 0.0}
+    by_cutoff = {
+        e.name: e.cutoff / 2.0 for e in placed.structure.elements if getattr(e, "cutoff", 0.0) > 0.0
+    }
     text = f"Frequencies up to {highest:.4g} Hz are shown."
     for why, names, remedy in (
         (
             "Above half of a solid's cutoff their accuracy is not guaranteed",
-            [name for name in short if name in by_cutoff],
+            [name for name in short if short[name] == by_cutoff.get(name)],
             "Raise its cutoff or its number of modes.",
         ),
         (
-            "Above the limit of a Krylov basis they may err by more than 1e-4 or be missing",
-            [name for name in short if name not in by_cutoff and short[name] > 0.0],
-            "Raise its number of modes, or reduce it with fixed-interface modes.",
+            "Above the computed limit of a solid they may err by more than 1e-4 or be missing",
+            [n for n in short if short[n] > 0.0 and short[n] != by_cutoff.get(n)],
+            "Raise its number of modes, or refine its mesh.",
         ),
         (
             "No limit is stored with a reduced solid, so that nothing is known of their accuracy",

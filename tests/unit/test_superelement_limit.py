@@ -102,7 +102,7 @@ def mounted(element: Superelement) -> PlacedStructure:
 def test_modes_above_the_limit_are_warned_of() -> None:
     placed = mounted(krylov(6))
     assert limits(placed) == {"bar": krylov(6).accurate_to}
-    with pytest.warns(ValidityWarning, match="limit of a Krylov basis .* bar .* Hz"):
+    with pytest.warns(ValidityWarning, match="computed limit of a solid .* bar .* Hz"):
         found = modes(placed, 8).frequencies
     assert found[-1] > krylov(6).accurate_to
     assert beyond(placed, 0.99 * krylov(6).accurate_to) == ""
@@ -121,9 +121,13 @@ def test_the_limit_is_stored_and_an_old_file_has_none(tmp_path: Path) -> None:
     assert old.accurate_to == 0.0
     with pytest.warns(ValidityWarning, match=r"No limit is stored .* bar 0 Hz\. Reduce the solid"):
         modes(mounted(old), 8)
-    # a basis of modes needs no limit
-    write_old(replace(first, fixed_frequencies=np.array([10.0, 30.0]), limit=None), path)
-    assert read_superelement(path).accurate_to == 15.0
+    # modes with all residual vectors need no limit; without one of them nothing is known
+    made = superelement(whole(), BAR.cells, modes=6)
+    write_old(made, path)
+    assert read_superelement(path).accurate_to == made.accurate_to == made.cutoff / 2.0
+    more = np.append(made.fixed_frequencies, 9e3)
+    write_old(replace(made, fixed_frequencies=more), path)
+    assert read_superelement(path).accurate_to == 0.0
 
 
 def write_old(element: Superelement, path: Path) -> None:
@@ -168,5 +172,6 @@ def test_half_of_the_cutoff_holds_to_5e_4_with_the_worst_attachment(retained: in
     """Fixed-interface modes: 1e-4 in usual structures, as documented, and this at most."""
     element = superelement(whole(), BAR.cells, modes=retained)
     found = [shift(element, part * element.accurate_to) for part in (0.5, 0.8, 0.97, 0.999)]
+    assert element.limit is None
     assert found[0] <= 1e-5
     assert max(found) <= 5e-4
