@@ -46,9 +46,7 @@ def beyond(placed: PlacedStructure, highest: float) -> str:
     short = {name: limit for name, limit in limits(placed).items() if highest > limit}
     if not short:
         return ""
-    by_cutoff = {
-        e.name: e.cutoff / 2.0 for e in placed.structure.elements if getattr(e, "cutoff", 0.0) > 0.0
-    }
+    by_cutoff = {e.name: getattr(e, "cutoff", 0.0) / 2.0 for e in placed.structure.elements}
     text = f"Frequencies up to {highest:.4g} Hz are shown."
     for why, names, remedy in (
         (
