@@ -51,7 +51,7 @@ def beyond(placed: PlacedStructure, highest: float) -> str:
     for why, names, remedy in (
         (
             "Above half of a solid's cutoff their accuracy is not guaranteed",
-            [name for name in short if short[name] == by_cutoff.get(name)],
+            [n for n in short if short[n] > 0.0 and short[n] == by_cutoff.get(n)],
             "Raise its cutoff or its number of modes.",
         ),
         (

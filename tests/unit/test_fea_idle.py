@@ -87,7 +87,9 @@ def test_any_superelement_is_asked_how_far_it_holds() -> None:
         warn_beyond(placed, 500.0)
     # nothing is known of an element without a cutoff or a limit
     assert limits(with_block(0.0)) == {"granite": 0.0}
-    assert "No limit is stored with a reduced solid" in beyond(with_block(0.0), 1.0)
+    unknown = beyond(with_block(0.0), 1.0)
+    assert "No limit is stored with a reduced solid" in unknown
+    assert "cutoff" not in unknown
     target = Target("block", "b", placed, placed.structure.linkage.nodes, ModalRatio(0.01))
     with pytest.warns(ValidityWarning, match="granite 450 Hz"):
         target_modes(target, 40)
