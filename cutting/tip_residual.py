@@ -69,7 +69,7 @@ def equivalent_poles(
     poles : (m,)
         s of those left out, rad/s.
     left, right : (q, m)
-        b and c.
+        b and c; their products in m/(N·s).
     constant : (q, q)
         Compliance of motions without mass or dashpot, m/N.
     whole : float
