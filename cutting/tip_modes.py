@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from strutwork.cutting.numbers import positive_list
+from strutwork.cutting.tip_residual import MOST_DAMPED, equivalent_modes, equivalent_poles
 from strutwork.cutting.tip_response import Frame, TipResponse
 from strutwork.errors import ModelError
 from strutwork.fea.modal import STATIC_SHARE, ModalModel
@@ -37,6 +38,9 @@ class TipModes:
         b, complex, of any unit: how the tip moves in a mode, along x, y, z of the process.
     loads : (n, 3)
         c, complex: how forces along them drive it; b and c together have the unit m/(N·s).
+    residual_share : float
+        Largest share of the static compliance at a port for which equivalent modes stand, 0 to 1;
+        without truncation 0.
 
     Raises
     ------
@@ -47,6 +51,7 @@ class TipModes:
     poles: Array
     shapes: Array
     loads: Array
+    residual_share: float = 0.0
 
     def __post_init__(self) -> None:
         poles = np.atleast_1d(np.asarray(self.poles, dtype=complex))
@@ -137,7 +142,8 @@ class TipModes:
             Axes of the process in those of the ports; None for the same.
         highest : float
             Hz. Kept are the modes up to twice this frequency, and further ones until they carry
-            99 % of the static compliance at every port.
+            99 % of the static compliance at every port. Three at most stand for the others, so
+            that the static compliance is exact (`strutwork.cutting.tip_residual`).
         moving : tuple of int
             Which of x, y and z the ports are; the tool is held in the others.
 
@@ -152,15 +158,23 @@ class TipModes:
             raise _no_time()
         if model.rigid.shape[-1] and np.any(model.rigid[pose]):
             raise _floats()
-        kept, _ = model.truncated(highest)
-        square, viscous = kept.square[pose], kept.viscous[pose]
-        massive = square > 0
-        omega = 1.0 / np.sqrt(square[massive])
-        if not np.any(omega <= 2.0 * np.pi * highest):
+        square, residues = model.square[pose], model.residues[pose]
+        # motions without mass have no pole: the equivalent modes stand for them
+        keep = model.mattering(highest) & (square > 0)
+        if not np.any(square[keep] * (2.0 * np.pi * highest) ** 2 >= 1.0):
             raise _none_up_to(highest)
-        shapes = _in_frame(kept.residues[pose][:, massive].T * omega[:, None], frame, moving)
-        ratios = 0.5 * viscous[massive] * omega
-        return cls.from_modes(omega / (2.0 * np.pi), ratios, shapes)
+        static = np.sum(residues**2, axis=1)
+        rest, slow = equivalent_modes(residues[:, ~keep], square[~keep], static, highest)
+        square = np.concatenate([square[keep], slow])
+        omega = 1.0 / np.sqrt(square)
+        whole = np.concatenate([residues[:, keep], rest], axis=1)
+        shapes = _in_frame(whole.T * omega[:, None], frame, moving)
+        ratios = 0.5 * model.damping.viscous(square) * omega
+        own = len(omega) - len(slow)
+        ratios[own:] = np.minimum(ratios[own:], MOST_DAMPED)
+        share = np.sum(rest**2, axis=1) / np.where(static > 0, static, 1.0)
+        found = cls.from_modes(omega / (2.0 * np.pi), ratios, shapes)
+        return replace(found, residual_share=float(share.max()))
 
     @classmethod
     def from_poles(
@@ -206,17 +220,27 @@ class TipModes:
         if not np.any((slow <= 2.0 * np.pi * highest) & (poles.imag > 0)):
             raise _none_up_to(highest)
         static = 2.0 * (left * right / -poles).real
-        whole = np.abs(static.sum(axis=1))
+        # motions that neither mass nor dashpot delays have no pole
+        constant = model.constant.real
+        whole = np.abs(static.sum(axis=1) + constant.diagonal())
         keep = slow <= 4.0 * np.pi * highest
         for mode in np.argsort(-np.abs(static).max(axis=0), kind="stable"):
             missing = np.abs(static[:, ~keep].sum(axis=1))
             if np.all(missing <= (1.0 - STATIC_SHARE) * whole):
                 break
             keep[mode] = True
+        missing = np.abs(static[:, ~keep].sum(axis=1) + constant.diagonal())
+        more = equivalent_poles(
+            poles[~keep], left[:, ~keep], right[:, ~keep], constant, float(whole.max()), highest
+        )
+        poles = np.concatenate([poles[keep], more[0]])
+        left = np.concatenate([left[:, keep], more[1]], axis=1)
+        right = np.concatenate([right[:, keep], more[2]], axis=1)
         return cls(
-            poles[keep],
-            _in_frame(left[:, keep].T, frame, moving),
-            _in_frame(right[:, keep].T, frame, moving),
+            poles,
+            _in_frame(left.T, frame, moving),
+            _in_frame(right.T, frame, moving),
+            float((missing / np.where(whole > 0, whole, 1.0)).max()),
         )
 
     def turned(self, feed: float) -> TipModes:
@@ -228,7 +252,7 @@ class TipModes:
             From x towards y, rad.
         """
         frame = Frame.feed(feed).matrix
-        return TipModes(self.poles, self.shapes @ frame.T, self.loads @ frame.T)
+        return replace(self, shapes=self.shapes @ frame.T, loads=self.loads @ frame.T)
 
     def receptance(self, frequencies: ArrayLike) -> TipResponse:
         """Receptance at frequencies (f,), Hz, as a response.

@@ -13,12 +13,13 @@ second-order systems, IEEE CDC.
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
-from strutwork.errors import ModelError, NumericalError
+from strutwork.errors import ModelError, NumericalError, ValidityWarning
 from strutwork.fea.block_krylov_basis import Array, EnergyBasis
 from strutwork.fea.block_krylov_damping import MatrixDamping
 from strutwork.fea.block_krylov_reduced import KrylovModel
@@ -116,6 +117,12 @@ def krylov_reduction(
         A band, ports or a factor that do not fit.
     NumericalError
         A structure that floats unsaid, or a tolerance that is not reached.
+
+    Warns
+    -----
+    ValidityWarning
+        The error is an estimate and no bound: no damping with a share of K or M, or damping that
+        feeds power in (`KrylovModel.proven`).
     """
     options = options or KrylovOptions()
     damping = damping or MatrixDamping()
@@ -150,6 +157,15 @@ def krylov_reduction(
     if not options.floating:
         _require_held(basis, starts[0], high)
     found = search.extend(seeds, starts)
+    if not found.residual.proven:
+        warnings.warn(
+            f"Krylov reduction: its error, {found.error:.1e}, is an estimate and no bound, because "
+            "its damping has no share of the stiffness or the mass, or feeds power in. A resonance "
+            "that the ports hardly excite may be missing. Give it such a share, however small, or "
+            "compare lines with a direct solution.",
+            ValidityWarning,
+            stacklevel=2,
+        )
     return KrylovModel(
         basis.vectors.copy(),
         found.small,

@@ -63,6 +63,11 @@ class KrylovModel:
             f"error {known} {self.error:.1e}, at {self.worst:.4g} Hz, {self.solver}>"
         )
 
+    @property
+    def proven(self) -> bool:
+        """Whether `error` and `errors` are bounds; otherwise they are estimates."""
+        return self.residual.proven
+
     def receptance(self, frequencies: ArrayLike) -> Array:
         """Displacement at every port per load at every port, (f, m, m), complex, m/N.
 
@@ -86,7 +91,8 @@ class KrylovModel:
             at = int(errors.argmax())
             raise NumericalError(
                 "Krylov reduction",
-                f"may be wrong by {errors[at]:.2g} at {lines[at]:.4g} Hz, for a tolerance of "
+                f"may be wrong by {errors[at]:.2g}{'' if self.proven else ' (an estimate)'} at "
+                f"{lines[at]:.4g} Hz, for a tolerance of "
                 f"{self.tolerance:g} between {self.band[0]:g} and {self.band[1]:g} Hz.",
                 "Reduce for a band that includes the line; without damping, keep lines away from "
                 "resonances.",

@@ -80,7 +80,7 @@ def complex_modes(placed: PlacedStructure, damping: AnyDamping, count: int = 10)
     Warns
     -----
     ValidityWarning
-        A frequency above half the cutoff of a superelement.
+        A frequency above the limit of a superelement.
     """
     if count < 1:
         raise ModelError("complex modes", f"{count} asked for.", "Request at least one.")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ from strutwork.fea.coupled import AnyDamping, PartDamping, damped_matrices, is_c
 from strutwork.fea.damping import LossFactor
 from strutwork.fea.eigen import Eigen, solve_eigen
 from strutwork.fea.modal import modal_model_of
+from strutwork.fea.modal_truncation import truncated_receptance
 from strutwork.fea.ports import Port
 from strutwork.fea.reduction import Reduced, reduce_system
 from strutwork.fea.rounding import uncoupled
@@ -58,6 +59,10 @@ class FrequencyResponse:
     static_share : float
         Least share of the static compliance at any port that the kept modes carry before the
         static residual makes it whole.
+    truncation_error : (..., f, o, i)
+        Bound of the error by taking the other modes for static, m/N and the like; zero without
+        truncation. At most `TRUNCATED` of the pair's largest receptance over the lines, so that
+        it may be a larger share between resonances.
     """
 
     frequencies: Array
@@ -69,6 +74,7 @@ class FrequencyResponse:
     method: str
     kept_modes: int
     static_share: float
+    truncation_error: Array = field(default_factory=lambda: np.zeros(()))
 
     def __repr__(self) -> str:
         return (
@@ -115,7 +121,8 @@ def frequency_response(
         Hz, not negative.
     damping : damping of any kind
     method : "modal", "all_modes" or "direct"
-        Modal superposition with static residual, all modes, or a solution at every line. Damping
+        Modal superposition with static residual and as many modes as hold it to 1e-3 of every
+        pair's largest receptance over the lines, all modes, or a solution at every line. Damping
         that couples the modes is always solved in all of them together.
 
     Returns
@@ -133,7 +140,7 @@ def frequency_response(
     Warns
     -----
     ValidityWarning
-        A line above half the cutoff of a superelement.
+        A line above the limit of a superelement.
     """
     found = response_at(placed, inputs, outputs, frequencies, damping, method)
     warn_beyond(placed, float(found.frequencies.max()))
@@ -176,6 +183,7 @@ def response_at(
     columns = [ports.index(p) for p in inputs]
     coupled = is_coupled(reduced, damping)
     kept, share, used = 0, 1.0, str(method)
+    error: Array | None = None
     if isinstance(damping, PartDamping) and not coupled:
         if damping.background is None:
             raise ModelError(
@@ -191,15 +199,15 @@ def response_at(
         model = modal_model_of(reduced, eigen, ports, simple)
         kept = model.square.shape[1]
         if method == "modal":
-            model, residual = model.truncated(float(lines.max()))
-            kept = model.square.shape[1]
-            whole = model.static_compliance + residual
-            diagonal = np.einsum("pii->pi", whole)
-            carried = np.einsum("pii->pi", model.static_compliance)
-            share = float((carried / np.where(diagonal > 0, diagonal, 1.0)).min())
-            # what a loss factor turns, it turns in the static part of the other modes too
-            rest = residual / (1.0 + 1j * simple.structural)
-            response = model.receptance(lines) + rest[:, None]
+            response, error, part, keep = truncated_receptance(model, lines)
+            kept = int(keep.sum())
+            diagonal = np.einsum("pii->pi", model.static_compliance)
+            carried = np.einsum("pii->pi", part)
+            share = float(
+                (carried / np.where(diagonal > 0, diagonal, 1.0)).min(
+                    where=diagonal > 0, initial=1.0
+                )
+            )
         else:
             response = model.receptance(lines)
     if not np.all(np.isfinite(response)):
@@ -210,6 +218,8 @@ def response_at(
         )
     apart = uncoupled(response)
     response = np.where(apart[:, None], 0.0, response)[:, :, rows][..., columns]
+    error = np.zeros(response.shape) if error is None else error
+    error = np.where(apart[:, None], 0.0, error)[:, :, rows][..., columns]
     static = np.where(apart, 0.0, _static(reduced, eigen, ports))[:, rows][..., columns]
     batch = placed.batch
     return FrequencyResponse(
@@ -222,6 +232,7 @@ def response_at(
         used,
         kept,
         share,
+        error.reshape((*batch, *error.shape[1:])),
     )
 
 

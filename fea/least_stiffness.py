@@ -115,7 +115,7 @@ def least_dynamic_stiffness(
     Warns
     -----
     ValidityWarning
-        The band reaches above half the cutoff of a superelement.
+        The band reaches above the limit of a superelement.
     """
     check_band(*band)
     warn_beyond(placed, band[1])

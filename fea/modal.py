@@ -124,6 +124,16 @@ class ModalModel:
         residual : (p, q, q)
             Static compliance of the modes left out, m/N.
         """
+        return self.parted(self.mattering(highest))
+
+    def mattering(self, highest: float) -> NDArray[np.bool_]:
+        """Modes that `truncated` keeps, (m,).
+
+        Parameters
+        ----------
+        highest : float
+            Hz.
+        """
         whole = np.einsum("pqm,pqm->pq", self.residues, self.residues)
         share = self.residues**2 / np.where(whole > 0, whole, 1.0)[..., None]
         in_band = self.square * (2.0 * np.pi * 2.0 * highest) ** 2 >= 1.0
@@ -134,6 +144,16 @@ class ModalModel:
             if np.all(carried >= np.where(whole > 0, STATIC_SHARE, 0.0)):
                 break
             keep[mode] = True
+        return keep
+
+    def parted(self, keep: NDArray[np.bool_]) -> tuple[ModalModel, Array]:
+        """Some of the modes, and the static compliance of the others, (p, q, q), m/N.
+
+        Parameters
+        ----------
+        keep : (m,)
+            Which modes.
+        """
         rest = self.residues[:, :, ~keep]
         model = ModalModel(
             self.ports, self.residues[:, :, keep], self.square[:, keep], self.rigid, self.damping

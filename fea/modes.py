@@ -139,7 +139,7 @@ def modes(
     Warns
     -----
     ValidityWarning
-        A frequency above half the cutoff of a superelement.
+        A frequency above the limit of a superelement.
     """
     found = searched_modes(placed, count, preload, method)
     known = found.frequencies[np.isfinite(found.frequencies)]

@@ -19,19 +19,15 @@ from typing import Any, Literal
 import numpy as np
 import scipy.linalg as sla
 from numpy.typing import NDArray
-from scipy.sparse.linalg import LinearOperator, eigsh
 
 from strutwork.errors import ModelError, NumericalError
+from strutwork.fea.held_modes import held_modes
+from strutwork.fea.monitors import check_exchange, choose_monitors
+from strutwork.fea.superelement_limit import accurate_to
 from strutwork.fea.tied_solid import StaticSolver, TiedSolid
-from strutwork.msa.structure import PlacedStructure, rigid_map
+from strutwork.msa.structure import PlacedStructure
 
 Array = NDArray[Any]
-
-#: Largest condition number of the exchange of coordinates.
-CONDITION = 1e6
-
-#: Candidates for monitors.
-CANDIDATES = 400
 
 #: Shapes with less than this share of their size outside the others are dropped.
 DEPENDENT = 1e-8
@@ -59,6 +55,9 @@ class Superelement:
         Hz, of the retained modes with the interfaces held; empty for a Krylov basis.
     solver : str
         Which factorisation ran.
+    limit : float, optional
+        Hz: computed when it was made, the frequency below which answers hold to 1e-4
+        (`strutwork.fea.superelement_limit`). Without it, half of the cutoff counts.
     """
 
     name: str
@@ -69,17 +68,30 @@ class Superelement:
     shapes: Array
     fixed_frequencies: Array
     solver: str
+    limit: float | None = None
 
     def __repr__(self) -> str:
+        if len(self.fixed_frequencies):
+            reach = f"fixed-interface modes to {self.cutoff:.4g} Hz"
+        else:
+            reach = f"Krylov basis accurate to {self.accurate_to:.4g} Hz"
         return (
             f"<Superelement {self.name}: {len(self.nodes)} nodes for "
-            f"{self.shapes.shape[0]} dof, fixed-interface modes to {self.cutoff:.4g} Hz>"
+            f"{self.shapes.shape[0]} dof, {reach}>"
         )
 
     @property
     def cutoff(self) -> float:
         """Highest retained frequency with the interfaces held, Hz; zero for a Krylov basis."""
         return float(self.fixed_frequencies[-1]) if len(self.fixed_frequencies) else 0.0
+
+    @property
+    def accurate_to(self) -> float:
+        """Frequency below which answers hold to 1e-4, Hz.
+
+        The limit computed when it was made, else half of the cutoff; zero where neither is known.
+        """
+        return self.cutoff / 2.0 if self.limit is None else self.limit
 
     def scaled(self, factor: float) -> Superelement:
         """The same solid of the same material, `factor` times as large, exactly.
@@ -101,6 +113,7 @@ class Superelement:
             local_mass=factor**3 * pairs * self.local_mass,
             shapes=self.shapes * lengths,
             fixed_frequencies=self.fixed_frequencies / factor,
+            limit=None if self.limit is None else self.limit / factor,
         )
 
     def turn(self, at: PlacedStructure) -> Array:
@@ -180,7 +193,7 @@ def superelement(
         Nodes of the solid's cells, k each, among which monitors are chosen.
     cutoff : float, optional
         Hz: modes with the interfaces held are retained beyond it. Answers below half of it are
-        good to 1e-4.
+        good to 1e-4. A Krylov basis has its number of shapes alone, and its limit is computed.
     modes : int
         Without a cutoff, how many modes (Krylov: shapes), rounded up to a multiple of six.
     method : "craig_bampton" or "krylov"
@@ -194,45 +207,74 @@ def superelement(
     Raises
     ------
     ModelError
-        No interface, or more shapes than the solid has.
+        No interface, a cutoff for a Krylov basis, or more shapes than the solid has.
     NumericalError
-        Shapes that cannot be told apart by motions of its monitors.
+        Shapes that motions of its monitors cannot tell apart, or only with much rounding.
     """
     if not solid.patches:
         raise ModelError(f"solid {solid.name}", "has no interface.", "Tie a patch to a node.")
+    if method == "krylov" and cutoff is not None:
+        raise ModelError(
+            f"superelement {solid.name}",
+            "has a cutoff, which a Krylov basis does not follow.",
+            "Give modes, and compare accurate_to of the result with the cutoff.",
+        )
     static = StaticSolver(solid, solver)
     carried = static.constraint_modes()
-    k = carried.shape[1]
-    frequencies = np.zeros(0)
+    nodes = np.asarray(cells, dtype=np.intp)
     if method == "krylov":
         inner = _krylov(static, carried, _sixes(modes))
-    else:
-        frequencies, inner = _held_modes(static, cutoff, modes)
-        residual, _ = static.solve(solid.mass @ carried)
-        inner = _independent(solid, inner, residual)
-        # six freedoms a monitor: the residual shapes that matter least make the number even
-        inner = inner[:, : len(inner.T) // 6 * 6]
+        limit = accurate_to(static, carried, inner)
+        return _on_monitors(static, carried, inner, nodes, np.zeros(0), limit)
+    frequencies, held = _held_modes(static, cutoff, modes)
+    inner, count = _with_residuals(static, carried, held)
+    if inner.shape[1] >= count:
+        try:
+            return _on_monitors(static, carried, inner, nodes, frequencies, None)
+        except NumericalError:
+            # a coarse mesh may tell fewer shapes apart
+            if count % 6 == 0:
+                raise
+    inner = inner[:, : count // 6 * 6]
+    limit = min(float(frequencies[-1]) / 2.0, accurate_to(static, carried, inner))
+    return _on_monitors(static, carried, inner, nodes, frequencies, limit)
+
+
+def _on_monitors(
+    static: StaticSolver,
+    carried: Array,
+    inner: Array,
+    cells: NDArray[np.intp],
+    frequencies: Array,
+    limit: float | None,
+) -> Superelement:
+    """The superelement of a basis, its inner shapes exchanged for motions of monitors."""
+    solid, k = static.solid, carried.shape[1]
     basis = np.concatenate([carried, inner], axis=1)
     stiffness = basis.T @ (solid.stiffness @ basis)
     mass = basis.T @ (solid.mass @ basis)
     # static shapes are in balance with interface forces alone, and inner ones do no work there
     stiffness[:k, k:] = stiffness[k:, :k] = 0.0
     shapes = solid.recovery @ basis
-    places, exchange = _monitors(solid, shapes, np.asarray(cells, dtype=np.intp), k)
+    places, exchange = choose_monitors(solid, shapes, cells, k)
     names = [p.interface.name for p in solid.patches]
     positions = np.array([p.position for p in solid.patches])
     if len(places):
         names += [f"{solid.name}/{i + 1}" for i in range(len(places))]
         positions = np.concatenate([positions, places])
+    local_stiffness = _even(exchange.T @ stiffness @ exchange)
+    local_mass = _even(exchange.T @ mass @ exchange)
+    check_exchange(solid.name, (stiffness, mass), (local_stiffness, local_mass), k)
     return Superelement(
         solid.name,
         tuple(names),
         positions,
-        _even(exchange.T @ stiffness @ exchange),
-        _even(exchange.T @ mass @ exchange),
+        local_stiffness,
+        local_mass,
         shapes @ exchange,
         frequencies,
         static.name,
+        limit,
     )
 
 
@@ -256,17 +298,8 @@ def _held_modes(static: StaticSolver, cutoff: float | None, modes: int) -> tuple
                 f"{count} modes are too many for {size} coordinates.",
                 "Lower the cutoff or the number of modes, or refine the mesh.",
             )
-        operator = LinearOperator((size, size), matvec=lambda x: static.solve(x[:, None])[0][:, 0])
-        start = np.random.default_rng(0).standard_normal(size)
-        values, vectors = eigsh(
-            solid.stiffness,
-            k=count,
-            M=solid.mass,
-            sigma=0.0,
-            OPinv=operator,
-            v0=operator.matvec(solid.mass @ start),
-        )
-        frequencies = np.sqrt(np.maximum(values, 0.0)) / (2 * np.pi)
+        squares, vectors = held_modes(static, count)
+        frequencies = np.sqrt(squares) / (2 * np.pi)
         if cutoff is None or frequencies[-1] >= cutoff:
             break
         count *= 2
@@ -274,6 +307,22 @@ def _held_modes(static: StaticSolver, cutoff: float | None, modes: int) -> tuple
     if cutoff is not None:
         keep = min(keep, _sixes(int(np.searchsorted(frequencies, cutoff)) + 1))
     return frequencies[:keep], vectors[:, :keep]
+
+
+def _with_residuals(static: StaticSolver, carried: Array, inner: Array) -> tuple[Array, int]:
+    """Modes with the residual vectors, filled up to a multiple of six, and their own number.
+
+    A monitor has six freedoms. Without one of the residual vectors the cutoff promises nothing, so
+    what lacks to the multiple comes from the next term of the expansion; there may be too little.
+    """
+    solid = static.solid
+    residual, _ = static.solve(solid.mass @ carried)
+    inner = _independent(solid, inner, residual)
+    count = inner.shape[1]
+    if count % 6:
+        further, _ = static.solve(solid.mass @ residual)
+        inner = _independent(solid, inner, further)[:, : _sixes(count)]
+    return inner[:, : inner.shape[1] // 6 * 6], count
 
 
 def _krylov(static: StaticSolver, carried: Array, count: int) -> Array:
@@ -309,48 +358,3 @@ def _independent(solid: TiedSolid, first: Array, more: Array) -> Array:
     lower = np.linalg.cholesky(_even(added.T @ (solid.mass @ added)))
     added = np.linalg.solve(lower, added.T).T
     return np.concatenate([first, added], axis=1)
-
-
-def _monitors(
-    solid: TiedSolid, shapes: Array, cells: NDArray[np.intp], k: int
-) -> tuple[Array, Array]:
-    """Places of the monitors (p, 3), and the exchange of coordinates (k + m, k + 6 p).
-
-    Each monitor is one cell, its motion the least-squares rigid motion of the corners. They are
-    chosen one by one for the volume that their rows add.
-    """
-    m = shapes.shape[1] - k
-    if m == 0:
-        return np.zeros((0, 3)), np.eye(k)
-    step = max(1, len(cells) // CANDIDATES)
-    chosen = cells[::step]
-    points = solid.points[chosen]
-    middle = points.mean(axis=1)
-    arms = rigid_map(points - middle[:, None])[:, :, :3].reshape(len(chosen), -1, 6)
-    reader = np.linalg.pinv(arms)
-    dofs = (3 * chosen[:, :, None] + np.arange(3)).reshape(len(chosen), -1)
-    rows = reader @ shapes[dofs]
-    reach = np.linalg.norm(solid.points - solid.points.mean(axis=0), axis=1).max()
-    # compared as displacements at the solid's size, and every shape by its own
-    scaled = rows[:, :, k:] * np.array([1.0] * 3 + [reach] * 3)[:, None]
-    scaled = scaled / np.maximum(np.abs(scaled).max(axis=(0, 1)), 1e-300)
-    picked: list[int] = []
-    outside = np.eye(m)
-    for _ in range(m // 6):
-        sizes = np.linalg.svd(scaled @ outside, compute_uv=False)
-        volume = np.log(np.maximum(sizes[:, :6], 1e-300)).sum(axis=-1)
-        volume[picked] = -np.inf
-        picked.append(int(volume.argmax()))
-        _, _, right = np.linalg.svd(scaled[picked].reshape(-1, m), full_matrices=False)
-        outside = np.eye(m) - right.T @ right
-    taken = rows[picked].reshape(m, -1)
-    condition = float(np.linalg.cond(scaled[picked].reshape(m, m)))
-    if not condition < CONDITION:
-        raise NumericalError(
-            f"superelement {solid.name}",
-            f"the exchange of its coordinates has the condition number {condition:.2g}.",
-            "Retain fewer modes, or refine the mesh.",
-        )
-    inverse = np.linalg.inv(taken[:, k:])
-    exchange = np.block([[np.eye(k), np.zeros((k, m))], [-inverse @ taken[:, :k], inverse]])
-    return middle[picked], exchange

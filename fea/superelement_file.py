@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import zipfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -25,7 +25,10 @@ Array = NDArray[Any]
 LARGEST = 8 * 2**30
 
 _ARRAYS = ("positions", "local_stiffness", "local_mass", "shapes", "fixed_frequencies")
-_MARK = b"strutwork superelement 1\n"
+_MARK = b"strutwork superelement 2\n"
+
+#: Of files without the limit: a Krylov basis from one counts as accurate to 0 Hz.
+_OLD_MARK = b"strutwork superelement 1\n"
 
 #: The code that makes superelements: packages of our own by their sources, others by version.
 _OWN = (
@@ -81,6 +84,7 @@ def write_superelement(element: Superelement, path: Path) -> None:
         name=np.array(element.name),
         nodes=np.array(element.nodes),
         solver=np.array(element.solver),
+        limit=np.array(np.nan if element.limit is None else element.limit),
         **{key: getattr(element, key) for key in _ARRAYS},
     )
     body = archive.getvalue()
@@ -90,6 +94,9 @@ def write_superelement(element: Superelement, path: Path) -> None:
 
 def read_superelement(path: Path) -> Superelement:
     """Read a superelement and verify it.
+
+    A file from before the limit was stored is read without one: a Krylov basis then is accurate
+    to 0 Hz, and every solver warns of it. So is a basis of modes that lacks a residual vector.
 
     Parameters
     ----------
@@ -108,7 +115,11 @@ def read_superelement(path: Path) -> Superelement:
     except OSError as error:
         raise ModelError(part, f"cannot be read ({error.strerror}).", "Check its name.") from error
     body = whole[len(_MARK) + 32 :]
-    if not whole.startswith(_MARK) or whole[len(_MARK) :][:32] != hashlib.sha256(body).digest():
+    old = whole.startswith(_OLD_MARK)
+    if (
+        not (old or whole.startswith(_MARK))
+        or whole[len(_MARK) :][:32] != hashlib.sha256(body).digest()
+    ):
         raise ModelError(
             part,
             "is damaged or not a superelement: its content does not match its checksum.",
@@ -116,16 +127,27 @@ def read_superelement(path: Path) -> Superelement:
         )
     try:
         with np.load(io.BytesIO(body), allow_pickle=False) as data:
+            limit = np.nan if old else float(data["limit"])
+            if old and len(data["fixed_frequencies"]) and not _complete(data):
+                limit = 0.0
             return Superelement(
                 name=str(data["name"]),
                 nodes=tuple(str(n) for n in data["nodes"]),
                 solver=str(data["solver"]),
+                limit=None if np.isnan(limit) else limit,
                 **{key: data[key] for key in _ARRAYS},
             )
     except (KeyError, ValueError, zipfile.BadZipFile) as error:
         raise ModelError(
             part, "was written by another version.", "Delete it; it is made again."
         ) from error
+
+
+def _complete(data: Mapping[str, Array]) -> bool:
+    """Whether a stored basis of modes has a residual vector for every interface freedom."""
+    monitors = sum(str(n).startswith(f"{data['name']}/") for n in data["nodes"])
+    interfaces = len(data["nodes"]) - monitors
+    return 6 * monitors >= len(data["fixed_frequencies"]) + 6 * interfaces
 
 
 def cache_folder() -> Path | None:

@@ -94,8 +94,8 @@ class SolidElement:
 
     @property
     def accurate_to(self) -> float:
-        """Frequency below which answers hold to 1e-4, half of the cutoff, Hz."""
-        return self.cutoff / 2.0
+        """Frequency below which answers hold to 1e-4, Hz, as of the superelement."""
+        return self.reduced.accurate_to
 
     @property
     def mesh_size(self) -> float:

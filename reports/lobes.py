@@ -29,6 +29,7 @@ from strutwork.cutting import (
 from strutwork.cutting.tip_dynamics import tip_ports
 from strutwork.errors import ModelError, NumericalError
 from strutwork.fea.reduction import reduce_system
+from strutwork.fea.validity import warn_beyond
 from strutwork.files import write_whole
 from strutwork.msa import system_of
 from strutwork.reports.covering_band import covering_band
@@ -70,6 +71,8 @@ class TargetLobes:
         Of parts and modes on the absolute limit.
     note : str
         Why there are no exact limits, or what else to know.
+    residual_share : float or None
+        Share of the static compliance for which equivalent modes stand in the exact limits.
     """
 
     target: Target
@@ -81,6 +84,7 @@ class TargetLobes:
     rose: AbsoluteLimits
     effects: DepthEffects
     note: str
+    residual_share: float | None = None
 
     def __repr__(self) -> str:
         return f"<TargetLobes of {self.target.title}: {1e3 * self.absolute[0]:.4g} mm>"
@@ -104,6 +108,7 @@ class TargetLobes:
             "zero_order_frequency": _finite(self.lobes.frequencies),
             "exact_depth": None if exact is None else _finite(exact.depth),
             "exact_frequency": None if exact is None else _finite(exact.frequencies),
+            "exact_residual_share": self.residual_share,
             "kinds": None if exact is None else list(exact.kinds),
             "deepest": None if exact is None else exact.deepest,
             "pockets": [
@@ -244,14 +249,20 @@ def target_lobes(
     cutting = tip.in_frame(frame)
     response = cutting.response_at(tip.lines((band[0], highest), FINER))
     limits = zero_order_lobes(response, process).at(speeds)
-    exact, note = _exact(cutting, process, speeds, limits, absolute[0], deepest, 0.5 * band[1])
+    exact, share, note = _exact(
+        cutting, process, speeds, limits, absolute[0], deepest, 0.5 * band[1]
+    )
     matrix = turned_matrices(process, frame, [0.0])[0]
     effects = depth_effects(target.placed, port.node, damping, matrix, absolute[1], port.against)
     pockets: tuple[Pocket, ...] = ()
     if len(speeds) >= 3 and (exact is not None or np.all(np.isfinite(limits.depth))):
         pockets = best_pockets(limits if exact is None else exact, process, feed)
+    shown = [absolute[1], *limits.frequencies, *(() if exact is None else exact.frequencies)]
+    warn_beyond(target.placed, float(np.max(shown, where=np.isfinite(shown), initial=0.0)))
     said = " ".join(text for text in (f"Note: {stop}" if stop else "", note) if text)
-    return TargetLobes(target, process, absolute, limits, exact, pockets, rose, effects, said)
+    return TargetLobes(
+        target, process, absolute, limits, exact, pockets, rose, effects, said, share
+    )
 
 
 def _exact(
@@ -262,14 +273,15 @@ def _exact(
     absolute: float,
     deepest: float | None,
     highest: float,
-) -> tuple[DepthLimits | None, str]:
-    """Exact limits, or why there are none."""
+) -> tuple[DepthLimits | None, float | None, str]:
+    """Exact limits and the share of compliance by equivalent modes, or why there are none."""
     deep = _deepest(limits, absolute, process) if deepest is None else deepest
     try:
         modes = tip.modes(highest)
     except ModelError as error:
-        return None, f"Only zero-order limits are computed. {error}"
+        return None, None, f"Only zero-order limits are computed. {error}"
     try:
-        return depth_limits(modes, process, speeds, deep, min(0.5 * absolute, deep)), ""
+        exact = depth_limits(modes, process, speeds, deep, min(0.5 * absolute, deep))
     except NumericalError as error:
-        return None, f"Only zero-order limits are computed. {error}"
+        return None, None, f"Only zero-order limits are computed. {error}"
+    return exact, modes.residual_share, ""

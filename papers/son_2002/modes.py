@@ -121,7 +121,7 @@ def named_modes(
     Warns
     -----
     ValidityWarning
-        A mode with a name above half the cutoff of a superelement.
+        A mode with a name above the limit of a superelement.
     """
     placed = whole.structure.at(whole.place(whole.home() if pose is None else pose))
     found = searched_modes(placed, count)

@@ -23,6 +23,7 @@ def test_limits_of_a_machine_are_printed_and_written(strutwork: Program, tmp_pat
     # at half immersion exactly one of four teeth cuts at a time
     assert exact == pytest.approx(zero, rel=0.08)
     assert set(found["kinds"]) == {"Hopf"}
+    assert 0.0 <= found["exact_residual_share"] <= 0.01
     assert found["absolute_depth"] <= min(zero)
     assert found["pockets"][0]["speed_rpm"] == 2500.0
     (path,) = found["data"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ from strutwork.cutting import (
 )
 from strutwork.errors import ModelError
 from strutwork.fea import FrequencyResponse, LossFactor, ModalRatio, Port
-from strutwork.fea.modal import ModalModel
+from strutwork.fea.modal import STATIC_SHARE, ModalModel
 from strutwork.fea.uff import FrfRecord, UniversalFile
 from strutwork.fea.uff_read import read_universal
 from strutwork.fea.uff_write import write_universal
@@ -50,8 +51,31 @@ def test_modes_of_a_structure_have_its_receptance() -> None:
     np.testing.assert_allclose(turned.shapes, modes.turned(0.3).shapes)
 
 
-def test_modes_far_above_the_band_are_left_out() -> None:
-    assert len(TipModes.from_model(model(), 0, None, 1000.0).poles) == 2
+def test_a_mode_far_above_the_band_is_brought_nearer_with_its_compliance() -> None:
+    given = model()
+    modes = TipModes.from_model(given, 0, None, 1000.0)
+    # the one at 9000 Hz would take steps that the band does not need
+    np.testing.assert_allclose(np.abs(modes.poles) / (2 * np.pi), [300.0, 700.0, 4000.0])
+    assert 0.0 < modes.residual_share < 1.0 - STATIC_SHARE
+    assert modes.turned(0.3).residual_share == modes.residual_share
+    assert TipModes.from_model(given, 0, None, 10_000.0).residual_share == 0.0
+    still = modes.receptance([0.0, 1.0]).receptance[0]
+    np.testing.assert_allclose(still.real, given.static_compliance[0], rtol=1e-9, atol=1e-16)
+
+
+def test_motions_without_mass_keep_their_compliance() -> None:
+    """A spring between the tool and a machine that has all the mass: half of the compliance."""
+    given = model()
+    square = np.append(given.square, [[0.0]], axis=1)
+    residues = np.append(given.residues, np.array([[[1e-4], [0.0], [0.0]]]), axis=2)
+    given = replace(given, square=square, residues=residues)
+    modes = TipModes.from_model(given, 0, None, 1000.0)
+    lines = np.array([0.0, 100.0, 290.0, 500.0])
+    found, expected = modes.receptance(lines).receptance, given.receptance(lines)[0]
+    np.testing.assert_allclose(found[0].real, expected[0].real, rtol=1e-9, atol=1e-16)
+    # brought from infinity to four times the band: 1/(1 − 1/64) at half of it, and its damping
+    assert np.abs(found - expected).max() < 0.02 * 1e-8
+    assert modes.residual_share > 0.1
 
 
 @pytest.mark.parametrize(

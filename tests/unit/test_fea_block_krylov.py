@@ -19,6 +19,9 @@ from tests.solids import frame
 
 Array = NDArray[Any]
 
+#: Reductions without damping warn; the tests that are about it ask for the warning.
+pytestmark = pytest.mark.filterwarnings("ignore:Krylov reduction:strutwork.errors.ValidityWarning")
+
 BAND = (5.0, 1500.0)
 
 

@@ -23,6 +23,7 @@ from strutwork.fea import (
 )
 from strutwork.fea.coupled import AnyDamping, part_matrices
 from strutwork.fea.modal import STATIC_SHARE
+from strutwork.fea.modal_truncation import TRUNCATED
 from strutwork.msa import PlacedStructure, system_of, tool_compliance
 from strutwork.msa.constraints import scales
 from tests.structure_cases import LIBRARY
@@ -195,6 +196,16 @@ def test_static_residual_makes_the_response_whole(damping: AnyDamping) -> None:
     assert 0 < kept.kept_modes < whole.kept_modes == 84
     assert STATIC_SHARE <= kept.static_share < 1.0
     compliance = tool_compliance(placed)[:, :3, :3]
+    # the bound that is stated is one, is not idle, and is small beside the answer of every pair
+    wrong = np.abs(kept.receptance - whole.receptance)
+    peak = np.abs(whole.receptance).max(axis=1, keepdims=True)
+    assert kept.truncation_error.shape == wrong.shape
+    assert np.all(wrong <= kept.truncation_error + 1e-10 * peak)
+    assert np.all(kept.truncation_error <= 1.01 * TRUNCATED * peak)
+    driven = np.arange(3)
+    last = wrong[:, -1, driven, driven]
+    assert np.all(last > 0.5 * kept.truncation_error[:, -1, driven, driven])
+    assert not np.any(whole.truncation_error)
     # modes left out lie above 2 × highest, carry at most 1 % of the static compliance, and are
     # taken for static: off by 1/(1 − 1/4) − 1 = 1/3 and, undamped, by 2 ζ/2 = 0.02 of it
     own = np.sqrt(np.einsum("pii->pi", compliance))

@@ -85,8 +85,11 @@ def test_any_superelement_is_asked_how_far_it_holds() -> None:
     assert issubclass(ValidityWarning, ModelWarning)
     with pytest.warns(ValidityWarning, match="Frequencies up to 500 Hz .* granite 450 Hz"):
         warn_beyond(placed, 500.0)
-    # a Krylov basis has no cutoff
-    assert beyond(with_block(0.0), 1e9) == ""
+    # nothing is known of an element without a cutoff or a limit
+    assert limits(with_block(0.0)) == {"granite": 0.0}
+    unknown = beyond(with_block(0.0), 1.0)
+    assert "No limit is stored with a reduced solid" in unknown
+    assert "cutoff" not in unknown
     target = Target("block", "b", placed, placed.structure.linkage.nodes, ModalRatio(0.01))
     with pytest.warns(ValidityWarning, match="granite 450 Hz"):
         target_modes(target, 40)

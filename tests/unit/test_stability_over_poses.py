@@ -157,6 +157,21 @@ def test_a_pole_that_only_falls_is_kept_whole() -> None:
     assert not np.any(ours[:, 1:])
 
 
+def test_a_spring_without_mass_keeps_its_compliance() -> None:
+    """What neither mass nor dashpot delays has no pole, and had been left out."""
+    poles = np.array([-5.0 + 300.0j, -5.0 - 300.0j])
+    left, right = np.ones((1, 2)), np.array([[-1e-6j, 1e-6j]])
+    soft = np.array([[2e-9]])
+    model = PoleModel((Port("tip", "x"),), poles, left, right, soft, np.zeros((1, 1)))
+    modes = TipModes.from_poles(model, None, 100.0, (0,))
+    lines = np.linspace(1e-3, 50.0, 20)
+    found, expected = modes.receptance(lines).receptance[:, 0, 0], model.receptance(lines)[:, 0, 0]
+    np.testing.assert_allclose(found[0], expected[0], rtol=1e-6)
+    # brought from infinity to four times the band
+    assert np.abs(found - expected).max() < 0.02 * soft[0, 0]
+    assert modes.residual_share == pytest.approx(2e-9 / expected[0].real, rel=1e-3)
+
+
 def test_poles_of_a_loss_factor_have_no_time_response(head: Model) -> None:
     damping = PartDamping(ModalRatio(0.01), joints={"drive1": 0.1})
     (tip,) = tip_dynamics(head.placed, "TCP", damping)
