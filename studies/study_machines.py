@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from strutwork.errors import StrutworkError
 from strutwork.machines.model import Model
-from strutwork.msa.variant_of import expect_poses
+from strutwork.msa.compiled import programs_on
+from strutwork.msa.variant_of import Programs, expect_poses
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.filters import PoseStatus
@@ -128,6 +129,21 @@ class Machines:
                 ]
         return tuple(found)
 
+    @cached_property
+    def programs(self) -> Programs:
+        """What the machines share in their elimination, made at the poses of the stated machine.
+
+        Which machine or which part of the study comes first then decides nothing.
+        """
+        model = self.machine.origin.model
+        try:
+            standing = self.stand(model)
+            placed = model.structure.at(standing.placement)
+            return programs_on(placed) if standing.good.size else {}
+        except StrutworkError:
+            # the machine as it is stated need not be one of the study: each then has its own
+            return {}
+
     @property
     def poses(self) -> int:
         """Poses at which each machine is asked, home being the last."""
@@ -199,7 +215,8 @@ class Machines:
         reasons = [r for r in standing.reasons if r]
         if standing.good.size:
             # of all machines, so that every one of them is solved the same way
-            expect_poses(model.structure, len(self.values) * self.poses)
+            count = len(self.values) * self.poses
+            expect_poses(model.structure, count, lambda: self.programs)
             placed = model.structure.at(standing.placement)
             answers: dict[str, dict[str, Array]] = {}
             for question in self.questions:
