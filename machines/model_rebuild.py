@@ -13,32 +13,34 @@ from strutwork.kinematics import DIRECTIONS, Joint, Linkage
 from strutwork.machines.described_process import process_of
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Model
-from strutwork.machines.model_builder import build_model
+from strutwork.machines.model_builder import build_model, warn_of_unjoined
 from strutwork.machines.model_cases import load_cases
 from strutwork.machines.model_flexures import flexures_of, joint_flexures, stiffness_rows
-from strutwork.machines.model_motion_tables import drives_of, workspace_of
+from strutwork.machines.model_motion_tables import drives_of, home_values, workspace_of
 from strutwork.machines.model_parts import beams_of, damping_of, joint_of, masses_of, springs_of
+from strutwork.machines.model_placement import home_placement
 from strutwork.machines.model_schema import JointTable, ModelTable
 from strutwork.machines.model_servos import servos_of
 from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Structure
-from strutwork.msa.variant_of import share_topology
+from strutwork.msa.variant_of import elsewhere, share_topology
 
 if TYPE_CHECKING:
     from strutwork.flexures import Flexure
 
-#: Tables whose numbers move no node and turn no joint.
+#: Tables whose numbers leave the bodies and the joints' free, locked and elastic directions alone.
 LIGHT = frozenset(
     {
-        *("title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
+        *("nodes", "title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
         *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
         "flexures",
         *("force_limits", "workspace", "drives", "servos", "damping", "process"),
     }
 )
 
-#: Of a joint, what its stiffness, damping or limits state.
+#: Of a joint, what its stiffness, damping or limits state, and where it points.
 _OF_FORCE = frozenset({"stiffness", "damping", "limits", "matrix"})
+_AXES = frozenset({"axis", "second_axis"})
 
 _ELASTIC = frozenset({"materials", "sections", "beams"})
 _HEAVY = frozenset({"bodies", "masses"})
@@ -53,7 +55,8 @@ def rebuilt_model(
     """The model of tables that differ in numbers from those of another model.
 
     Where nodes, axes, the set of elastic directions and the division of beams stay, so do the
-    placement and how the machine moves: nothing is closed or factorised again.
+    placement and how the machine moves: nothing is closed or factorised again. Where only nodes and
+    axes are elsewhere, the machine is placed anew, and keeps its bodies and what depends on these.
 
     Parameters
     ----------
@@ -81,6 +84,10 @@ def rebuilt_model(
     joints = _joints(model, before, after, flexures) if bent or "joints" in differ else ()
     if not differ <= LIGHT or joints is None or _reshaped(before, after, differ):
         return build_model(after, folder)
+    moved = _moved(before, after)
+    if moved and (after.solids or after.shapes):
+        # meshes stand at nodes
+        return build_model(after, folder)
     linkage = _linkage(model.structure.linkage, joints)
     own = linkage.joints[: len(model.joints)]
     supports = {
@@ -98,6 +105,11 @@ def rebuilt_model(
             structure.elements,
         )
         share_topology(new["structure"], structure)
+    elif moved:
+        new["structure"] = elsewhere(structure)
+    if moved:
+        home = home_values(after, own)
+        new["placement"] = home_placement(after, tuple(supports), home)
     if joints:
         new |= {"limits": joint_limits(linkage), "flexures": flexures}
     if differ & _CASES:
@@ -121,6 +133,13 @@ def rebuilt_model(
     if "process" in differ:
         new["process"] = process_of(after.process)
     made = replace(model, **new)
+    if moved:
+        # what a model that is built verifies of its geometry
+        _ = made.placed
+        if made.task:
+            made.motion.require_task(made.task)
+        warn_of_unjoined(made)
+        return made
     # without a motion it cannot be moved either, and says why when it is asked to
     with suppress(ModelError):
         # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
@@ -157,7 +176,7 @@ def _joints(
         if any(
             getattr(old, name) != getattr(new, name)
             for name in JointTable.model_fields
-            if name not in _OF_FORCE
+            if name not in _OF_FORCE | _AXES
         ):
             return None
         if new.bearing is not None:
@@ -168,6 +187,16 @@ def _joints(
             return None
         made[i] = joint
     return tuple(made)
+
+
+def _moved(before: ModelTable, after: ModelTable) -> bool:
+    """Whether a node or the axes of a joint are elsewhere."""
+    return before.nodes is not after.nodes or any(
+        getattr(old, name) != getattr(new, name)
+        for old, new in zip(before.joints, after.joints, strict=True)
+        if old is not new
+        for name in _AXES
+    )
 
 
 def _linkage(linkage: Linkage, joints: tuple[Joint, ...]) -> Linkage:
