@@ -137,7 +137,7 @@ class Machines:
         """
         model = self.machine.origin.model
         try:
-            standing = self.stand(model)
+            standing = self.stand(model, self.every)
             placed = model.structure.at(standing.placement)
             return programs_on(placed) if standing.good.size else {}
         except StrutworkError:
@@ -148,6 +148,11 @@ class Machines:
     def poses(self) -> int:
         """Poses at which each machine is asked, home being the last."""
         return 1 if self.stand.grid is None else len(self.stand.grid) + 1
+
+    @property
+    def every(self) -> int:
+        """Poses of all machines together, which decide how each is placed and solved."""
+        return len(self.values) * self.poses
 
     def _of_column(self, column: Column) -> tuple[str, ...]:
         """What is kept of an answer: none is the worst where no value is worse than another."""
@@ -189,7 +194,7 @@ class Machines:
         """One machine at its poses, or why it cannot be."""
         try:
             model = self.model(number)
-            return (model, self.stand(model)), ""
+            return (model, self.stand(model, self.every)), ""
         except StrutworkError as error:
             return None, _words(error)
 
@@ -215,8 +220,7 @@ class Machines:
         reasons = [r for r in standing.reasons if r]
         if standing.good.size:
             # of all machines, so that every one of them is solved the same way
-            count = len(self.values) * self.poses
-            expect_poses(model.structure, count, lambda: self.programs)
+            expect_poses(model.structure, self.every, lambda: self.programs)
             placed = model.structure.at(standing.placement)
             answers: dict[str, dict[str, Array]] = {}
             for question in self.questions:
