@@ -1,7 +1,7 @@
-"""The rows of a linkage's joints at home, and which of them are independent: made once a motion.
+"""The rows of a linkage's joints at home, and which of them are independent.
 
-Every question about a motion begins with them: whether the tool can go in a direction, what else can
-be held, the way to any target.
+Every question about a motion begins with them: whether the tool can go in a direction, what else
+can be held, the way to any target.
 """
 
 from __future__ import annotations

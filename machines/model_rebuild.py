@@ -31,7 +31,17 @@ if TYPE_CHECKING:
 #: Tables whose numbers leave the bodies and the joints' free, locked and elastic directions alone.
 LIGHT = frozenset(
     {
-        *("nodes", "title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
+        *(
+            "nodes",
+            "title",
+            "gravity",
+            "preload",
+            "materials",
+            "sections",
+            "beams",
+            "bodies",
+            "masses",
+        ),
         *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
         "flexures",
         *("force_limits", "workspace", "drives", "servos", "damping", "process"),
@@ -112,6 +122,37 @@ def rebuilt_model(
         new["placement"] = home_placement(after, tuple(supports), home)
     if joints:
         new |= {"limits": joint_limits(linkage), "flexures": flexures}
+    new |= _stated(model, after, differ, own, supports)
+    made = replace(model, **new)
+    if moved:
+        # what a model that is built verifies of its geometry
+        _ = made.placed
+        if made.task:
+            made.motion.require_task(made.task)
+        warn_of_unjoined(made)
+        return made
+    # without a motion it cannot be moved either, and says why when it is asked to
+    with suppress(ModelError):
+        # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
+        made.__dict__["motion"] = model.motion.with_joints_of(linkage)
+    if "structure" in new:
+        # lengths and orientations of beams: now, not at the first solve
+        _ = made.placed
+    else:
+        made.__dict__["placed"] = model.placed
+    return made
+
+
+def _stated(
+    model: Model,
+    after: ModelTable,
+    differ: frozenset[str],
+    own: tuple[Joint, ...],
+    supports: Mapping[str, Joint],
+) -> dict[str, Any]:
+    """What the tables that differ state beside the structure."""
+    new: dict[str, Any] = {}
+    linkage = model.structure.linkage
     if differ & _CASES:
         follows = {(linkage.joints[t.joint].name, DIRECTIONS[t.direction]) for t in linkage.ties}
         new["cases"] = load_cases(after, own, supports, follows)
@@ -132,24 +173,7 @@ def rebuilt_model(
         new["damping"] = damping_of(after)
     if "process" in differ:
         new["process"] = process_of(after.process)
-    made = replace(model, **new)
-    if moved:
-        # what a model that is built verifies of its geometry
-        _ = made.placed
-        if made.task:
-            made.motion.require_task(made.task)
-        warn_of_unjoined(made)
-        return made
-    # without a motion it cannot be moved either, and says why when it is asked to
-    with suppress(ModelError):
-        # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
-        made.__dict__["motion"] = model.motion.with_joints_of(linkage)
-    if "structure" in new:
-        # lengths and orientations of beams: now, not at the first solve
-        _ = made.placed
-    else:
-        made.__dict__["placed"] = model.placed
-    return made
+    return new
 
 
 def _flexures(model: Model, before: ModelTable, after: ModelTable) -> dict[str, Flexure]:
