@@ -53,7 +53,8 @@ _OF_FORCE = frozenset({"stiffness", "damping", "limits", "matrix"})
 _AXES = frozenset({"axis", "second_axis"})
 
 _ELASTIC = frozenset({"materials", "sections", "beams"})
-_HEAVY = frozenset({"bodies", "masses"})
+#: What masses are made from: the centre of a body's stands relative to its first node.
+_HEAVY = frozenset({"bodies", "masses", "nodes"})
 _OF_FLEXURES = frozenset({"flexures", "materials", "joints"})
 _CASES = frozenset({"gravity", "loads", "line_loads", "settlements", "misfits"})
 _TOLERANCES = frozenset({"tolerances", "force_limits"})
@@ -105,13 +106,14 @@ def rebuilt_model(
     }
     structure = model.structure
     new: dict[str, Any] = {}
-    if joints or differ & (_ELASTIC | _HEAVY | {"springs"}):
+    masses = masses_of(after) if differ & _HEAVY else structure.masses
+    if joints or differ & (_ELASTIC | {"springs"}) or masses != structure.masses:
         new["structure"] = Structure(
             linkage,
             beams_of(after) if differ & _ELASTIC else structure.beams,
             springs_of(after) if "springs" in differ else structure.springs,
             structure.rigid,
-            masses_of(after) if differ & _HEAVY else structure.masses,
+            masses,
             structure.elements,
         )
         share_topology(new["structure"], structure)
