@@ -54,6 +54,7 @@ class WalkRows:
     asked: NDArray[np.bool_]
     order: Indices
     held_rows: int
+    given_at_home: Array
     late: Indices
     kept: Indices
     independent: bool
@@ -87,7 +88,8 @@ class WalkRows:
         self.joint, self.direction = held[:, 0], held[:, 1]
         self.spins = Spins.of(joints, self.tool_body)
         home = HomeRows.of(joints)
-        matrix = np.concatenate([home.matrix, self._given_at_home(home)])
+        self.given_at_home = self._given_at_home(home)
+        matrix = np.concatenate([home.matrix, self.given_at_home])
         self.kept, self.independent = independent_rows(matrix, len(held), (home.kept, home.basis))
         self.held_rows = len(held)
         # what follows from the rest of what is given agrees at the target, not on the straight way
@@ -120,9 +122,8 @@ class WalkRows:
         then : sequence of int
             Numbers of given rows.
         """
-        home = HomeRows.of(self.joints)
-        rows = self._given_at_home(home)
-        found, _ = independent_beside(rows[[*first, *then]], home.basis)
+        rows = self.given_at_home[[*first, *then]]
+        found, _ = independent_beside(rows, HomeRows.of(self.joints).basis)
         if found[: len(first)] != list(range(len(first))):
             return []
         return [then[k - len(first)] for k in found[len(first) :]]

@@ -30,6 +30,7 @@ _TOPOLOGY = (
 )
 
 _ORIGIN, _POSES, _PROGRAMS = "_origin", "_expected_poses", "_study_programs"
+_TOPOLOGY_OF = "_topology"
 
 #: Programs by the name under which a structure keeps them; None where the kernel does not apply.
 Programs = Mapping[str, Program | None]
@@ -46,7 +47,11 @@ def share_where_same(structure: Structure, origin: Structure) -> None:
     """
     if structure is origin or structure.elements or origin.elements:
         return
-    if _topology(structure) == _topology(origin):
+    # a frozen dataclass keeps derived data in its __dict__, as functools.cached_property does
+    kept = origin.__dict__
+    if _TOPOLOGY_OF not in kept:
+        kept[_TOPOLOGY_OF] = _topology(origin)
+    if _topology(structure) == kept[_TOPOLOGY_OF]:
         share_topology(structure, origin)
 
 
