@@ -50,6 +50,8 @@ MACHINES = {
     ),
     "linear-delta": (_factor("rod_length"), _factor("platform_radius")),
     "proposed-3pprs": (_factor("base_radius"), _factor("link_length")),
+    # locked joints: coordinates that follow from others in loops, chosen with the program
+    "hexel-hexapod": (_factor("long_side"), _factor("joint_height")),
 }
 
 
@@ -109,7 +111,7 @@ def _expect(variants: Variants, found: Arrays, row: int, factors: list[float]) -
 
 
 @pytest.mark.parametrize("name", MACHINES)
-@settings(max_examples=3, deadline=None)
+@settings(max_examples=2, deadline=None)
 @given(st.integers(0, 2**32 - 1), st.sampled_from([0.02, 0.1, 0.4]))
 def test_shared_program_gives_what_each_geometry_has_alone(
     name: str, seed: int, scatter: float
