@@ -12,6 +12,9 @@ from strutwork.contact.law import ContactLaw
 
 Array = NDArray[Any]
 
+#: Approach, as a share of the displacement of a roller, that is rounding.
+ROUNDING = 1e-14
+
 
 @dataclass(frozen=True)
 class Contacts:
@@ -153,6 +156,7 @@ class Contacts:
         """Approach (n,), direction of the force (n, 3), distance between the centres (n,)."""
         q = np.asarray(displacement)
         moved = q[:3] + np.cross(np.broadcast_to(q[3:], self.points.shape), self.points)
+        tiny = ROUNDING * np.sqrt((np.abs(moved) ** 2).sum(axis=-1))
         moved = moved - (moved * self.rolling).sum(axis=-1)[:, None] * self.rolling + self.shifts
         straight = (moved * self.normals).sum(axis=-1)
         ball = np.isfinite(self.distances)
@@ -162,6 +166,8 @@ class Contacts:
         span = np.sqrt((rest + straight) ** 2 + (across**2).sum(axis=-1))
         grown = ((moved**2).sum(axis=-1) + 2.0 * rest * straight) / (span + rest)
         directions = ((rest + straight)[:, None] * self.normals + across) / span[:, None]
+        # a roller across the load is not closed by rounding, of whose root its slope is
+        straight = np.where((straight.real > 0.0) & (straight.real <= tiny), 0.0, straight)
         return (
             np.where(ball, grown, straight),
             np.where(ball[:, None], directions, self.normals),

@@ -66,7 +66,9 @@ class Compared:
     workspace: str = ""
 
 
-def write_every_report(folder: Path, progress: Teller | None = None) -> Iterator[WrittenReport]:
+def write_every_report(
+    folder: Path, progress: Teller | None = None, *, fresh: bool = False
+) -> Iterator[WrittenReport]:
     """Write the report of every machine and document, then the page that compares the machines.
 
     Each report is on disk when it is yielded; a machine whose report cannot be made is named on
@@ -77,6 +79,8 @@ def write_every_report(folder: Path, progress: Teller | None = None) -> Iterator
     folder : Path
         Each report goes into a folder of its name in it.
     progress : callable, optional
+    fresh : bool
+        Whether everything is computed anew, as of `strutwork.reports.build.write_report`.
 
     Yields
     ------
@@ -97,7 +101,7 @@ def write_every_report(folder: Path, progress: Teller | None = None) -> Iterator
     links: list[tuple[str, str]] = []
     for name in names:
         try:
-            composed = compose(name, progress)
+            composed = compose(name, progress, fresh=fresh)
             if name in CATALOGUE:
                 compared.append(_compared(name, composed.subject, progress))
         except StrutworkError as error:

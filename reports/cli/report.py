@@ -46,14 +46,14 @@ def run(
     printed.print(f"Data files beside it: {len(written.data)}", markup=False)
 
 
-def run_all(out: str | None, json: bool) -> None:
+def run_all(out: str | None, json: bool, *, fresh: bool = False) -> None:
     """Write every report and the page that compares the machines."""
     from strutwork.reports.every_machine import write_every_report
 
     folder = Path("out") / "all" if out is None else Path(out)
     written = []
     with shown("steps") as started:
-        for report in write_every_report(folder, started):
+        for report in write_every_report(folder, started, fresh=fresh):
             written.append(str(report.report))
             tell(f"Written: {visible(written[-1])}")
     if json:

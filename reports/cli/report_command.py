@@ -69,9 +69,11 @@ def report(
     from strutwork.reports.cli.subject import where
 
     if everything:
-        if target or pose or joint or verify or pdf or fresh or errors or process:
-            raise typer.BadParameter("--all takes no target, pose or other option but --out.")
-        work.run_all(out, json)
+        if target or pose or joint or verify or pdf or errors or process:
+            raise typer.BadParameter(
+                "--all takes no target, pose or other option but --out and --fresh."
+            )
+        work.run_all(out, json, fresh=fresh)
         return
     if not target:
         raise typer.BadParameter("Name a machine, a paper or a file, or give --all.")

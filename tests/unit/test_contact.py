@@ -113,6 +113,13 @@ def test_one_row_of_rollers_under_radial_load(clearance: float) -> None:
         assert largest * 600 / force == pytest.approx(4.08, abs=0.005)
 
 
+def test_rollers_across_the_load_do_not_resist() -> None:
+    # of eight rollers two lie across the load, closed by rounding alone
+    contacts = CylindricalRollers(8, 9.6e-3, slices=1).bearing().contacts
+    closed = contacts.law.slope(contacts.approach([1e-5, 0.0, 0.0, 0.0, 0.0, 0.0])) > 0.0
+    assert np.count_nonzero(closed) == 3
+
+
 @pytest.mark.parametrize("name", BEARINGS)
 def test_loads_are_the_gradient_of_the_energy(name: str) -> None:
     contacts = BEARINGS[name].bearing().contacts

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +20,7 @@ from strutwork.cutting import (
     material_library,
     removal_rates,
 )
+from strutwork.cutting.materials import LIBRARY
 from strutwork.errors import ModelError, UnitError
 
 ALUMINIUM = ForceCoefficients(6e8, 2e8, 1e8, 2e4, 1e4, 5e3)
@@ -109,8 +112,34 @@ def test_every_material_has_a_source_and_numbers_in_range() -> None:
         assert 1e8 < one.tangential < 1e10
         assert one.edge_tangential < 1e6
     assert material("aluminium-insperger-2004").radial == 2e8
+    second = material("aluminium-7075-t6-second-test")
+    assert (second.tangential, second.radial, second.edge_tangential, second.edge_radial) == (
+        pytest.approx(600.46e6),
+        pytest.approx(180.96e6),
+        pytest.approx(17.9e3),
+        pytest.approx(20.42e3),
+    )
     with pytest.raises(ModelError, match="is not in the library"):
         material("unobtainium")
+
+
+def test_the_library_as_data_is_well_formed() -> None:
+    """Every entry says which test it is from: the tool, and a document with its year."""
+    entries = tomllib.loads(LIBRARY.read_text(encoding="utf-8"))
+    assert set(entries) == set(material_library())
+    for name, entry in entries.items():
+        assert re.fullmatch(r"[a-z0-9]+(-[a-z0-9]+)+", name), name
+        assert re.search(r"\b(19|20)\d\d\b", entry["source"]), name
+        assert entry["tool"].strip(), name
+        for key, value in entry.items():
+            if key not in {"tool", "source"}:
+                unit = "N/mm" if key.startswith("edge_") else "MPa"
+                assert re.fullmatch(rf"\d+(\.\d+)? {unit}", value), (name, key)
+    numbers = [
+        tuple((k, v) for k, v in e.items() if k not in {"tool", "source"}) for e in entries.values()
+    ]
+    # no test is entered twice
+    assert len(set(numbers)) == len(numbers)
 
 
 @pytest.mark.parametrize(

@@ -14,6 +14,7 @@ from strutwork.msa import (
     axis_stiffness_blocked,
     axis_stiffness_free,
     compliance_budget,
+    prepare_compliance,
     stiffness_ellipsoid,
     tool_compliance,
     tool_stiffness,
@@ -87,6 +88,26 @@ def test_the_default_method_changes_with_the_number_of_poses_and_the_numbers_do_
     expected = tool_compliance(placed[-3:], "saddle_point")
     np.testing.assert_allclose(by_default[-3:], expected, rtol=1e-9, atol=1e-9 * expected.max())
     np.testing.assert_array_equal(on_two, by_default)
+
+
+def test_a_part_of_a_study_is_solved_as_the_study_is() -> None:
+    placed = stewart(poses=COMPILED_FROM + 3).model.place()
+    expected = tool_compliance(placed)
+    some = placed[np.arange(100, 105)]
+    as_part = tool_compliance(some.among(placed.batch[0]))
+    np.testing.assert_array_equal(as_part, expected[100:105])
+    # five poses by themselves go to the dense solvers, whose last digits are others
+    assert not np.array_equal(tool_compliance(some), as_part)
+
+
+def test_what_parts_share_is_made_of_many_poses() -> None:
+    placed = stewart(poses=COMPILED_FROM).model.place()
+    kept = placed.structure.__dict__
+    prepare_compliance(placed[:0].among(10_000))
+    prepare_compliance(placed[:5].among(COMPILED_FROM - 1))
+    assert "_program" not in kept
+    prepare_compliance(placed[:5].among(COMPILED_FROM))
+    assert kept["_program"] is not None
 
 
 def test_a_tool_that_cannot_move_has_no_finite_stiffness() -> None:

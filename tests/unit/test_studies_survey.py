@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import strutwork
 from strutwork.errors import StudyError, StudyWarning
@@ -14,8 +17,10 @@ from strutwork.kinematics import Joint
 from strutwork.kinematics.limits import Limit, check_limits
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
+from strutwork.msa.tool import COMPILED_FROM
 from strutwork.studies import survey as module
 from strutwork.studies.answers import Assembly, Stiffness
+from strutwork.studies.executor import Executor
 from strutwork.studies.filters import PoseStatus
 from strutwork.studies.survey import survey
 
@@ -63,3 +68,33 @@ def test_more_ranges_than_a_byte_counts() -> None:
     home = replace(model.motion.place(model.motion.home_pose))
     checked = check_limits([*limits, last], home)
     assert checked.reason(()) == f"{last} is exceeded"
+
+
+class Backwards:
+    """The last chunk first."""
+
+    def map(
+        self,
+        function: Callable[[Any], Any],
+        chunks: Iterable[Any],
+        keep: object = None,  # noqa: ARG002 - nothing is kept
+        lost: object = None,  # noqa: ARG002 - nothing is lost
+    ) -> Iterator[Any]:
+        return reversed([function(chunk) for chunk in reversed([*chunks])])
+
+
+# its parallelograms close loops, whose dependent coordinates are chosen on poses
+@pytest.mark.parametrize("name", ["linear-delta", "6-ups"])
+def test_the_order_of_chunks_changes_no_digit(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "CHUNK", 50)
+
+    def run(executor: Executor | None) -> xr.Dataset:
+        model, grid = small(name)
+        counts = zip(grid.axes.items(), (7, 7, 6), strict=True)
+        grid = TaskGrid({d: np.linspace(v[0], v[-1], n) for (d, v), n in counts})
+        assert len(grid) >= COMPILED_FROM
+        return survey(model, grid, [Stiffness()], workers=1, executor=executor)
+
+    forwards, backwards = run(None), run(Backwards())
+    assert backwards.drop_attrs().identical(forwards.drop_attrs())
+    assert int((forwards["status"] == PoseStatus.GOOD).sum()) > 2 * 50

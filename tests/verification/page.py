@@ -78,6 +78,8 @@ def section(case: Case, rows: list[Row]) -> list[str]:
     lines = [f"## {case.title}", ""]
     if case.source:
         lines += [f"Source: {case.source}", ""]
+    if case.limits:
+        lines += [f"Limits: {case.limits}", ""]
     lines += [f"Tests: `{case.path}`", ""]
     if rows:
         lines += [*table(rows), ""]

@@ -27,12 +27,16 @@ class Case:
         The documents of its BibTeX entries; empty where there is none.
     tests : tuple of str
         Names of its tests, in order.
+    limits : str
+        What the case does not show: the paragraph of its docstring that begins with "Limits:";
+        empty where there is none.
     """
 
     path: str
     title: str
     source: str
     tests: tuple[str, ...]
+    limits: str = ""
 
 
 def _field(entry: str, name: str) -> str:
@@ -80,7 +84,9 @@ def cases() -> list[Case]:
         ]
         title = " ".join(text.partition("\n\n")[0].split()).rstrip(".")
         path = file.relative_to(ROOT).as_posix()
-        result.append(Case(path, title, citation(text), tuple(tests)))
+        limits = re.search(r"^Limits: (.*?)(?=\n\n|\Z)", text, re.MULTILINE | re.DOTALL)
+        said = " ".join(limits[1].split()) if limits else ""
+        result.append(Case(path, title, citation(text), tuple(tests), said))
     # a file without an entry has the source of its folder
     folders = {Path(c.path).parent: c.source for c in reversed(result) if c.source}
     shared = [c.title for c in result]
