@@ -274,7 +274,7 @@ def table(
         "one stack of matrices, whose rank, coordinates and free motions are determined once. What",
         "remains in Python, which one thread at a time can run, makes each machine from its",
         "numbers.",
-        "Where nodes and joints move, each machine is placed anew, which is most of the time; its",
+        "Where nodes and joints move, each machine is placed again, which is most of the time; its",
         "bodies, loops and program of elimination stay. The program is made on the poses of",
         "the machine as it is stated, so that no order and no division of a study changes a bit.",
         "With `--cluster local` each processor has a process of its own.",
