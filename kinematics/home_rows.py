@@ -33,7 +33,7 @@ class HomeRows:
     placement : Placement
         Of these bodies, a batch of one.
     matrix : (h, 6 b)
-        Rates of the held directions by (v / L, ω).
+        Rates of the held directions by (v / L, ω), no unit.
     kept : list of int
         Independent rows among them.
     basis : (6 b, i)
@@ -74,7 +74,7 @@ class HomeRows:
 
 
 def in_one_unit(matrix: Array, direction: NDArray[np.intp], length: float) -> Array:
-    """Rows by twists of bodies with lengths over L.
+    """Rows by twists of bodies with lengths over L, (..., r, 6 b).
 
     Parameters
     ----------
