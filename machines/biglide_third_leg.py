@@ -15,7 +15,9 @@ from strutwork.kinematics.frames import frame, vector
 from strutwork.machines import biglide_parts as parts
 from strutwork.machines.biglide import PLANE, REACH, Biglide
 from strutwork.machines.biglide import TURNED as TWO_DRIVES_TURNED
+from strutwork.machines.dimensions import OR_ANY, check_positive
 from strutwork.machines.legs import square_root
+from strutwork.machines.limits import Limit
 from strutwork.machines.variant import Variant
 from strutwork.msa.sections import Section, box, tube
 from strutwork.msa.springs import PointMass
@@ -27,6 +29,9 @@ Array = NDArray[Any]
 ARM = box(0.160, 0.100, 0.008, name="box 160 x 100 x 8")
 #: Our choice: of the third leg's rod.
 THIRD = tube(0.100, 0.084, name="tube 100 x 8")
+
+#: Angle between the two shafts of a universal joint.
+BEND = "bend"
 
 #: Axes of the hinge, z along y, and of the third guide, z downwards.
 _HINGE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
@@ -54,6 +59,10 @@ class BiglideThirdLeg(Biglide):
         Of the arm and the third rod. Assumed.
     arm_mass : float
         Of what turns at the hinge beside the arm's beam, as the spindle, kg. Assumed.
+    leg_bend : float or None
+        Largest bend of the third leg's universal joints, rad; None for any. At the lower one it is
+        the angle between leg and rail, at the upper one that between the leg and the normal of the
+        arm in the plane of turning; section 3.4 bounds both by 78.5 degrees.
     """
 
     arm_length: float = 1.7
@@ -61,6 +70,19 @@ class BiglideThirdLeg(Biglide):
     arm_section: Section = ARM
     third_section: Section = THIRD
     arm_mass: float = 20.0
+    leg_bend: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_positive(self, ["leg_bend"], OR_ANY)
+
+    @cached_property
+    def limits(self) -> tuple[Limit, ...]:
+        """Joint ranges: the bend of the third leg's joints where it has one."""
+        if self.leg_bend is None:
+            return super().limits
+        ends = (parts.rod(parts.THIRD, part=part) for part in ("foot", "end"))
+        return tuple(Limit(name, BEND, 0.0, self.leg_bend, "universal") for name in ends)
 
     @property
     def lengths(self) -> tuple[str, ...]:
@@ -133,6 +155,13 @@ class BiglideThirdLeg(Biglide):
             (rod["end"], "rx"): turn - lean,
             (rod["end"], "rz"): -sway,
         }
+        if self.leg_bend is not None:
+            # cosines of the angles between leg and rail, and between leg and the arm's normal
+            cosines = (drop, drop * out - ahead * up)
+            values |= {
+                (name, BEND): np.arccos(np.clip(c.real / self.third_length, -1.0, 1.0))
+                for name, c in zip(rod.values(), cosines, strict=True)
+            }
         # the lower universal joint turns about y first, then about `cross`, which is the rod's own;
         # the upper one the other way about
         axis = np.broadcast_to(np.array([0.0, 1.0, 0.0]), end.shape)

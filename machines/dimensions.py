@@ -15,10 +15,11 @@ FARTHEST = 100.0
 
 POSITIVE, LENGTH = "Give a positive number, SI.", "Give a positive length, m."
 OR_RIGID = "Give a positive number, N/m, or None for rigid."
+OR_ANY = "Give a positive number, SI, or None for no limit."
 
 
 def check_positive(machine: object, fields: Iterable[str], remedy: str = POSITIVE) -> None:
-    """Refuse fields of a machine that are not positive; None is welcome with `OR_RIGID`.
+    """Refuse fields of a machine that are not positive; `OR_RIGID` and `OR_ANY` allow None.
 
     Parameters
     ----------
@@ -34,7 +35,7 @@ def check_positive(machine: object, fields: Iterable[str], remedy: str = POSITIV
     """
     for name in fields:
         value = getattr(machine, name)
-        if value is None and remedy == OR_RIGID:
+        if value is None and remedy in (OR_RIGID, OR_ANY):
             continue
         if not (isfinite(value) and value > 0):
             raise ModelError(f"{type(machine).__name__}.{name}", f"is {value!r}.", remedy)

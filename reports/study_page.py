@@ -26,6 +26,7 @@ from strutwork.studies.study_table import (
     rank_correlation,
     study_columns,
 )
+from strutwork.studies.travel_answer import TRAVELLED
 
 #: Machines in each table, answers and parameters that are drawn.
 ROWS, DRAWN = 8, 4
@@ -90,6 +91,7 @@ def main_answers(study: Study, found: xr.Dataset) -> tuple[NumberColumn, ...]:
         and c.label in ("x", "y", "z", "1", "")
         and np.isfinite(c.values).any()
     ]
+    some += [c for c in answer_columns(found) if c.variable == TRAVELLED][:DRAWN]
     return (
         tuple(some)
         or tuple(c for c in answer_columns(found) if np.isfinite(c.values).any())[:DRAWN]
@@ -104,7 +106,7 @@ def worst_is(study: Study, column: NumberColumn) -> str:
     study : Study
     column : NumberColumn
     """
-    kept = {k.name: k.column.worst for k in study.machines.kept}
+    kept = {k.name: k.column.worst for k in study.machines.kept} | {TRAVELLED: "largest"}
     return kept.get(column.variable, "least") or "least"
 
 

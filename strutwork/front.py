@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from strutwork.arguments import explained
 from strutwork.errors import ModelError
 from strutwork.fea import FrequencyResponse, Modes, Port, frequency_response, modes
 from strutwork.html import table
@@ -57,6 +58,7 @@ QUESTIONS = (
 )
 
 
+@explained
 @dataclass(frozen=True, repr=False)
 class Machine(Model, Outward, Varying):
     """A model with its questions; the fields are those of `strutwork.machines.model.Model`.

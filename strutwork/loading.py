@@ -5,10 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from strutwork.arguments import checked
+
 if TYPE_CHECKING:
     from strutwork.front import Machine
 
 
+@checked
 def load(name: str | Path) -> Machine:
     """Load a machine by its name or from its file.
 

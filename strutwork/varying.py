@@ -48,7 +48,8 @@ class Varying:
             Beside a path of `strutwork.studies.Parametric.paths` a list of values, or a pair for a
             range; SI, or texts with units.
         *objectives : str or Objective
-            Names of `strutwork.studies.design_quantities.QUANTITIES`, as "stiffness_z".
+            Names of `strutwork.studies.design_quantities.QUANTITIES`, as "stiffness_z", or of a
+            joint, as "travel:JOINT:z".
         **options
             Of `strutwork.studies.machine_design.design_machine`: at_least, at_most, constraints,
             workspace, cost, band, out, resume, workers, progress, and of the search method,
@@ -82,7 +83,8 @@ class Varying:
             range; SI, or texts with units.
         *answers : str or Answer
             "stiffness" where there is none; "vibration", "assembly", "accuracy", "stability",
-            "transmission", "amplification", "mass", "frequency", or those of a survey.
+            "transmission", "amplification", "mass", "frequency", "travel" or "travel:JOINT:z", or
+            those of a survey.
         **options
             Of `strutwork.studies.study.Study.of` (sample, count, seed, workspace, reductions) and
             of `strutwork.studies.study.Study.run` (workers, progress, folder, executor); `out` and

@@ -53,6 +53,8 @@ class Column:
         Beside the poses.
     worst : "least" or "largest" or ""
         Which value over poses is the worst; empty where none is worse than another.
+    ends : bool
+        Whether the least and the greatest value over the poses and their distance are what counts.
     """
 
     name: str
@@ -60,6 +62,7 @@ class Column:
     meaning: str
     dims: tuple[str, ...] = ()
     worst: str = ""
+    ends: bool = False
 
 
 class Answer(Protocol):

@@ -25,14 +25,14 @@ from strutwork.studies.design_judged import (
     WORST,
     Judged,
 )
-from strutwork.studies.design_quantities import COST, REACH, Quantity, share_reached, taken
+from strutwork.studies.design_quantities import COST, QUANTITIES, REACH, Quantity, reached_of, taken
 from strutwork.studies.design_smooth import require_smooth
-from strutwork.studies.design_terms import Constraint, Cost, Objective, Search
+from strutwork.studies.design_terms import Constraint, Cost, Objective, Search, require_poses
 from strutwork.studies.parameter import Parameter, Varied, parameters_of, varied
 from strutwork.studies.parametric import Parametric
 from strutwork.studies.pose_sets import PoseSet
 from strutwork.studies.question import Asked
-from strutwork.studies.study_machines import Kept
+from strutwork.studies.study_machines import MACHINE, REDUCTIONS, Kept
 from strutwork.studies.variants import Variants
 
 Array = NDArray[Any]
@@ -91,6 +91,7 @@ class Design:
                 )
         if any(q.name == COST for q in self.quantities) and self.cost == Cost():
             raise ModelError("cost", "is asked for and not stated.", "Give a table [cost].")
+        require_poses(self.quantities, self.workspace)
         # their errors come now
         _ = self.rates, self.variants
         if any(c.kept for c in self.constraints):
@@ -200,7 +201,8 @@ class Design:
 
     @property
     def _reductions(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(q.reduction for q in self.quantities))
+        found = dict.fromkeys(q.reduction for q in self.quantities if q.reduction in REDUCTIONS)
+        return tuple(found) or ("worst",)
 
     @cached_property
     def stated(self) -> Judged:
@@ -257,10 +259,8 @@ class Design:
 
     def _judged(self, found: Arrays, samples: Array) -> Judged:
         good = found["status"] == 0
-        reached = share_reached(found, 0 if self.workspace is None else len(self.workspace))
-        values = np.stack(
-            [self._value(q, found, samples, reached) for q in self.quantities], axis=1
-        )
+        reached = self._reached(QUANTITIES[REACH], found)
+        values = np.stack([self._value(q, found, samples) for q in self.quantities], axis=1)
         values[~good] = np.nan
         reasons = [str(found["reasons"][i]) for i in found["reason"]]
         status = np.where(good, FEASIBLE, CANNOT_BE)
@@ -276,17 +276,20 @@ class Design:
     @property
     def every_pose(self) -> bool:
         """Whether every pose has to be reached, because no term speaks of it."""
-        return all(q.name != REACH for q in self.quantities)
+        return not any(q.name.startswith(REACH) for q in self.quantities)
 
-    def _value(self, quantity: Quantity, found: Arrays, samples: Array, reached: Array) -> Array:
-        if quantity.name == REACH:
-            return reached
+    def _reached(self, quantity: Quantity, found: Arrays) -> Array:
+        return reached_of(quantity, found, self.workspace, self.machine.origin.model)
+
+    def _value(self, quantity: Quantity, found: Arrays, samples: Array) -> Array:
+        if quantity.name.startswith(REACH):
+            return self._reached(quantity, found)
         if quantity.name == COST:
             mass = found["mass"] if self.cost.per_kg else 0.0
             return np.asarray(self.cost.fixed + self.cost.per_kg * mass + samples @ self.rates)
         for kept, labels in self._columns:
             # what is asked at home alone, or once of a machine, has no other reduction
-            same = kept.reduction == quantity.reduction or kept.reduction not in ("worst", "mean")
+            same = kept.reduction in (quantity.reduction, "home", MACHINE)
             if kept.column.name == quantity.column and same:
                 return taken(quantity, kept.column, labels, found[kept.name])
         raise AssertionError(quantity.name)

@@ -124,7 +124,7 @@ class Archive:
             currency = quantity.name == "cost" and design.cost.currency
             more = {**goal, **({"currency": currency} if currency else {})}
             stated = float(design.stated.values[0, i])
-            made[quantity.name] = along(
+            made[quantity.variable] = along(
                 values[:, i], quantity.unit, quantity.meaning, stated=stated, **more
             )
         coordinates: dict[str, Any] = {"reason_text": words}
@@ -143,7 +143,7 @@ class Archive:
 
     def _require_own_names(self) -> None:
         names = [_variable(p.name) for p in self.design.varied]
-        taken = {*_TAKEN, *(q.name for q in self.design.quantities)}
+        taken = {*_TAKEN, *(q.variable for q in self.design.quantities)}
         for name, p in zip(names, self.design.varied, strict=True):
             if name in taken or names.count(name) > 1:
                 raise ModelError(
@@ -191,7 +191,7 @@ def judged_of(dataset: xr.Dataset, design: Design, number: int) -> tuple[Array, 
     if not rows.size:
         return None
     texts = [str(t) for t in dataset["reason_text"].to_numpy()]
-    values = np.stack([dataset[q.name].to_numpy()[rows] for q in design.quantities], axis=1)
+    values = np.stack([dataset[q.variable].to_numpy()[rows] for q in design.quantities], axis=1)
     judged = Judged(
         values,
         dataset["status"].to_numpy()[rows].astype(np.int8),

@@ -12,14 +12,22 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
+from strutwork.kinematics.task_grid import TaskGrid
+from strutwork.machines.model import Model
 from strutwork.names import choices
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.dataset_units import LabelledUnits
+from strutwork.studies.filters import PoseStatus
+from strutwork.studies.joint_selection import matches
+from strutwork.studies.pose_sets import PoseSet
+from strutwork.studies.travel_answer import COLUMN, TRAVEL
 from strutwork.studies.variables import AXES
 from strutwork.units import (
+    ANGLE,
     FORCE,
     FREQUENCY,
+    LENGTH,
     MASS,
     MOMENT,
     NUMBER,
@@ -34,6 +42,9 @@ Goal = Literal["minimise", "maximise"]
 
 #: Before the name of a quantity whose mean over the poses is meant.
 MEAN = "mean"
+#: Those that are no answer of the machine; the first also for one direction, as "reach_ry".
+REACH, COST = "reach", "cost"
+
 #: Columns that have a value at each pose and a mean that says something.
 _OF_POSES = ("stiffness_free", "stiffness_blocked", "condition")
 
@@ -55,7 +66,7 @@ class Quantity:
     goal : "minimise" or "maximise"
         Unless a file states the other.
     meaning : str
-    reduction : "worst" or "mean"
+    reduction : "worst", "mean", "poses" for each by itself, or one of `OF_JOINTS`
         Over the poses, of what depends on them.
     """
 
@@ -72,6 +83,11 @@ class Quantity:
     def unit(self) -> str:
         """SI; "1" for none."""
         return self.dimension.unit or "1"
+
+    @property
+    def variable(self) -> str:
+        """Its name in a dataset: a NetCDF file allows no slash."""
+        return re.sub(r"[\s/]", "_", self.name)
 
 
 def _quantities() -> dict[str, Quantity]:
@@ -171,6 +187,19 @@ def _quantities() -> dict[str, Quantity]:
             "largest velocity of the tool over the poses, for drive rates of size one",
         ),
         Quantity("reach", "", "", "", NUMBER, "maximise", "share of the poses that are reached"),
+        *(
+            Quantity(
+                f"{REACH}_{d}",
+                "",
+                "",
+                d,
+                LENGTH if d in AXES else ANGLE,
+                "maximise",
+                f"range of {d} about home that is reached wherever else the poses are",
+                "poses",
+            )
+            for d in DIRECTIONS
+        ),
         Quantity("cost", "", "", "", NUMBER, "minimise", "cost"),
     ]
     means = [
@@ -189,8 +218,12 @@ def _quantities() -> dict[str, Quantity]:
 #: By name.
 QUANTITIES: Mapping[str, Quantity] = _quantities()
 
-#: Those that are no answer of the machine.
-REACH, COST = "reach", "cost"
+#: Quantities of joints, before a colon and JOINT:DIRECTION, with what is better of each.
+OF_JOINTS: Mapping[str, tuple[Goal, str]] = {
+    "travel": ("minimise", "distance between the least and the greatest coordinate over the poses"),
+    "least": ("maximise", "least coordinate over the poses"),
+    "greatest": ("minimise", "greatest coordinate over the poses"),
+}
 
 
 def quantity_of(name: str, part: str) -> Quantity:
@@ -204,13 +237,25 @@ def quantity_of(name: str, part: str) -> Quantity:
     Raises
     ------
     ModelError
-        There is none.
+        There is none, or a joint is not named with its direction.
     """
-    if name not in QUANTITIES:
-        raise ModelError(
-            part, f'names "{name}", which is unknown.', choices("Quantities", name, QUANTITIES)
-        )
-    return QUANTITIES[name]
+    if name in QUANTITIES:
+        return QUANTITIES[name]
+    head, _, place = name.partition(":")
+    if head in OF_JOINTS:
+        joint, _, direction = place.rpartition(":")
+        if not joint or not direction:
+            raise ModelError(
+                part,
+                f'names "{name}", which is no direction of a joint.',
+                f'Write "{head}:JOINT:z", with a direction x, y, z, rx, ry, rz or bend.',
+            )
+        goal, words = OF_JOINTS[head]
+        kind = LENGTH if direction in AXES else ANGLE
+        meaning = f"{words}, {direction} of {joint}"
+        return Quantity(name, f"{TRAVEL}:{place}", COLUMN, place, kind, goal, meaning, head)
+    known = [*QUANTITIES, *(f"{h}:{place or 'JOINT:z'}" for h in OF_JOINTS)]
+    raise ModelError(part, f'names "{name}", which is unknown.', choices("Quantities", name, known))
 
 
 def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Array) -> Array:
@@ -227,7 +272,10 @@ def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Ar
     """
     if not column.dims:
         return found
-    if isinstance(column.unit, LabelledUnits):
+    if quantity.reduction in OF_JOINTS:
+        # a star may name several joints
+        at = [i for i, label in enumerate(labels) if matches(str(label), quantity.label)]
+    elif isinstance(column.unit, LabelledUnits):
         # joint quantities of one unit
         at = [i for i, unit in enumerate(column.unit.units) if unit == quantity.label]
     else:
@@ -238,16 +286,54 @@ def taken(quantity: Quantity, column: Column, labels: tuple[Any, ...], found: Ar
     return np.asarray(worst(found[:, at], axis=1))
 
 
-def share_reached(found: Arrays, poses: int) -> Array:
-    """Share of the poses that each of n machines reaches, (n,), no unit.
+def reached_of(quantity: Quantity, found: Arrays, poses: PoseSet | None, model: Model) -> Array:
+    """What each of n machines reaches, (n,): the share of the poses, or a range as `range_reached`.
+
+    Parameters
+    ----------
+    quantity : Quantity
+        "reach", or that of one direction.
+    found : dict of str to (n, ...)
+        From `strutwork.studies.variants.Variants.values`, any unit.
+    poses : TaskGrid, TaskList, PoseList or None
+        That are asked beside home; None: home alone.
+    model : Model
+        The machine as stated.
+    """
+    if quantity.label and isinstance(poses, TaskGrid):
+        home = dict(zip(DIRECTIONS, model.motion.task_of(model.motion.home_pose), strict=True))
+        return range_reached(found, poses, quantity.label, float(home[quantity.label]))
+    if poses is None:
+        return np.asarray(found["status"] == 0, dtype=float)
+    return np.asarray(found["poses_kept"] / len(poses))
+
+
+def range_reached(found: Arrays, poses: TaskGrid, direction: str, home: float) -> Array:
+    """Range of one direction that each of n machines reaches with every value of the others, (n,).
+
+    It is the distance of the ends of those neighbouring values about home at which all poses of the
+    grid are reached, m or rad: where the range ends between two values, the last one counts. Zero
+    where the values nearest to home are not all reached.
 
     Parameters
     ----------
     found : dict of str to (n, ...)
-        From `strutwork.studies.variants.Variants.values`, any unit.
-    poses : int
-        That are asked beside home; 0: home alone.
+        From `strutwork.studies.variants.Variants.values` with the reduction "poses", any unit.
+    poses : TaskGrid
+    direction : str
+    home : float
+        Where the machine as stated is at home, m or rad.
     """
-    if not poses:
-        return np.asarray(found["status"] == 0, dtype=float)
-    return np.asarray(found["poses_kept"] / poses)
+    axes = list(poses.axes)
+    values = np.asarray(poses.axes[direction])
+    order = np.argsort(values)
+    shape = tuple(len(v) for v in poses.axes.values())
+    good = (found["pose_status"] == PoseStatus.GOOD).reshape(-1, *shape)
+    others = tuple(k + 1 for k, d in enumerate(axes) if d != direction)
+    every = good.all(axis=others)[:, order]
+    values = values[order]
+    middle = int(np.argmin(np.abs(values - home)))
+    up = np.cumprod(every[:, middle:], axis=1).sum(axis=1)
+    down = np.cumprod(every[:, middle::-1], axis=1).sum(axis=1)
+    ends = values[np.minimum(middle + up, len(values)) - 1], values[middle + 1 - down - (down == 0)]
+    return np.asarray(np.where(up > 0, ends[0] - ends[1], 0.0))

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from strutwork.errors import ModelError
 from strutwork.machines.model import Model
-from strutwork.studies.design_quantities import COST, MEAN, Quantity
+from strutwork.studies.design_quantities import COST, MEAN, OF_JOINTS, REACH, Quantity
 from strutwork.studies.design_terms import EVOLUTION, GRADIENT, Objective, Search
 from strutwork.studies.parameter import Varied
 from strutwork.studies.variables import AXES
@@ -100,6 +100,10 @@ def require_smooth(
         )
     for quantity in quantities:
         why = _WHY.get(quantity.name.removeprefix(f"{MEAN}_"), "")
+        if quantity.name.startswith(f"{REACH}_"):
+            why = _WHY[REACH]
+        if quantity.reduction in OF_JOINTS:
+            why = "what a parameter does to the coordinates of joints is not differentiated"
         if not why and quantity.name in _VIBRATION and model.preload is not None:
             why = (
                 f'the machine vibrates under "{model.preload}", and what a parameter does to the '

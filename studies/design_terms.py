@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
+from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.names import choices
-from strutwork.studies.design_quantities import Goal, Quantity, quantity_of
+from strutwork.studies.design_quantities import OF_JOINTS, REACH, Goal, Quantity, quantity_of
 from strutwork.studies.parameter import Value, Varied
+from strutwork.studies.pose_sets import PoseSet
 from strutwork.units import quantity
 
 Array = NDArray[Any]
@@ -192,6 +194,37 @@ class Constraint:
         if self.at_most is not None and value > self.at_most:
             return f"{name} is above its limit"
         return ""
+
+
+def require_poses(quantities: Iterable[Quantity], poses: PoseSet | None) -> None:
+    """Refuse what needs poses where there are none, and a range where they form no grid.
+
+    Parameters
+    ----------
+    quantities : iterable of Quantity
+    poses : TaskGrid, TaskList, PoseList or None
+        None: home alone.
+
+    Raises
+    ------
+    ModelError
+        A quantity of a joint, and no poses; the range of a direction that no grid has.
+    """
+    for one in quantities:
+        if one.name.startswith(f"{REACH}_"):
+            axes = poses.axes if isinstance(poses, TaskGrid) else {}
+            if len(axes.get(one.label, ())) < 2:
+                raise ModelError(
+                    f"quantity {one.name}",
+                    f"needs a grid of poses with several values of {one.label}.",
+                    f"Give [workspace] a range of {one.label} in several points.",
+                )
+        if one.reduction in OF_JOINTS and poses is None:
+            raise ModelError(
+                f"quantity {one.name}",
+                "is asked for at home alone, where no joint moves.",
+                "Name poses: a table [workspace], or workspace = {...} in Python.",
+            )
 
 
 @dataclass(frozen=True)

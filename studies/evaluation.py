@@ -210,11 +210,14 @@ def compliance_where_possible(
 
 
 def spread(count: int, most: int = SAMPLE) -> NDArray[np.intp]:
-    """Evenly spaced ones of so many items, at most so many, ascending.
+    """Numbers of evenly spaced ones of some items, (k,), ascending.
 
     Parameters
     ----------
-    count, most : int
+    count : int
+        Of the items.
+    most : int
+        Of those that are taken.
     """
     return np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(np.intp))
 

@@ -128,8 +128,13 @@ def read_quantity(model: Model, name: str) -> Asked:
         else:
             unit, words_ = ("N m" if turns else "N"), f"force of joint {static[2]}"
         return Asked(name, static[1], unit, words_, DIRECTIONS.index(direction), asked)
+    study = ""
+    if name.partition(":")[0] in ("travel", "least", "greatest"):
+        study = "The travel of joints is an answer of `study` and a quantity of `design`. "
     raise ModelError(
-        visible(name), "is no quantity that has a gradient.", "Ask for: " + "; ".join(FORMS) + "."
+        visible(name),
+        "is no quantity that has a gradient.",
+        f"{study}Ask for: " + "; ".join(FORMS) + ".",
     )
 
 

@@ -28,6 +28,7 @@ from strutwork.studies.models_together import masses
 from strutwork.studies.stability_answer import Stability
 from strutwork.studies.standing import Standing
 from strutwork.studies.transmission_answer import Transmission
+from strutwork.studies.travel_answer import TRAVEL, TravelAsked
 
 Array = NDArray[Any]
 
@@ -197,11 +198,14 @@ def asked(what: object) -> Question:
         An unknown name.
     """
     if isinstance(what, str):
+        travel = TravelAsked.read(what)
+        if travel is not None:
+            return travel
         if what not in QUESTIONS:
             raise ModelError(
                 "answers",
                 f'ask for "{what}", which is unknown.',
-                choices("Answers", what, QUESTIONS),
+                choices("Answers", what, [*QUESTIONS, TRAVEL]),
             )
         return Asked(what)
     if hasattr(what, "of") and hasattr(what, "name"):

@@ -26,12 +26,13 @@ from strutwork.studies import (
     study_descriptions,
 )
 from strutwork.studies.calibration_schema import CalibrationTable
-from strutwork.studies.design_quantities import QUANTITIES
+from strutwork.studies.design_quantities import OF_JOINTS, QUANTITIES
 from strutwork.studies.design_schema import DesignTable
 from strutwork.studies.error_schema import ErrorsTable
 from strutwork.studies.question import QUESTIONS
 from strutwork.studies.study_machines import REDUCTIONS
 from strutwork.studies.study_schema import StudyTable
+from strutwork.studies.travel_answer import TRAVEL
 
 Tables = dict[str, dict[str, Any]]
 
@@ -58,13 +59,19 @@ class Kind:
 
 
 def _study(tables: Tables) -> None:
-    for key, names in (("answers", QUESTIONS), ("reductions", REDUCTIONS)):
-        tables["StudyTable"]["properties"][key]["items"] = {"enum": list(names)}
+    properties = tables["StudyTable"]["properties"]
+    properties["reductions"]["items"] = {"enum": list(REDUCTIONS)}
+    # joints are those of the machine
+    named = {"type": "string", "pattern": f"^{TRAVEL}:."}
+    properties["answers"]["items"] = {"if": named, "else": {"enum": [*QUESTIONS, TRAVEL]}}
 
 
 def _design(tables: Tables) -> None:
     for table in ("ObjectiveTable", "ConstraintTable"):
-        tables[table]["properties"]["quantity"]["enum"] = list(QUANTITIES)
+        quantity = tables[table]["properties"]["quantity"]
+        named = {"type": "string", "pattern": f"^({'|'.join(OF_JOINTS)}):.+:"}
+        # a message of the list names what is wrong; one of several schemas does not
+        quantity |= {"if": named, "else": {"enum": list(QUANTITIES)}}
 
 
 def _calibration(tables: Tables) -> None:

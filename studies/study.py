@@ -39,6 +39,7 @@ from strutwork.studies.standing import Stand
 from strutwork.studies.study_analysis import analysed
 from strutwork.studies.study_dataset import require_own_names, study_dataset
 from strutwork.studies.study_machines import REDUCTIONS, Machines
+from strutwork.studies.travel_answer import travel_together
 from strutwork.units import ANGLE, LENGTH, quantity
 
 #: Poses of all machines of a chunk, and machines in one.
@@ -182,7 +183,8 @@ class Study:
     @cached_property
     def questions(self) -> tuple[Question, ...]:
         """What is asked, with what is taken from the machine as it is stated."""
-        return tuple(completed(q, self.machine.origin.model) for q in self.answers)
+        every = travel_together(self.answers)
+        return tuple(completed(q, self.machine.origin.model) for q in every)
 
     def model(self, number: int) -> Model:
         """One machine of the study.
@@ -279,7 +281,7 @@ class Study:
                 **({} if self.drawn.kind in ("grid", "list") else {"seed": self.sample.seed}),
                 **({"second_order": True} if self.sample.second_order else {}),
             },
-            "answers": [q.name for q in self.questions],
+            "answers": [s for q in self.questions for s in getattr(q, "settings", [q.name])],
             "workspace": settings_of(self.workspace),
             "reductions": list(self.reductions),
         }

@@ -43,6 +43,9 @@ _WORDS = {
     "best": "the best over the poses",
     "mean": "mean over the poses that count",
     "home": "at home",
+    "least": "the least over the poses",
+    "greatest": "the greatest over the poses",
+    "travel": "from the least to the greatest over the poses",
 }
 
 

@@ -31,6 +31,8 @@ REDUCTIONS = ("worst", "best", "mean", "home", "poses")
 #: What is kept of an answer that no pose changes, and such answers.
 MACHINE = "machine"
 ONE_NUMBER = ("mass", "first_frequency")
+#: What is kept of an answer whose ends count, whatever is asked for: these and their distance.
+ENDS = ("least", "greatest", "travel")
 
 #: What became of a machine.
 SOLVED, FAILED, NO_POSE = np.int8(0), np.int8(1), np.int8(2)
@@ -161,6 +163,8 @@ class Machines:
             return (MACHINE,)
         if self.stand.grid is None:
             return ("home",)
+        if column.ends:
+            return (*ENDS, *(r for r in self.reductions if r in ("home", "poses")))
         return tuple(r for r in self.reductions if column.worst or r not in ("worst", "best"))
 
     def __call__(self, chunk: Chunk) -> Arrays:
@@ -252,6 +256,8 @@ class Machines:
                 out[row] = every[-1]
             case "poses":
                 out[row] = poses
+            case "least" | "greatest" | "travel":
+                out[row] = _end(kept.reduction, poses)
             case "mean":
                 some = np.isfinite(poses).any(axis=0)
                 count = np.maximum((~np.isnan(poses)).sum(axis=0), 1)
@@ -267,6 +273,17 @@ class Machines:
                 out[row] = value
                 if reduction == "worst":
                     found[f"{kept.name}_pose"][row] = np.where(np.isnan(value), -1, at)
+
+
+def _end(which: str, poses: Array) -> Array:
+    """An end of values (p, ...) over the poses that count, or how far the two are apart."""
+    some = np.isfinite(poses).any(axis=0)
+    low = np.where(np.isnan(poses), np.inf, poses).min(axis=0)
+    high = np.where(np.isnan(poses), -np.inf, poses).max(axis=0)
+    if which == "travel":
+        # of no pose both are infinite
+        return np.where(some, np.where(some, high, 0.0) - np.where(some, low, 0.0), np.nan)
+    return np.where(some, low if which == "least" else high, np.nan)
 
 
 def _words(error: StrutworkError) -> str:

@@ -7,6 +7,7 @@ from math import asin, degrees
 from strutwork.papers.chablat_2003.published import SQUARES, THIRD, THRESHOLD
 from strutwork.papers.chablat_2003.squares import square_rows
 from strutwork.papers.chablat_2003.third_leg import ARMS, SIDE, best_third
+from strutwork.papers.chablat_2003.third_leg_design import STEP, designed_third
 from strutwork.papers.published_rows import Status
 from strutwork.papers.statements import Statement, stated
 
@@ -133,6 +134,17 @@ def statements() -> tuple[Statement, ...]:
                 f"{TESTS}::test_ridge",
             )
             for arm, ours in zip(ARMS, ridge, strict=True)
+        ),
+        Statement(
+            "Fig. 8",
+            f"L2/L1 of the largest range of beta at L1 = {ARMS[0]:g} m, by a design",
+            "",
+            THIRD.values[0].value,
+            designed_third(ARMS[0])[0],
+            "predicted",
+            f"objective reach_ry, the bend of the third leg's joints within the document's bounds; "
+            f"ratios in steps of {STEP:g}, beta in steps of 1 deg",
+            f"{TESTS.replace('test_published', 'test_third_leg_design')}::test_ridge_by_a_design",
         ),
         _said(
             "Fig. 8",

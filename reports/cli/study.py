@@ -28,6 +28,7 @@ from strutwork.studies.study_table import (
     leading,
     parameter_columns,
 )
+from strutwork.studies.travel_answer import TRAVELLED
 
 #: Labels of directions and modes that a short answer shows.
 _SHORT = ("x", "y", "z", "1", "")
@@ -193,6 +194,8 @@ def _print(study: Study, found: xr.Dataset, result: dict[str, Any]) -> None:
 def _is_short(study: Study, column: NumberColumn) -> bool:
     """One reduction of each answer, and its first labels."""
     wanted = "_home" if study.workspace is None or "worst" not in study.reductions else "_worst"
+    if column.variable == TRAVELLED:
+        return True
     if column.variable != "mass" and not column.variable.endswith(wanted):
         return False
     return "blocked" not in column.variable and column.label in _SHORT

@@ -176,7 +176,7 @@ def test_wrong_arguments_are_explained(machine: Machine) -> None:
         (lambda: machine.design({ram: (0.04, 0.05)}, "mass", at_least=["mass"]), "at_least: is a"),
         (lambda: machine.design({ram: (0.04, 0.05)}, "mass", resume=True), "goes on from nothing"),
         (lambda: machine.design({ram: (0.04, 0.05)}, "mass", band=(5, 1)), "from 5 to 1 Hz"),
-        (lambda: machine.calibrate(ram), "Give a list of paths"),
+        (lambda: machine.calibrate(ram), "Give a dictionary or a list"),
         (lambda: machine.calibrate({ram: 0.05}), "has no pair as its range"),
         (lambda: machine.calibrate([ram], priors={"ram": 0.1}), "names no parameter of the"),
         (lambda: machine.calibrate([ram]), "has no measurement"),
