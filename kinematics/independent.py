@@ -21,7 +21,9 @@ DEPENDENT = 1e-7
 FEW = 300
 
 
-def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
+def independent_rows(
+    matrix: Array, held: int, known: tuple[list[int], Array] | None = None
+) -> tuple[NDArray[np.intp], bool]:
     """Indices of independent rows, (i,), ascending, and whether all that is given is among them.
 
     The held directions of joints come first; of those that depend on each other, as in a
@@ -34,17 +36,32 @@ def independent_rows(matrix: Array, held: int) -> tuple[NDArray[np.intp], bool]:
     held : int
         How many of its first rows are held directions of joints; then joint coordinates and
         directions of the tool that are given.
+    known : (list of int, (n, i)), optional
+        `spanned` of the first rows.
     """
-    kept, basis = _held(matrix[:held])
-    every = True
-    for row in range(held, len(matrix)):
-        rest = _beside(matrix[row], basis)
-        if np.linalg.norm(rest) > DEPENDENT * np.linalg.norm(matrix[row]):
-            kept.append(row)
-            basis = np.concatenate([basis, (rest / np.linalg.norm(rest))[:, None]], axis=1)
-        else:
-            every = False
+    kept, basis = spanned(matrix[:held]) if known is None else known
+    more, every = independent_beside(matrix[held:], basis)
+    kept = [*kept, *(held + row for row in more)]
     return np.sort(np.asarray(kept, dtype=np.intp)), every
+
+
+def independent_beside(matrix: Array, basis: Array) -> tuple[list[int], bool]:
+    """Rows, one after another, that depend on none before them, and whether all are such.
+
+    Parameters
+    ----------
+    matrix : (r, n)
+        In one unit.
+    basis : (n, i)
+        Orthonormal columns that span what comes first.
+    """
+    kept = []
+    for number, row in enumerate(matrix):
+        rest = _beside(row, basis)
+        if np.linalg.norm(rest) > DEPENDENT * np.linalg.norm(row):
+            kept.append(number)
+            basis = np.concatenate([basis, (rest / np.linalg.norm(rest))[:, None]], axis=1)
+    return kept, len(kept) == len(matrix)
 
 
 def spanning_rows(matrix: Array, kept: NDArray[np.intp], held: int) -> NDArray[np.intp]:
@@ -99,7 +116,7 @@ def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
     ModelError
         Names the direction.
     """
-    _, basis = _held(matrix[:held])
+    _, basis = spanned(matrix[:held])
     for row in range(held, len(matrix)):
         rest = _beside(matrix[row], basis)
         if np.linalg.norm(rest) > DEPENDENT * np.linalg.norm(matrix[row]):
@@ -120,8 +137,14 @@ def refuse_dependent(matrix: Array, held: int, asked: Given) -> None:
             )
 
 
-def _held(rows: Array) -> tuple[list[int], Array]:
-    """Independent rows among those of the joints, and an orthonormal basis of their span."""
+def spanned(rows: Array) -> tuple[list[int], Array]:
+    """Independent rows among those of the joints, and an orthonormal basis of their span, (n, i).
+
+    Parameters
+    ----------
+    rows : (h, n)
+        In one unit.
+    """
     if not len(rows):
         return [], np.zeros((rows.shape[1], 0))
     if len(rows) <= FEW:

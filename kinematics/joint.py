@@ -208,6 +208,12 @@ class Joint:
             return np.asarray(self.matrix, dtype=float)
         return np.diag([float(self.stiffness.get(d, 0.0)) for d in DIRECTIONS])
 
+    @property
+    def couples(self) -> bool:
+        """Whether the stiffness of one direction acts on another, as of a loaded bearing."""
+        matrix = self.stiffness_matrix
+        return self.matrix is not None and bool(np.any(matrix - np.diag(np.diag(matrix))))
+
 
 def _check_matrix(part: str, matrix: NDArray[np.float64]) -> None:
     if matrix.shape != (6, 6) or not np.all(np.isfinite(matrix)):

@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from strutwork.kinematics.home_rows import HomeRows
 from strutwork.kinematics.joint_motion import JointMotion
 from strutwork.kinematics.leg_chains import leg_paths
-from strutwork.kinematics.rows import characteristic_length
 
 Array = NDArray[Any]
 
@@ -108,7 +108,7 @@ def leg_system(joints: JointMotion) -> LegSystem | None:
         np.concatenate([leg.packed(joints, free) for leg in passed]),
         np.ascontiguousarray(joints.start(1).position[0], dtype=float),
         linkage.tool_body,
-        characteristic_length(joints.home),
+        HomeRows.of(joints).length,
     )
     return system if _regular(system) else None
 

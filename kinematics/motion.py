@@ -23,6 +23,7 @@ from strutwork.kinematics.placement import Placement, check_coincidence
 from strutwork.kinematics.rows import characteristic_length
 from strutwork.kinematics.turns import rotation_vector
 from strutwork.kinematics.walk import Walk
+from strutwork.kinematics.walk_rows import WalkRows
 
 Array = NDArray[Any]
 Mask = NDArray[np.bool_]
@@ -172,6 +173,7 @@ class Motion:
         task: Mapping[str, ArrayLike] | None = None,
         joints: Mapping[tuple[str, str], ArrayLike] | None = None,
         beside: Moved | None = None,
+        of_many: int = 0,
     ) -> Moved:
         """Move from home to a batch of targets, all at once.
 
@@ -196,6 +198,9 @@ class Motion:
         beside : Moved, optional
             Where a machine that hardly differs from this one was moved by the same targets, one
             batch axis: the way begins there. Legs that are found one by one do without.
+        of_many : int
+            Targets of the study of which these are a part: from as many as pay for compiled steps
+            on, these are made so, however few they are.
 
         Returns
         -------
@@ -215,7 +220,7 @@ class Motion:
             walk = LegWalk(self.joints, self.rotation, wanted, self.legs)
         else:
             like = None if beside is None else beside.walk
-            walk = Walk(self.joints, self.rotation, wanted, like=like)
+            walk = Walk(self.joints, self.rotation, wanted, like=like, of_many=of_many)
             if beside is not None:
                 found = beside.bodies
                 walk.bodies = BodyPoses(found.position.copy(), found.rotation.copy())
@@ -254,23 +259,19 @@ class Motion:
             Those that are independent of what is given at home, x first, with their values there,
             m and rad.
         """
-        home = self.task_of(self.home_pose)
-        found: dict[str, float] = {}
-        for k, direction in enumerate(DIRECTIONS):
-            if direction in named:
-                continue
-            task: dict[str, ArrayLike] = dict.fromkeys((*named, *found, direction), 0.0)
-            wanted = given(
-                self.joints,
-                self.home_pose,
-                self.home_values,
-                None,
-                task,
-                dict.fromkeys(joints, 0.0),
-            )
-            if Walk(self.joints, self.rotation, wanted, lenient=True).independent:
-                found[direction] = float(home[k])
-        return found
+        start = self.home_pose
+        others = [d for d in DIRECTIONS if d not in named]
+        if not others:
+            return {}
+        task: dict[str, ArrayLike] = dict.fromkeys((*named, *DIRECTIONS), 0.0)
+        asked: dict[tuple[str, str], ArrayLike] = dict.fromkeys(joints, 0.0)
+        wanted = given(self.joints, start, self.home_values, None, task, asked)
+        rows = WalkRows(self.joints, self.rotation, wanted, lenient=True)
+        tool = {d: len(asked) + k for k, d in enumerate(DIRECTIONS)}
+        first = [*range(len(asked)), *(tool[d] for d in dict.fromkeys(named))]
+        free = set(rows.beside(first, [tool[d] for d in others]))
+        home = self.task_of(start)
+        return {d: float(home[k]) for k, d in enumerate(DIRECTIONS) if tool[d] in free}
 
     def require_task(self, directions: Sequence[str]) -> None:
         """Check that the tool can move from home in some directions, one by one.
@@ -295,7 +296,7 @@ class Motion:
     def _require(self, directions: Sequence[str]) -> None:
         task = dict.fromkeys(directions, 0.0)
         wanted = given(self.joints, self.home_pose, self.home_values, None, task, None)
-        Walk(self.joints, self.rotation, wanted)
+        WalkRows(self.joints, self.rotation, wanted)
 
     def place(self, poses: Poses) -> Placement:
         """Inverse kinematics of poses of the tool; those that cannot be taken are marked.

@@ -71,6 +71,7 @@ class Walk(WalkRows):
         *,
         lenient: bool = False,
         like: Walk | None = None,
+        of_many: int = 0,
     ) -> None:
         super().__init__(joints, rotation, wanted, lenient=lenient, like=like)
         count = wanted.poses
@@ -84,7 +85,7 @@ class Walk(WalkRows):
         # of each pose: rows that are independent at home may depend on each other elsewhere
         self.rows = np.tile(self.kept, (count, 1))
         self.passes = 0
-        self.quick = self._quickly() if count >= self.few else None
+        self.quick = self._quickly() if max(count, of_many) >= self.few else None
 
     def _quickly(self) -> QuickStep | None:
         """Compiled steps, where there are as many rows as unknowns."""

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from strutwork.kinematics.given import Given
-from strutwork.kinematics.independent import independent_rows, refuse_dependent
+from strutwork.kinematics.home_rows import HomeRows, in_one_unit
+from strutwork.kinematics.independent import (
+    independent_beside,
+    independent_rows,
+    refuse_dependent,
+)
 from strutwork.kinematics.joint_motion import BodyPoses, JointMotion
 from strutwork.kinematics.placement import Placement
 from strutwork.kinematics.quick_step import Goals
-from strutwork.kinematics.rows import characteristic_length, constraint_rows, row_selection
+from strutwork.kinematics.rows import constraint_rows, row_selection
 from strutwork.kinematics.spinning import Spins
 from strutwork.kinematics.turns import rotation_vector, vector_rates
 
@@ -48,6 +54,7 @@ class WalkRows:
     asked: NDArray[np.bool_]
     order: Indices
     held_rows: int
+    given_at_home: Array
     late: Indices
     kept: Indices
     independent: bool
@@ -63,7 +70,7 @@ class WalkRows:
         like: WalkRows | None = None,
     ) -> None:
         self.joints, self.given, self.rotation = joints, wanted, rotation
-        self.length = characteristic_length(joints.home) if like is None else like.length
+        self.length = HomeRows.of(joints).length if like is None else like.length
         self.coordinates = np.zeros((wanted.poses, len(joints.names)))
         # the ground's tool never moves: what it is asked depends on nothing and is refused
         self.tool_body = joints.linkage.tool_body if self._tool_directions else -1
@@ -80,16 +87,46 @@ class WalkRows:
         self.asked, self.order = row_selection(joints.held.shape, wanted.joint, wanted.direction)
         self.joint, self.direction = held[:, 0], held[:, 1]
         self.spins = Spins.of(joints, self.tool_body)
-        _, matrix = self.system(np.zeros(1, dtype=np.intp), joints.start(1), np.zeros(1))
-        self.kept, self.independent = independent_rows(matrix[0], len(held))
+        home = HomeRows.of(joints)
+        self.given_at_home = self._given_at_home(home)
+        matrix = np.concatenate([home.matrix, self.given_at_home])
+        self.kept, self.independent = independent_rows(matrix, len(held), (home.kept, home.basis))
         self.held_rows = len(held)
         # what follows from the rest of what is given agrees at the target, not on the straight way
-        given = np.arange(len(matrix[0])) >= self.held_rows
+        given = np.arange(len(matrix)) >= self.held_rows
         given[self.kept] = False
         late = np.flatnonzero(given)
         self.late = late if wanted.tool is None else late[:0]
         if not (self.independent or lenient):
-            refuse_dependent(matrix[0], len(held), wanted)
+            refuse_dependent(matrix, len(held), wanted)
+
+    def _given_at_home(self, home: HomeRows) -> Array:
+        """Rows at home of the joint coordinates and directions of the tool that are given."""
+        rows = self._tool_rows(np.zeros(1, dtype=np.intp), home.bodies)
+        if self.order.size:
+            linkage, points = self.joints.linkage, home.bodies.position
+            asked = constraint_rows(linkage, home.placement, self.asked, coupled=False)
+            rows = [asked.on_bodies(points)[:, self.order], *rows]
+        if not rows:
+            return home.matrix[:0]
+        directions = np.concatenate([self.given.direction, np.array(self._tool_directions, int)])
+        return in_one_unit(np.concatenate(rows, axis=1)[0], directions, self.length)
+
+    def beside(self, first: Sequence[int], then: Sequence[int]) -> list[int]:
+        """Those of the given rows at home, one after another, that depend on none before them.
+
+        Parameters
+        ----------
+        first : sequence of int
+            Numbers of given rows that come first; none is left beside them where one depends.
+        then : sequence of int
+            Numbers of given rows.
+        """
+        rows = self.given_at_home[[*first, *then]]
+        found, _ = independent_beside(rows, HomeRows.of(self.joints).basis)
+        if found[: len(first)] != list(range(len(first))):
+            return []
+        return [then[k - len(first)] for k in found[len(first) :]]
 
     def system(
         self, at: Indices, bodies: BodyPoses, share: Array, near: Array | None = None
@@ -120,8 +157,7 @@ class WalkRows:
         tool = np.array(self._tool_directions, dtype=int)
         rows = np.concatenate([self.direction, self.given.direction, tool])
         over = np.where(rows < 3, 1.0 / self.length, 1.0)
-        unit = np.tile(np.repeat([self.length, 1.0], 3), matrix.shape[-1] // 6)
-        return open_ * over, matrix * over[:, None] * unit
+        return open_ * over, in_one_unit(matrix, rows, self.length)
 
     @property
     def _tool_directions(self) -> tuple[int, ...]:

@@ -7,11 +7,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from strutwork.errors import ModelError
-from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage, Placement, axes_frame
+from strutwork.kinematics import DIRECTIONS, GROUND, Body, Joint, Linkage
 from strutwork.kinematics.coupling import ties_of
 from strutwork.machines.described_process import process_of
 from strutwork.machines.limits import joint_limits
@@ -34,6 +33,7 @@ from strutwork.machines.model_parts import (
     masses_of,
     springs_of,
 )
+from strutwork.machines.model_placement import home_placement
 from strutwork.machines.model_schema import ModelTable
 from strutwork.msa import Beam, Structure
 from strutwork.msa.unjoined import in_words, unjoined_nodes
@@ -108,21 +108,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     )
     structure = Structure(linkage, beams, springs, rigid, masses, solids)
     _ = structure.workpiece_vertex  # a workpiece that moves with the tool is an error now
-    positions = [
-        *(tables.nodes[n] for n in nodes),
-        *monitors.values(),
-        *(tables.nodes[n] for n in supports),
-    ]
-    frames = [
-        *(axes_frame(t.axis, t.second_axis, f"joint {t.name}") for t in tables.joints),
-        *(np.eye(3) for _ in supports),
-    ]
-    placement = Placement(
-        np.array(positions, dtype=float).reshape(-1, 3),
-        np.array(frames, dtype=float).reshape(-1, 3, 3),
-        np.array(list(home.values()), dtype=float),
-        tuple(home),
-    )
+    placement = home_placement(tables, tuple(supports), home, list(monitors.values()))
     model = Model(
         title=tables.title,
         structure=structure,
@@ -143,7 +129,7 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
         workspace=workspace_of(tables, task),
         drives=drives_of(tables, {j.name: j for j in joints}),
         servos=_servos(tables, joints),
-        shapes=_shapes(tables, folder, linkage, positions),
+        shapes=_shapes(tables, folder, linkage, list(placement.positions)),
         flexures=flexures,
         bearings=bearings,
     )
@@ -153,12 +139,17 @@ def build_model(tables: ModelTable, folder: Path = Path()) -> Model:
     _ = model.placed
     if task:
         model.motion.require_task(task)
-    _warn_of_unjoined(model)
+    warn_of_unjoined(model)
     return model
 
 
-def _warn_of_unjoined(model: Model) -> None:
-    """Ends that meet under two names; a tool may stand at a workpiece's place."""
+def warn_of_unjoined(model: Model) -> None:
+    """Warn of ends that meet under two names; a tool may stand at a workpiece's place.
+
+    Parameters
+    ----------
+    model : Model
+    """
     for group in unjoined_nodes(model.placed):
         if model.tool not in group:
             warnings.warn(

@@ -52,6 +52,7 @@ def walked(
     model: Model,
     task: Mapping[str, ArrayLike] | None = None,
     joints: Mapping[Coordinate, ArrayLike] | None = None,
+    of_many: int = 0,
 ) -> Moved:
     """Move a machine from home by its joints alone; what is not named stays, where it can.
 
@@ -62,6 +63,8 @@ def walked(
         Of the tool, m and rad.
     joints : mapping of (joint, direction) to (...)
         Joint coordinates, m and rad.
+    of_many : int
+        As `Motion.move`.
 
     Raises
     ------
@@ -71,7 +74,7 @@ def walked(
     wanted, coordinates = targets(model, task or {}, joints or {}), dict(joints or {})
     if not wanted and not coordinates:
         coordinates = dict.fromkeys(model.motion.joints.names[:1], 0.0)
-    return brought(model, wanted, coordinates)
+    return brought(model, wanted, coordinates, of_many=of_many)
 
 
 def brought(
@@ -79,6 +82,7 @@ def brought(
     wanted: Mapping[str, ArrayLike],
     coordinates: Mapping[Coordinate, ArrayLike],
     beside: Moved | None = None,
+    of_many: int = 0,
 ) -> Moved:
     """Move a machine from home by its joints alone, with what is to be held named.
 
@@ -91,6 +95,8 @@ def brought(
         Joint coordinates, m and rad.
     beside : Moved, optional
         Where a machine that hardly differs was brought.
+    of_many : int
+        As `Motion.move`.
 
     Raises
     ------
@@ -101,9 +107,12 @@ def brought(
     if whole and all(np.isfinite(v).all() for v in wanted.values()):
         # the same way, and a pose of the tool may go leg by leg in compiled code; what is not
         # finite is named by its direction below
-        return model.motion.move(tool=_poses(model, wanted))
+        return model.motion.move(tool=_poses(model, wanted), of_many=of_many)
     return model.motion.move(
-        task=dict(wanted) or None, joints=dict(coordinates) or None, beside=beside
+        task=dict(wanted) or None,
+        joints=dict(coordinates) or None,
+        beside=beside,
+        of_many=of_many,
     )
 
 
@@ -111,6 +120,7 @@ def moved(
     model: Model,
     task: Mapping[str, ArrayLike] | None = None,
     joints: Mapping[Coordinate, ArrayLike] | None = None,
+    of_many: int = 0,
 ) -> tuple[Moved, Placement]:
     """Move a machine from home to a batch of targets.
 
@@ -121,6 +131,8 @@ def moved(
         Of the tool, m and rad; what is not named stays, where it can.
     joints : mapping of (joint, direction) to (...)
         Joint coordinates, m and rad.
+    of_many : int
+        As `Motion.move`.
 
     Returns
     -------
@@ -134,7 +146,7 @@ def moved(
     ModelError
         As `Motion.move`.
     """
-    found = walked(model, task, joints)
+    found = walked(model, task, joints, of_many)
     placement = found.placement
     if model.closed_form is not None and found.tool is not None:
         own = model.closed_form(found.tool)

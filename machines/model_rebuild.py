@@ -13,35 +13,48 @@ from strutwork.kinematics import DIRECTIONS, Joint, Linkage
 from strutwork.machines.described_process import process_of
 from strutwork.machines.limits import joint_limits
 from strutwork.machines.model import Model
-from strutwork.machines.model_builder import build_model
+from strutwork.machines.model_builder import build_model, warn_of_unjoined
 from strutwork.machines.model_cases import load_cases
 from strutwork.machines.model_flexures import flexures_of, joint_flexures, stiffness_rows
-from strutwork.machines.model_motion_tables import drives_of, workspace_of
+from strutwork.machines.model_motion_tables import drives_of, home_values, workspace_of
 from strutwork.machines.model_parts import beams_of, damping_of, joint_of, masses_of, springs_of
+from strutwork.machines.model_placement import home_placement
 from strutwork.machines.model_schema import JointTable, ModelTable
 from strutwork.machines.model_servos import servos_of
 from strutwork.machines.model_tolerances import model_tolerances
 from strutwork.msa import Structure
-from strutwork.msa.variant_of import share_topology
+from strutwork.msa.variant_of import elsewhere, share_topology
 
 if TYPE_CHECKING:
     from strutwork.flexures import Flexure
 
-#: Tables whose numbers move no node and turn no joint.
+#: Tables whose numbers leave the bodies and the joints' free, locked and elastic directions alone.
 LIGHT = frozenset(
     {
-        *("title", "gravity", "preload", "materials", "sections", "beams", "bodies", "masses"),
+        *(
+            "nodes",
+            "title",
+            "gravity",
+            "preload",
+            "materials",
+            "sections",
+            "beams",
+            "bodies",
+            "masses",
+        ),
         *("joints", "springs", "loads", "line_loads", "settlements", "misfits", "tolerances"),
         "flexures",
         *("force_limits", "workspace", "drives", "servos", "damping", "process"),
     }
 )
 
-#: Of a joint, what its stiffness, damping or limits state.
+#: Of a joint, what its stiffness, damping or limits state, and where it points.
 _OF_FORCE = frozenset({"stiffness", "damping", "limits", "matrix"})
+_AXES = frozenset({"axis", "second_axis"})
 
 _ELASTIC = frozenset({"materials", "sections", "beams"})
-_HEAVY = frozenset({"bodies", "masses"})
+#: What masses are made from: the centre of a body's stands relative to its first node.
+_HEAVY = frozenset({"bodies", "masses", "nodes"})
 _OF_FLEXURES = frozenset({"flexures", "materials", "joints"})
 _CASES = frozenset({"gravity", "loads", "line_loads", "settlements", "misfits"})
 _TOLERANCES = frozenset({"tolerances", "force_limits"})
@@ -53,7 +66,8 @@ def rebuilt_model(
     """The model of tables that differ in numbers from those of another model.
 
     Where nodes, axes, the set of elastic directions and the division of beams stay, so do the
-    placement and how the machine moves: nothing is closed or factorised again.
+    placement and how the machine moves: nothing is closed or factorised again. Where only nodes and
+    axes are elsewhere, the machine is placed anew, and keeps its bodies and what depends on these.
 
     Parameters
     ----------
@@ -81,6 +95,10 @@ def rebuilt_model(
     joints = _joints(model, before, after, flexures) if bent or "joints" in differ else ()
     if not differ <= LIGHT or joints is None or _reshaped(before, after, differ):
         return build_model(after, folder)
+    moved = _moved(before, after)
+    if moved and (after.solids or after.shapes):
+        # meshes stand at nodes
+        return build_model(after, folder)
     linkage = _linkage(model.structure.linkage, joints)
     own = linkage.joints[: len(model.joints)]
     supports = {
@@ -88,18 +106,55 @@ def rebuilt_model(
     }
     structure = model.structure
     new: dict[str, Any] = {}
-    if joints or differ & (_ELASTIC | _HEAVY | {"springs"}):
+    masses = masses_of(after) if differ & _HEAVY else structure.masses
+    if joints or differ & (_ELASTIC | {"springs"}) or masses != structure.masses:
         new["structure"] = Structure(
             linkage,
             beams_of(after) if differ & _ELASTIC else structure.beams,
             springs_of(after) if "springs" in differ else structure.springs,
             structure.rigid,
-            masses_of(after) if differ & _HEAVY else structure.masses,
+            masses,
             structure.elements,
         )
         share_topology(new["structure"], structure)
+    elif moved:
+        new["structure"] = elsewhere(structure)
+    if moved:
+        home = home_values(after, own)
+        new["placement"] = home_placement(after, tuple(supports), home)
     if joints:
         new |= {"limits": joint_limits(linkage), "flexures": flexures}
+    new |= _stated(model, after, differ, own, supports)
+    made = replace(model, **new)
+    if moved:
+        # what a model that is built verifies of its geometry
+        _ = made.placed
+        if made.task:
+            made.motion.require_task(made.task)
+        warn_of_unjoined(made)
+        return made
+    # without a motion it cannot be moved either, and says why when it is asked to
+    with suppress(ModelError):
+        # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
+        made.__dict__["motion"] = model.motion.with_joints_of(linkage)
+    if "structure" in new:
+        # lengths and orientations of beams: now, not at the first solve
+        _ = made.placed
+    else:
+        made.__dict__["placed"] = model.placed
+    return made
+
+
+def _stated(
+    model: Model,
+    after: ModelTable,
+    differ: frozenset[str],
+    own: tuple[Joint, ...],
+    supports: Mapping[str, Joint],
+) -> dict[str, Any]:
+    """What the tables that differ state beside the structure."""
+    new: dict[str, Any] = {}
+    linkage = model.structure.linkage
     if differ & _CASES:
         follows = {(linkage.joints[t.joint].name, DIRECTIONS[t.direction]) for t in linkage.ties}
         new["cases"] = load_cases(after, own, supports, follows)
@@ -120,17 +175,7 @@ def rebuilt_model(
         new["damping"] = damping_of(after)
     if "process" in differ:
         new["process"] = process_of(after.process)
-    made = replace(model, **new)
-    # without a motion it cannot be moved either, and says why when it is asked to
-    with suppress(ModelError):
-        # a frozen dataclass keeps what it has derived in its __dict__, as cached_property does
-        made.__dict__["motion"] = model.motion.with_joints_of(linkage)
-    if "structure" in new:
-        # lengths and orientations of beams: now, not at the first solve
-        _ = made.placed
-    else:
-        made.__dict__["placed"] = model.placed
-    return made
+    return new
 
 
 def _flexures(model: Model, before: ModelTable, after: ModelTable) -> dict[str, Flexure]:
@@ -157,7 +202,7 @@ def _joints(
         if any(
             getattr(old, name) != getattr(new, name)
             for name in JointTable.model_fields
-            if name not in _OF_FORCE
+            if name not in _OF_FORCE | _AXES
         ):
             return None
         if new.bearing is not None:
@@ -168,6 +213,16 @@ def _joints(
             return None
         made[i] = joint
     return tuple(made)
+
+
+def _moved(before: ModelTable, after: ModelTable) -> bool:
+    """Whether a node or the axes of a joint are elsewhere."""
+    return before.nodes is not after.nodes or any(
+        getattr(old, name) != getattr(new, name)
+        for old, new in zip(before.joints, after.joints, strict=True)
+        if old is not new
+        for name in _AXES
+    )
 
 
 def _linkage(linkage: Linkage, joints: tuple[Joint, ...]) -> Linkage:

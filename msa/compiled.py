@@ -14,7 +14,7 @@ from strutwork.msa.program import Program
 from strutwork.msa.program_builder import compile_program, element_offsets
 from strutwork.msa.structure import PlacedStructure, Structure
 from strutwork.msa.trust import TRUSTED
-from strutwork.msa.variant_of import origin_of, renumbered
+from strutwork.msa.variant_of import Programs, origin_of, renumbered, shared_programs
 
 Array = NDArray[Any]
 
@@ -51,7 +51,8 @@ def available() -> bool:
 def program_of(system: System) -> Program | None:
     """The program of the system's structure, made once and kept with the structure.
 
-    That of a structure which differs from another in numbers alone is the other's with its numbers.
+    That of a structure which differs from another in numbers alone is the other's with its numbers:
+    of those that a study made beforehand, or else made on these poses.
 
     Parameters
     ----------
@@ -63,11 +64,15 @@ def program_of(system: System) -> Program | None:
     kept = structure.__dict__
     name = _kept_as(system)
     if name not in kept:
-        origin = origin_of(structure)
-        if origin is None:
+        origin, programs = origin_of(structure), shared_programs(structure)
+        if origin is None or (programs is not None and name not in programs):
             kept[name] = compile_program(system)
         else:
-            shared = program_of(system_of(PlacedStructure(origin, system.placed.placement)))
+            shared = (
+                program_of(system_of(PlacedStructure(origin, system.placed.placement)))
+                if programs is None
+                else programs[name]
+            )
             kept[name] = (
                 None
                 if shared is None
@@ -75,6 +80,21 @@ def program_of(system: System) -> Program | None:
             )
     program: Program | None = kept[name]
     return program
+
+
+def programs_on(placed: PlacedStructure) -> Programs:
+    """The programs that all variants of a structure share in a study, made on some of its poses.
+
+    They are kept by the study and not with the structure, so that what was solved before, with
+    whichever poses, has no part in them.
+
+    Parameters
+    ----------
+    placed : PlacedStructure
+        Of the structure that the variants share their topology with; at one pose or more.
+    """
+    system = system_of(placed)
+    return {_kept_as(system): compile_program(system)} if available() else {}
 
 
 def _kept_as(system: System) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from strutwork.kinematics import Joint, State, characteristic_length
+from strutwork.kinematics import State, characteristic_length
 from strutwork.msa.assembly import System
 from strutwork.msa.elimination import elimination_order, elimination_tape, ints, symbolic_factor
 from strutwork.msa.loops import LARGEST_ROWS, Loop, closed_loops
@@ -56,7 +56,7 @@ def compile_program(system: System) -> Program | None:
     if linkage.ties:
         # the row of a coordinate that follows another holds two at once, the kernel's hold one
         return None
-    if any(_couples(linkage.joints[j]) for j in forest.tree_joints):
+    if any(linkage.joints[j].couples for j in forest.tree_joints):
         # a coordinate of the tree has one stiffness, which no other coordinate shares
         return None
     coordinates, of_vertex = _coordinates(topology)
@@ -255,12 +255,6 @@ def body_frames(placed: PlacedStructure) -> dict[str, int]:
     owner = linkage.body_of_node
     first = len(linkage.joints)
     return {n: first + int(b) for n, b in zip(linkage.nodes, owner, strict=True) if b >= 0}
-
-
-def _couples(joint: Joint) -> bool:
-    """Whether the stiffness of one of its directions acts on another, as of a loaded bearing."""
-    matrix = joint.stiffness_matrix
-    return joint.matrix is not None and bool(np.any(matrix - np.diag(np.diag(matrix))))
 
 
 def _links(topology: Topology, frames: dict[str, int]) -> list[tuple[tuple[int, int], int, Array]]:

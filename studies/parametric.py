@@ -21,6 +21,7 @@ from strutwork.machines.model_numbers import Number, Steps, changed_tables, mode
 from strutwork.machines.model_rebuild import rebuilt_model
 from strutwork.machines.model_schema import ModelTable
 from strutwork.machines.naming import is_machine, named_machine
+from strutwork.msa.variant_of import share_where_same
 from strutwork.names import listed, visible
 from strutwork.stages import stage
 
@@ -145,7 +146,9 @@ class Fields:
             In the SI unit of each, any unit.
         """
         made = changed_machine(self.machine, values)
-        return machine_model(made, self.title, self.around_home)
+        model = machine_model(made, self.title, self.around_home)
+        share_where_same(model.structure, self.model.structure)
+        return model
 
     @property
     def content(self) -> object:

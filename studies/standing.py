@@ -50,14 +50,16 @@ class Stand:
     """
 
     grid: PoseSet | None
-    _kept: tuple[Any, Any, Standing] | None = field(default=None, init=False, repr=False)
+    _kept: tuple[Any, Any, int, Standing] | None = field(default=None, init=False, repr=False)
 
-    def __call__(self, model: Model) -> Standing:
+    def __call__(self, model: Model, of_many: int = 0) -> Standing:
         """The machine at all poses.
 
         Parameters
         ----------
         model : Model
+        of_many : int
+            Poses of all machines of the study: how each is placed is the study's.
 
         Raises
         ------
@@ -65,18 +67,22 @@ class Stand:
             A direction in which its tool cannot move.
         """
         kept = self._kept
-        if kept is not None and kept[0] is model.motion.joints and kept[1] == model.limits:
-            return kept[2]
-        made = self._placed(model)
+        if (
+            kept is not None
+            and kept[0] is model.motion.joints
+            and kept[1:3] == (model.limits, of_many)
+        ):
+            return kept[3]
+        made = self._placed(model, of_many)
         if model.closed_form is None:
             # a machine's own formulas may depend on numbers that its joints do not show
-            self._kept = (model.motion.joints, model.limits, made)
+            self._kept = (model.motion.joints, model.limits, of_many, made)
         return made
 
     def __getstate__(self) -> dict[str, Any]:
         return {"grid": self.grid, "_kept": None}
 
-    def _placed(self, model: Model) -> Standing:
+    def _placed(self, model: Model, of_many: int) -> Standing:
         if isinstance(self.grid, PoseList):
             return _standing(_with_home(self.grid, model), len(self.grid.limits(model)))
         motion = model.motion
@@ -88,7 +94,7 @@ class Stand:
             return Standing(one, np.zeros(1, dtype=np.intp), np.zeros(1, dtype=np.int8), ("",))
         home = dict(zip(DIRECTIONS, motion.task_of(motion.home_pose), strict=True))
         task = {d: np.append(axes.get(d, np.empty(0)), home[d]) for d in names}
-        _, placement = moved(model, task)
+        _, placement = moved(model, task, of_many=of_many)
         return _standing(placement, len(model.limits))
 
 

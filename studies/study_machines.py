@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from strutwork.errors import StrutworkError
 from strutwork.machines.model import Model
-from strutwork.msa.variant_of import expect_poses
+from strutwork.msa.compiled import programs_on
+from strutwork.msa.variant_of import Programs, expect_poses
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.filters import PoseStatus
@@ -130,10 +131,30 @@ class Machines:
                 ]
         return tuple(found)
 
+    @cached_property
+    def programs(self) -> Programs:
+        """What the machines share in their elimination, made at the poses of the stated machine.
+
+        Which machine or which part of the study comes first then decides nothing.
+        """
+        model = self.machine.origin.model
+        try:
+            standing = self.stand(model, self.every)
+            placed = model.structure.at(standing.placement)
+            return programs_on(placed) if standing.good.size else {}
+        except StrutworkError:
+            # the machine as it is stated need not be one of the study: each then has its own
+            return {}
+
     @property
     def poses(self) -> int:
         """Poses at which each machine is asked, home being the last."""
         return 1 if self.stand.grid is None else len(self.stand.grid) + 1
+
+    @property
+    def every(self) -> int:
+        """Poses of all machines together, which decide how each is placed and solved."""
+        return len(self.values) * self.poses
 
     def _of_column(self, column: Column) -> tuple[str, ...]:
         """What is kept of an answer: none is the worst where no value is worse than another."""
@@ -177,7 +198,7 @@ class Machines:
         """One machine at its poses, or why it cannot be."""
         try:
             model = self.model(number)
-            return (model, self.stand(model)), ""
+            return (model, self.stand(model, self.every)), ""
         except StrutworkError as error:
             return None, _words(error)
 
@@ -203,7 +224,7 @@ class Machines:
         reasons = [r for r in standing.reasons if r]
         if standing.good.size:
             # of all machines, so that every one of them is solved the same way
-            expect_poses(model.structure, len(self.values) * self.poses)
+            expect_poses(model.structure, self.every, lambda: self.programs)
             placed = model.structure.at(standing.placement)
             answers: dict[str, dict[str, Array]] = {}
             for question in self.questions:

@@ -21,6 +21,7 @@ from strutwork.machines.model_file import parse_model
 from strutwork.machines.model_numbers import Steps
 from strutwork.machines.proposed_3pprs import Proposed3PPRS
 from strutwork.msa import tool_compliance
+from strutwork.msa.variant_of import origin_of
 from strutwork.studies.description import plain
 from strutwork.studies.parametric import Parametric
 from tests.model_files import SAMPLE, toml
@@ -117,10 +118,14 @@ def test_what_moves_nothing_is_not_closed_again(
     assert model.motion.joints is base.motion.joints
     assert model.motion.linkage is model.structure.linkage
     assert {j.stiffness["z"] for j in model.structure.linkage.joints if "ball" in j.name} == {1e6}
+    # what moves is placed anew, and is not built anew either
+    for path, value in (("nodes.TCP.z", 0.91), ("joints.cardan1.axis.x", 0.4)):
+        other = hexapod.model({path: value})
+        assert other.motion.joints is not base.motion.joints
+        assert origin_of(other.structure) is base.structure
+    assert hexapod.model({"nodes.TCP.z": 0.91}).placement.positions[0, 2] == 0.91
     with pytest.raises(AssertionError, match="built anew"):
-        hexapod.model({"nodes.TCP.z": 0.91})
-    with pytest.raises(AssertionError, match="built anew"):
-        hexapod.model({"joints.drive1.axis.x": 0.4})
+        hexapod.model({"home.drive1.z": 0.01})
 
 
 def test_the_geometry_moves_and_closes() -> None:

@@ -134,9 +134,9 @@ def test_what_moves_alike_is_placed_once(monkeypatch: pytest.MonkeyPatch) -> Non
     calls = []
     placed = study_module.Stand._placed
 
-    def counted(self: Any, model: Any) -> Any:
+    def counted(self: Any, model: Any, of_many: int) -> Any:
         calls.append(model)
-        return placed(self, model)
+        return placed(self, model, of_many)
 
     monkeypatch.setattr(study_module.Stand, "_placed", counted)
     Study.of(RPS, {DIAMETER: (0.065, 0.075)}, count=8, workspace=TILTS).run(workers=1)
