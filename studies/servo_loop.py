@@ -12,6 +12,7 @@ from strutwork.fea.driven_modes import driven_modes
 from strutwork.fea.motor_shapes import Motor
 from strutwork.fea.port_states import Observed, Place, PortStates, port_moves, state_space
 from strutwork.fea.ports import tool_ports
+from strutwork.fea.validity import warn_beyond
 from strutwork.machines.model import Model
 from strutwork.machines.servos import Servo
 from strutwork.msa import PlacedStructure
@@ -64,7 +65,13 @@ class LoopQuestion:
         ------
         StrutworkError
             No damping; else as `strutwork.servo.closed_loop`.
+
+        Warns
+        -----
+        ValidityWarning
+            The band goes beyond what a superelement holds to.
         """
+        warn_beyond(placed, self.band[1])
         motors = [Motor(s.joint, s.direction, s.inertia) for s in self.servos]
         damping = self.damping or ModalRatio(0.0)
         highest = max(REACH * self.band[1], FARTHEST)

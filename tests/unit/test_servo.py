@@ -9,11 +9,13 @@ import pytest
 from scipy.linalg import eigvals
 
 import strutwork as sw
-from strutwork.errors import ModelError
+from strutwork.errors import ModelError, ValidityWarning
 from strutwork.fea import ModalRatio, PartDamping, Port, minimum_dynamic_stiffness
+from strutwork.machines.load import load
 from strutwork.machines.model_file import parse_model
 from strutwork.machines.servos import Servo
 from strutwork.servo import UnstableLoopError, closed_loop
+from strutwork.studies.servo_loop import machine_loop
 from tests.drives import MASS, MOTOR, SLIDE, SPRING, cascade, looped, servo, slide
 
 BAND = (1.0, 2000.0)
@@ -220,3 +222,9 @@ def test_rigid_drives_that_hold_one_another_are_named():
     both = [servo(), replace(servo(), joint="other")]
     with pytest.raises(ModelError, match="hold one another"):
         closed_loop(model.placed, both, [Port("carriage", "x")], ModalRatio(0.01))
+
+
+def test_a_band_beyond_what_a_solid_holds_to_is_said():
+    model = load("examples/machines/gantry.toml")
+    with pytest.warns(ValidityWarning, match="bed"):
+        machine_loop(model, band=(1.0, 5000.0))
