@@ -217,9 +217,11 @@ def response_at(
             "Give damping, or omit zero frequency where the structure floats.",
         )
     apart = uncoupled(response)
-    response = np.where(apart[:, None], 0.0, response)[:, :, rows][..., columns]
     error = np.zeros(response.shape) if error is None else error
-    error = np.where(apart[:, None], 0.0, error)[:, :, rows][..., columns]
+    response, error = (
+        np.where(apart[:, None], 0.0, values)[:, :, rows][..., columns]
+        for values in (response, error)
+    )
     static = np.where(apart, 0.0, _static(reduced, eigen, ports))[:, rows][..., columns]
     batch = placed.batch
     return FrequencyResponse(

@@ -19,7 +19,7 @@ def test_schema_is_printed_or_written(strutwork: Program, tmp_path: Path) -> Non
     study = json.loads(strutwork("schema", "--of", "study").out)
     assert study == json.loads(strutwork("schema", "--study").out)
     assert study["title"] == "Strutwork study file"
-    assert study["properties"]["answers"]["items"]["enum"][0] == "stiffness"
+    assert study["properties"]["answers"]["items"]["else"]["enum"][0] == "stiffness"
 
 
 def test_new_names_the_schema_first_and_puts_it_beside(

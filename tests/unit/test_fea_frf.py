@@ -22,6 +22,7 @@ from strutwork.fea import (
     modes,
 )
 from strutwork.fea.coupled import AnyDamping, part_matrices
+from strutwork.fea.frf import Method
 from strutwork.fea.modal import STATIC_SHARE
 from strutwork.fea.modal_truncation import TRUNCATED
 from strutwork.msa import PlacedStructure, system_of, tool_compliance
@@ -183,6 +184,18 @@ def test_parts_without_damping_leave_the_background() -> None:
     np.testing.assert_array_equal(found.receptance, plain.receptance)
     with pytest.raises(ModelError, match="no part has any"):
         frequency_response(placed, [X], [X], LINES, PartDamping())
+
+
+@pytest.mark.parametrize("method", ["modal", "all_modes", "direct"])
+def test_some_pairs_of_ports_have_the_error_of_all(method: Method) -> None:
+    placed = heavy("three-legged frame").place()
+    ports = [Port("tool", d) for d in "xyz"]
+    every = frequency_response(placed, ports, ports, LINES, LossFactor(0.04), method)
+    some = frequency_response(placed, ports[:2], ports[1:], LINES, LossFactor(0.04), method)
+    largest = np.abs(every.receptance).max()
+    np.testing.assert_allclose(some.receptance, every.receptance[..., 1:, :2], atol=1e-12 * largest)
+    assert some.truncation_error.shape == some.receptance.shape
+    assert bool(np.any(some.truncation_error)) == (method == "modal")
 
 
 @pytest.mark.parametrize("damping", [ModalRatio(0.02), LossFactor(0.04)], ids=str)
