@@ -153,10 +153,15 @@ def test_chunks_that_fail_are_named_while_the_rest_goes_on(tmp_path: Path) -> No
     said = str(caught.value)
     assert "poses 12 to 14: worker: ended 2 times" in said
     assert "poses 21 to 23: ValueError: seven" in said
-    assert f"{CHUNKS - 2} of {CHUNKS} chunks are kept in {folder}" in said
+    # Dask counts a worker's death against all that waited there: a chunk may go down with its like
+    lost = said.count("poses ")
+    assert 2 <= lost <= 4
+    assert f"{CHUNKS - lost} of {CHUNKS} chunks are kept in {folder}" in said
     good = Work(tmp_path / "again")
     assert squares(Run(workers=1, folder=folder), good) == EXPECTED
-    assert sorted(number for number, _ in good.begun) == [4, 7]
+    again = sorted(number for number, _ in good.begun)
+    assert len(again) == lost
+    assert {4, 7} <= set(again)
 
 
 @pytest.mark.slow
