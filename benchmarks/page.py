@@ -22,6 +22,8 @@ from pathlib import Path
 from benchmarks.measure import DOCUMENTS, joined, machine_line
 
 DOCUMENT = DOCUMENTS / "benchmarks.md"
+#: What OpenSees says at its end, behind the error of a program.
+FAREWELL = "Process 0 Terminating"
 
 
 @dataclass(frozen=True)
@@ -180,7 +182,7 @@ def run(part: Part, *, quick: bool) -> Result:
         check=False,
     )
     taken = time.perf_counter() - begun
-    lines = done.stderr.strip().splitlines()
+    lines = [line for line in done.stderr.splitlines() if line.strip() and FAREWELL not in line]
     error = (lines[-1] if lines else f"status {done.returncode}") if done.returncode else ""
     return Result(part, done.stdout, taken, error, arguments)
 
