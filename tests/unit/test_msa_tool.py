@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -11,6 +13,7 @@ from strutwork.kinematics import GROUND, Body, Joint, Linkage, Placement, axes_f
 from strutwork.msa import (
     PlacedStructure,
     Structure,
+    System,
     axis_stiffness_blocked,
     axis_stiffness_free,
     compliance_budget,
@@ -108,6 +111,20 @@ def test_what_parts_share_is_made_of_many_poses() -> None:
     assert "_program" not in kept
     prepare_compliance(placed[:5].among(COMPILED_FROM))
     assert kept["_program"] is not None
+
+
+def test_the_topology_is_asked_at_one_pose(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The rows of a million poses would take fifteen gigabytes."""
+    asked = []
+    module = importlib.import_module("strutwork.msa.tool")
+
+    def at(system: System) -> bool:
+        asked.append(system.poses)
+        return True
+
+    monkeypatch.setattr(module, "always_movable", at)
+    tool_compliance(stewart(poses=COMPILED_FROM).model.place())
+    assert asked == [1]
 
 
 def test_a_tool_that_cannot_move_has_no_finite_stiffness() -> None:
