@@ -19,7 +19,7 @@ from scipy.sparse.csgraph import connected_components
 from strutwork.errors import ModelError
 from strutwork.kinematics.mobility import RANK_TOLERANCE
 from strutwork.kinematics.placement import COINCIDENCE
-from strutwork.msa.assembly import System
+from strutwork.msa.assembly import System, system_of
 
 Array = NDArray[Any]
 
@@ -227,8 +227,12 @@ class _Holding:
 
 
 def _row_vertices(system: System) -> NDArray[np.intp]:
-    """Clusters that every constraint row joins, (r, k), −1 for ground."""
-    return system.row_blocks[0]
+    """Clusters that every constraint row joins, (r, k), −1 for ground.
+
+    Of one pose: the rows of a million would take gigabytes, and join the same clusters.
+    """
+    one = system if system.poses <= 1 else system_of(system.placed[:1])
+    return one.row_blocks[0]
 
 
 def _holding(system: System) -> _Holding:

@@ -202,6 +202,5 @@ def _always_movable(system: System) -> bool:
     structure = system.placed.structure
     kept = (origin_of(structure) or structure).__dict__
     if "_always_movable" not in kept:
-        # of one pose: the rows of a million would take gigabytes, and say no more
-        kept["_always_movable"] = always_movable(system_of(system.placed[:1]))
+        kept["_always_movable"] = always_movable(system)
     return bool(kept["_always_movable"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -19,9 +19,11 @@ from strutwork.msa import (
     compliance_budget,
     prepare_compliance,
     stiffness_ellipsoid,
+    system_of,
     tool_compliance,
     tool_stiffness,
 )
+from strutwork.msa.movable import always_movable, tool_length
 from strutwork.msa.tool import COMPILED_FROM
 from tests.structure_cases import LIBRARY, stewart
 from tests.structures import BAR, STEEL, Model, cantilever
@@ -113,18 +115,12 @@ def test_what_parts_share_is_made_of_many_poses() -> None:
     assert kept["_program"] is not None
 
 
-def test_the_topology_is_asked_at_one_pose(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("asked", [always_movable, tool_length], ids=lambda f: f.__name__)
+def test_the_topology_is_asked_at_one_pose(asked: Callable[[System], object]) -> None:
     """The rows of a million poses would take fifteen gigabytes."""
-    asked = []
-    module = importlib.import_module("strutwork.msa.tool")
-
-    def at(system: System) -> bool:
-        asked.append(system.poses)
-        return True
-
-    monkeypatch.setattr(module, "always_movable", at)
-    tool_compliance(stewart(poses=COMPILED_FROM).model.place())
-    assert asked == [1]
+    system = system_of(stewart(poses=3).model.place())
+    asked(system)
+    assert "row_blocks" not in system.__dict__
 
 
 def test_a_tool_that_cannot_move_has_no_finite_stiffness() -> None:
