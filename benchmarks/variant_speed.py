@@ -27,6 +27,8 @@ from benchmarks.measure import (
     shown,
 )
 from strutwork.fea.lowest import natural_frequencies
+from strutwork.machines.load import machine_model
+from strutwork.machines.machine_numbers import changed_machine
 from strutwork.machines.model import Model
 from strutwork.machines.model_builder import build_model
 from strutwork.machines.model_numbers import changed_tables
@@ -35,7 +37,7 @@ from strutwork.msa import axis_stiffness_free, compliance_and_outcome
 from strutwork.studies.design import Design
 from strutwork.studies.design_store import run_design
 from strutwork.studies.parameter import Parameter
-from strutwork.studies.parametric import Tables
+from strutwork.studies.parametric import Fields, Tables
 from strutwork.studies.variants import Variants
 
 DOCUMENT = DOCUMENTS / "performance-variants.md"
@@ -189,8 +191,8 @@ def geometry(machines: int, alone: int) -> list[tuple[str, float, float]]:
     return found
 
 
-def _geometry_alone(variants: Variants, factors: list[float], found: np.ndarray) -> None:
-    """A machine built from its own numbers, placed and solved by the dense solvers."""
+def built_alone(variants: Variants, factors: list[float]) -> Model:
+    """A machine made from its own numbers, which shares nothing with the others."""
     changes: dict[str, float | str] = {}
     for parameter, factor in zip(variants.varied, factors, strict=True):
         changes |= parameter.changes(factor)
@@ -199,9 +201,16 @@ def _geometry_alone(variants: Variants, factors: list[float], found: np.ndarray)
     places = {s: v for path, v in read.items() for s in machine.paths[path].places}
     origin = machine.origin
     if isinstance(origin, Tables):
-        model = build_model(changed_tables(origin.tables, places), origin.folder)
-    else:
-        model = origin.changed(places)
+        return build_model(changed_tables(origin.tables, places), origin.folder)
+    if isinstance(origin, Fields):
+        made = changed_machine(origin.machine, places)
+        return machine_model(made, origin.title, origin.around_home)
+    raise TypeError(f"{origin!r} is made of neither tables nor fields.")
+
+
+def _geometry_alone(variants: Variants, factors: list[float], found: np.ndarray) -> None:
+    """A machine built from its own numbers, placed and solved by the dense solvers."""
+    model = built_alone(variants, factors)
     axes = [a.ravel() for a in np.meshgrid(NEAR, NEAR, indexing="ij")]
     _, placement = moved(model, dict(zip("xy", axes, strict=True)))
     good = placement.reachable

@@ -16,6 +16,9 @@ from strutwork.errors import ModelError
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry", "rz")
 
+#: In place of a direction: the angle between the two shafts of a universal joint.
+BEND = "bend"
+
 #: Locked directions by joint type, in joint axes: z is the axis, y = z × x.
 JOINT_TYPES: Mapping[str, tuple[str, ...]] = MappingProxyType(
     {

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from strutwork.kinematics import Poses, angle, rotation_y
 from strutwork.kinematics.frames import frame, vector
+from strutwork.kinematics.joint import BEND
 from strutwork.machines import biglide_parts as parts
 from strutwork.machines.biglide import PLANE, REACH, Biglide
 from strutwork.machines.biglide import TURNED as TWO_DRIVES_TURNED
@@ -30,8 +31,6 @@ ARM = box(0.160, 0.100, 0.008, name="box 160 x 100 x 8")
 #: Our choice: of the third leg's rod.
 THIRD = tube(0.100, 0.084, name="tube 100 x 8")
 
-#: Angle between the two shafts of a universal joint.
-BEND = "bend"
 
 #: Axes of the hinge, z along y, and of the third guide, z downwards.
 _HINGE = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])

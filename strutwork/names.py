@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
@@ -65,6 +66,22 @@ def _written(character: str) -> str:
     if code < 0x100:
         return f"\\x{code:02x}"
     return f"\\u{code:04x}" if code < 0x10000 else f"\\U{code:08x}"
+
+
+def matches(name: str, pattern: str) -> bool:
+    """Whether a name is what a text with stars names; other characters stand for themselves.
+
+    Parameters
+    ----------
+    name, pattern : str
+
+    Examples
+    --------
+    >>> matches("joints.ball1.stiffness.z", "joints.ball*.stiffness.z")
+    True
+    """
+    # brackets and dots stand for themselves, as they do not in globs
+    return bool(re.fullmatch(".*".join(map(re.escape, pattern.split("*"))), name))
 
 
 def meant(name: str, known: Iterable[str]) -> str:

@@ -14,12 +14,11 @@ from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS
 from strutwork.kinematics.task_grid import TaskGrid
 from strutwork.machines.model import Model
-from strutwork.names import choices
+from strutwork.names import choices, matches
 from strutwork.studies.answers import Column
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.dataset_units import LabelledUnits
 from strutwork.studies.filters import PoseStatus
-from strutwork.studies.joint_selection import matches
 from strutwork.studies.pose_sets import PoseSet
 from strutwork.studies.travel_answer import COLUMN, TRAVEL
 from strutwork.studies.variables import AXES

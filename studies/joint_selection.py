@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,14 +11,11 @@ from numpy.typing import NDArray
 
 from strutwork.errors import ModelError
 from strutwork.kinematics import DIRECTIONS, Joint, Placement
-from strutwork.kinematics.joint import JOINT_TYPES
+from strutwork.kinematics.joint import BEND, JOINT_TYPES
 from strutwork.machines.model import Model
-from strutwork.names import choices, listed, visible
+from strutwork.names import choices, listed, matches, visible
 
 Array = NDArray[Any]
-
-#: In place of a direction: the angle between the two shafts of a universal joint.
-BEND = "bend"
 
 
 @dataclass(frozen=True)
@@ -168,13 +164,3 @@ def _matching(model: Model, text: str, every: list[JointCoordinate]) -> list[Joi
 
 def _held(joint: Joint) -> tuple[str, ...]:
     return (*JOINT_TYPES[joint.type], *joint.locks)
-
-
-def matches(name: str, pattern: str) -> bool:
-    """Whether a name is what a text with stars names; other characters stand for themselves.
-
-    Parameters
-    ----------
-    name, pattern : str
-    """
-    return bool(re.fullmatch(".*".join(map(re.escape, pattern.split("*"))), name))

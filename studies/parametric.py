@@ -22,7 +22,7 @@ from strutwork.machines.model_rebuild import rebuilt_model
 from strutwork.machines.model_schema import ModelTable
 from strutwork.machines.naming import is_machine, named_machine
 from strutwork.msa.variant_of import share_where_same
-from strutwork.names import listed, visible
+from strutwork.names import listed, matches, visible
 from strutwork.stages import stage
 
 #: Paths that a message offers at most.
@@ -269,9 +269,7 @@ class Parametric:
         if path in self.paths:
             return (self.paths[path],)
         if "*" in path:
-            # brackets and dots of paths stand for themselves, as they do not in globs
-            pattern = re.compile(".*".join(map(re.escape, path.split("*"))))
-            found = tuple(n for p, n in self.paths.items() if pattern.fullmatch(p))
+            found = tuple(n for p, n in self.paths.items() if matches(p, path))
             kinds = {n.unit for n in found}
             if len(kinds) > 1:
                 two = [next(n.path for n in found if n.unit == unit) for unit in sorted(kinds)[:2]]

@@ -10,18 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.variant_speed import built_alone
 from strutwork.errors import StrutworkError
-from strutwork.machines.load import machine_model
-from strutwork.machines.machine_numbers import changed_machine
-from strutwork.machines.model import Model
-from strutwork.machines.model_builder import build_model
-from strutwork.machines.model_numbers import changed_tables
 from strutwork.machines.model_poses import moved
 from strutwork.msa import axis_stiffness_blocked, axis_stiffness_free, compliance_and_outcome
 from strutwork.msa.variant_of import origin_of
 from strutwork.studies.chunks import Arrays
 from strutwork.studies.parameter import Parameter
-from strutwork.studies.parametric import Fields, Tables
 from strutwork.studies.run import Chunk, chunks_of
 from strutwork.studies.study_machines import FAILED, SOLVED, Machines
 from strutwork.studies.variants import Variants, why
@@ -66,30 +61,14 @@ def _fresh(name: str) -> Variants:
     )
 
 
-def _by_itself(variants: Variants, row: list[float]) -> Model:
-    """The machine made from its own numbers alone."""
-    changes: dict[str, float | str] = {}
-    for parameter, factor in zip(variants.varied, row, strict=True):
-        changes |= parameter.changes(factor)
-    machine = variants.study.machine
-    read = machine.read(changes)
-    places = {s: v for path, v in read.items() for s in machine.paths[path].places}
-    origin = machine.origin
-    if isinstance(origin, Tables):
-        return build_model(changed_tables(origin.tables, places), origin.folder)
-    assert isinstance(origin, Fields)
-    made = changed_machine(origin.machine, places)
-    return machine_model(made, origin.title, origin.around_home)
-
-
 def _expect(variants: Variants, found: Arrays, row: int, factors: list[float]) -> None:
     if found["status"][row] == FAILED:
         with pytest.raises(StrutworkError) as raised:
-            moved(_by_itself(variants, factors), {"x": X})
+            moved(built_alone(variants, factors), {"x": X})
         error = raised.value
         assert why(found, row) == " ".join(f"{error.part}: {error.problem}".split())
         return
-    model = _by_itself(variants, factors)
+    model = built_alone(variants, factors)
     grid = [a.ravel() for a in np.meshgrid(X, X, indexing="ij")]
     _, placement = moved(model, dict(zip("xy", grid, strict=True)))
     assert origin_of(model.structure) is None
